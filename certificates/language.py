@@ -216,9 +216,12 @@ class MapRule:
         )
 
 
+RESTING = tuple(checker.NAMED)  # the lines that name an earlier statement
+
+
 def rests_on(statement: checker.Statement) -> list[str]:
     """The map rules that a parsed map rule names."""
-    return [name for keyword, name in statement.lines if keyword in checker.NAMED]
+    return [name for keyword, name in statement.lines if keyword in RESTING]
 
 
 def lemmas_of(certificate: object) -> set[str]:

@@ -61,8 +61,9 @@ class Lines:
         return f"for {every}: " if names else ""
 
     def of_map(self) -> Lines:
-        """The map that the statement is about, or is."""
-        return self.named("map") if self.all("map") else self
+        """The map or relation that the statement is about, or is."""
+        keyword = next((key for key, _ in self.rows if key in ("map", "relation", "descent")), "")
+        return self.named(keyword).of_map() if keyword else self
 
     def around(self) -> Lines:
         """What an attraction rests on around its point."""
@@ -83,7 +84,9 @@ class Lines:
 
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
-        inner = [root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()]
+        inner = [
+            root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()
+        ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:
@@ -129,7 +132,7 @@ def _bound(contraction: Lines, exponent: str) -> str:
 
 
 def _norm(contraction: Lines) -> str:
-    names = contraction.named("map").one("state").split()
+    names = contraction.of_map().one("state").split()
     parts = []
     for name, weight in zip(names, _terms(contraction.one("weights"))):
         apart = f"|{name} - e_{name}|" if len(names) > 1 else f"|{name} - e|"
@@ -155,6 +158,17 @@ def _of_map(f: Lines) -> str:
     return (
         f"{f.for_domain()}f maps {_set('the space', f.one('space'))} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
+    )
+
+
+def _of_relation(f: Lines) -> str:
+    state = ", ".join(f.one("state").split())
+    inputs = f", for all {', '.join(f.one('input').split())}" if f.one("input") else ""
+    pieces = [piece.split(" -> ") for piece in f.all("piece")]
+    images = [f"{_vector(image)} where {guard}" for guard, image in pieces]
+    return (
+        f"{f.for_domain()}each state {state} of {_set('the space', f.one('space'))} has a next"
+        f" state, and all next states are in it: {'; '.join(images)}{inputs}"
     )
 
 
@@ -287,8 +301,17 @@ RULES = {
             "stays": "piece {0} takes the space into itself",
         },
     ),
+    "relation": Rule(
+        "over domain state input space (piece )+",
+        _of_relation,
+        {
+            "possible": OF_DOMAIN["possible"],
+            "covers": "the guard of some piece holds at each state of the space, for some inputs",
+            "stays": "piece {0} takes the space into itself, for all inputs",
+        },
+    ),
     "descends": Rule(
-        "map domain (root )*rank (stage )+",
+        "(map|relation) domain (root )*rank (stage )+",
         _of_descent,
         {
             **OF_DOMAIN,
@@ -298,7 +321,7 @@ RULES = {
         },
     ),
     "contracts": Rule(
-        "map domain (root )*on point weights rate radius size ",
+        "(map|relation) domain (root )*on point weights rate radius size ",
         _of_contraction,
         {
             **OF_DOMAIN,
@@ -312,7 +335,7 @@ RULES = {
         },
     ),
     "lyapunov": Rule(
-        "map domain (root )*on point (have )*(value )+loss least upper radius ",
+        "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
         _of_lyapunov,
         {
             **OF_DOMAIN,
@@ -392,6 +415,8 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     """
     lines = Lines(name, texts)
     said = RULES[kind].concludes(lines)
+    if kind != "relation" and any(key == "input" for key, _ in lines.of_map().rows):
+        said += "; f^n(s) is any state that the relation leads to from s in n steps"
     for root in reversed(lines.roots()):  # a root may be of one above it
         if root.partition(" = ")[0] in checker.names_in(said):
             said += f"; {root}"

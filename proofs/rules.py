@@ -53,7 +53,7 @@ def _first_over(name: str, texts: Mapping[str, str]) -> str:
     """The first parameter of the map that a rule is about."""
     rows = dict(row.partition(" ")[::2] for row in texts.get(name, "").splitlines())
     if "over" in rows:
-        return rows["over"].split()[0]
+        return rows["over"].partition(" ")[0]
     inner = next((rows[key] for key in ("map", "attraction", "descent") if key in rows), "")
     return _first_over(inner, texts) if inner else ""
 

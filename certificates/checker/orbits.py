@@ -350,7 +350,7 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     # > 0, so that loss and least may divide by them
     bounded = [*here, "given value >= 0", "given 1 + value > 0"]
     before, extra = bounded, ["value"]
-    if len(values) == 1:  # its guard holds on the set, where `bounded` does
+    if len(values) == 1 and not values[0][0]:
         before, extra = [here[0], f"let value = {values[0][1]}", *bounded[2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
     far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")

@@ -306,15 +306,13 @@ def search_premises(
     """
     for name, premise in premises.items():
         proof = None
-        for effort in (1, 2) if premise.get("exists") else (1, 2, SQUARED):
+        shares = {1: budget // 4, 2: budget, SQUARED: budget}
+        for effort in (1, 2) if premise.get("exists") else shares:
             if proof is not None or effort == 2 and is_false(name):
                 break
-            if effort == SQUARED and premise.get("exists"):
-                break
+            part, own = Budget(shares[effort]), (hints or {}).get(name)
             try:
-                proof = search_proof(
-                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
-                )
+                proof = search_proof(premise, known, part, effort=effort, hints=own)
             except Exhausted:
                 continue
             except checker.Rejected as reason:

@@ -45,8 +45,11 @@ DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
-FEW, MANY = 5000, 60_000  # units of work for quadratic forms, before cases by sign and after
 MOST_FOR_BOTH = 9  # facts
+MOST_SIGNS = 15  # of factors of equations below one another
+FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
+FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
+AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 
@@ -193,9 +196,10 @@ class Closing:
             return ("close",)
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
-        node = close_by_equations(problem) or search(
-            problem, FIRST if self.effort else QUICK, self.budget
-        )
+        node = close_by_equations(problem)
+        factors = two_factors(problem) if 1 < self.effort < SQUARED and node is None else []
+        node = node or (self.by_factors(inside, factors, depth) if factors else None)
+        node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
             node = search_squares(programs, self.budget)
@@ -204,20 +208,32 @@ class Closing:
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
-            factors = two_factors(problem)
             node = (
-                (self.by_factors(inside, factors, depth) if factors else None)
-                or self.usual(problem, False)
-                or (None if depth else self.forms(inside, FEW))
+                self.usual(problem, False)
+                or (None if depth else self.forms(inside, False))
                 or self.with_lemmas(inside, problem, depth)
-                or (None if depth or self.effort == 1 else self.forms(inside, MANY))
+                or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
 
-    def by_factors(self, state: State, factors: Sequence[str], depth: int) -> Node | None:
+    def forms(self, state: State, coupled: bool) -> Node | None:
+        """Quadratic forms with parameters in a box, with little work where not `coupled`."""
+        part = self.budget.part(FORMS_LAST if coupled else FORMS_FIRST)
+        try:
+            return search_forms(state, self.problem(state).ring, part, coupled)
+        except Exhausted:
+            if self.budget.left < 0:
+                raise
+            return None
+
+    def by_factors(
+        self, state: State, factors: Sequence[str], depth: int, level: int = 0
+    ) -> Node | None:
         """Cases by the signs of the two factors of an equation, as of that of sqrt(term^2): in each
         of them one is 0, and the same for the next equation.
         """
+        if level > MOST_SIGNS:
+            return None
         first, *rest = factors
         nodes: list[Node | None] = []
         for place, case in enumerate(state.by_sign(first)):
@@ -227,23 +243,18 @@ class Closing:
                 problem.divide()
                 node = close_by_equations(problem) or search(problem, QUICK, self.budget)
                 if node is None and place != 1 and rest:
-                    node = self.by_factors(case, rest, depth)
+                    node = self.by_factors(case, rest, depth, level + 1)
                 elif node is None:
                     more = two_factors(problem)
-                    node = self.by_factors(case, more, depth) if more else self.leaf(case, depth)
+                    node = (
+                        self.by_factors(case, more, depth, level + 1)
+                        if more
+                        else self.leaf(case, depth)
+                    )
             if node is None:
                 return None
             nodes.append(node)
         return sign_node(first, nodes)
-
-    def forms(self, state: State, units: int) -> Node | None:
-        """Quadratic forms with parameters in a box, within this work."""
-        try:
-            return search_forms(state, self.problem(state).ring, self.budget.part(units))
-        except Exhausted:
-            if self.budget.left < 0:
-                raise
-            return None
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
         """Products of two facts, and single facts times squares; then the same with facts divided
@@ -259,7 +270,7 @@ class Closing:
         cases by sign.
         """
         lemmas: list[Lemma] = []
-        node = search_orthant(problem, self.budget)
+        node = search_orthant(problem, FEW, self.budget) if self.effort > 1 else None
         if node is not None:
             return node
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
@@ -281,14 +292,12 @@ class Closing:
                     break
                 problem = self.problem(state)
             if len(lemmas) > before:
-                node = (
-                    close_by_equations(problem)
-                    or self.usual(problem, True)
-                    or search_orthant(problem, self.budget)
-                )
+                node = close_by_equations(problem) or self.usual(problem, True)
                 if node is not None:
                     return under(lemmas, node)
         node = search(problem, TRIPLES, self.budget) if self.effort > 1 and depth < DEPTH else None
+        if node is None and self.effort > 1 and self.budget.left > AMPLE:
+            node = search_orthant(problem, MANY, self.budget)
         if node is None and self.effort > 1 and depth < DEPTH:
             node = self.split(state, problem, depth)
         if node is None and self.effort > 1 and depth == 0:

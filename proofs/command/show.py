@@ -22,7 +22,7 @@ from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import entries_of, errata_text
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
-from juggleproof.proofs.run import claims_of_files, judge_some, store_of
+from juggleproof.proofs.run import claims_of_files, judge_some, refuse_duplicates, store_of
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 
 # -------------------------------------------------------------------------------------------------
@@ -160,13 +160,14 @@ def export_theorems(files: Sequence[Path], folder: Path | None) -> int:
     Raises ClaimError for files without such a claim, and for several without a folder.
     """
     claims = claims_of_files(files)
+    refuse_duplicates(claims)
     with busy("judging the claims"):
         judgements = judge_some(claims, claims, store_of(files))
     texts = {name: text for one in judgements for name, text in one.statements}
     outcomes = {name: word for one in judgements for name, word in one.outcomes.items()}
     certificates = {name: entry for one in judgements for name, entry in one.certificates.items()}
     statements = checker.read_statements("\n\n".join(texts.values()))
-    names, where = theorems_in(statements), ", ".join(map(str, files))
+    names, where = theorems_in(statements), " ".join(map(str, files))
     if not names:
         raise ClaimError(
             f"{where}: no claim on the orbits of a map; add a MapRule that concludes one"

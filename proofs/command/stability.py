@@ -1,4 +1,4 @@
-"""`juggleproof stability`: the map alone is given; what all its orbits do is found and certified."""
+"""`juggleproof stability`: the map alone is given; what its orbits do is found and certified."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-(* The paper's map from flight and impact: what table and ball do in one period of the table.
+(* What table and ball do in one period of the table.
 
    Defined:  contact_time (equation 6); reflected (equation 9); in_period, the ball at each time of a period.
    Proved:   table_has_period   from each bounce on, the table is the paper's (5), whose period is T = 2 r / g;
-             ball_in_period     an execution of the ball is in_period from one bounce of the table to the next;
-             one_impact         it has one impact at most in that time, at contact_time, where inequality (7) holds;
-             period_is_map      so its state, from one bounce to the next, goes by the map of equation (13). *)
+             in_period_T        at the end of a period the ball is where the map of equation (13) takes it;
+             one_impact         in_period has an impact where inequality (7) holds, one, at contact_time;
+             ball_in_period     an execution of the ball is in_period from one bounce of the table to the next. *)
 
 From Coq Require Import Reals Lra Lia.
 From Juggleproof Require Import Rules Map Physical Executions.
@@ -142,7 +142,8 @@ Section Bouncing.
 
   Lemma in_period_start p b : 0 <= p < T -> above_at p b -> in_period alpha r g b p = fly g p b.
   Proof.
-    intros range above. apply in_period_before. intros [hits less]. destruct (contact p b range above hits) as (_ & _ & low & _). lra.
+    intros range above. apply in_period_before. intros [hits less]. destruct (contact p b range above hits) as (_ & _ & low & _).
+    lra.
   Qed.
 
   Lemma in_period_T p b : 0 <= p < T -> above_at p b -> in_period alpha r g b T = ball alpha r g b.
@@ -174,7 +175,8 @@ Section Bouncing.
       rewrite in_period_before by (intros [_ later]; lra). apply meets_launch. split; [|exact falls]. now rewrite same.
   Qed.
 
-  Lemma rebound_is_reflected b t : height b = (r - velocity b) * t -> rebound alpha (fly g t launch) (fly g t b) = fly g t (reflected alpha r b).
+  Lemma rebound_is_reflected b t : height b = (r - velocity b) * t ->
+    rebound alpha (fly g t launch) (fly g t b) = fly g t (reflected alpha r b).
   Proof.
     intro touch. unfold rebound, fly, launch, reflected, height, velocity in *. cbn [fst snd] in *. rewrite touch. f_equal; ring.
   Qed.
@@ -205,7 +207,8 @@ Section Bouncing.
     intros range above inside. destruct (Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2)) as [hits|no].
     - destruct (contact p b range above hits) as (falls & high & _ & touch). set (c := contact_time r b) in *.
       destruct (Rlt_dec c t) as [later|early].
-      + rewrite in_period_after by assumption. unfold fly, reflected, launch, height, velocity in *. cbn [fst snd] in *. rewrite touch.
+      + rewrite in_period_after by assumption. unfold fly, reflected, launch, height, velocity in *. cbn [fst snd] in *.
+        rewrite touch.
         assert (0 <= alpha * ((r - snd b) * (t - c))) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; lra]). lra.
       + rewrite in_period_before by tauto. unfold fly, launch, height, velocity in *. cbn [fst snd] in *. nra.
     - rewrite in_period_before by (intros [hits _]; exact (no hits)). unfold above_at in above.
@@ -233,7 +236,8 @@ Section Bouncing.
       assert (all : forall t, m < t <= e -> no_impact surface body (s + m) (s + t) ->
         body (s + t) = fly g (t - m) (after alpha (fly g m launch) (in_period alpha r g b m))).
       { intros t inside none. rewrite (flight (s + m) (s + t)), table_is, now_ by (assumption || lra). f_equal. ring. }
-      assert (same : forall t, m < t <= e -> in_period alpha r g b t = fly g (t - m) (after alpha (fly g m launch) (in_period alpha r g b m))).
+      assert (same : forall t, m < t <= e ->
+        in_period alpha r g b t = fly g (t - m) (after alpha (fly g m launch) (in_period alpha r g b m))).
       { intros t inside. apply (in_period_flies p); try (assumption || lra). intros time between hit.
         apply (one_impact p) in hit as [hits at_]; [|assumption|assumption|lra]. apply free. split; [exact hits|lra]. }
       assert (none : no_impact surface body (s + m) (s + e)).
@@ -258,8 +262,5 @@ Section Bouncing.
         apply (go c T); [lra|lra|apply until; lra|fold c; lra|lra].
       - apply (go p T); try (assumption || lra). intros [hits _]. exact (no hits).
     Qed.
-
-    Theorem period_is_map : body (s + T) = ball alpha r g b.
-    Proof. rewrite ball_in_period by lra. now apply (in_period_T p). Qed.
   End Ball.
 End Bouncing.

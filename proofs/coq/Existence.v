@@ -38,10 +38,12 @@ Section Existence.
     assert (bounce : forall k, table_of p (- p + INR k * T) = (0, - r)).
     { intro k. unfold table_of. rewrite (number_unique _ _ _ k) by lra.
       rewrite Rminus_diag_eq by reflexivity. destruct (Req_EM_T 0 0); [reflexivity|contradiction]. }
-    assert (launched : forall k t, 0 <= t < T -> after 1 (ground (- p + INR k * T + t)) (table_of p (- p + INR k * T + t)) = fly g t launch).
+    assert (launched : forall k t, 0 <= t < T ->
+      after 1 (ground (- p + INR k * T + t)) (table_of p (- p + INR k * T + t)) = fly g t launch).
     { intros k t [low high]. destruct (Rle_lt_or_eq_dec 0 t low) as [inside|zero].
       - rewrite inner, after_no_impact; [reflexivity| |lra]. intros [touch _].
-        pose proof (launch_height g r g_positive t ltac:(split; assumption)). unfold ground, height at 2 in touch. cbn [fst] in touch.
+        pose proof (launch_height g r g_positive t ltac:(split; assumption)). unfold ground, height at 2 in touch.
+        cbn [fst] in touch.
         lra.
       - subst t. rewrite Rplus_0_r, bounce, fly_0, after_impact by (unfold meets, ground, height, velocity; cbn [fst snd]; lra).
         unfold rebound, ground, height, velocity. cbn [fst snd]. f_equal. ring. }
@@ -56,7 +58,8 @@ Section Existence.
         * rewrite zero, Rplus_0_r, bounce. apply Rle_refl.
         * rewrite inner by (unfold time in *; lra). apply Rlt_le, (launch_height g r g_positive). unfold time in *. lra.
       + intros k s t _ order last _. set (time := s - (- p + INR k * T)).
-        replace s with (- p + INR k * T + time) at 2 3 by (unfold time; ring). rewrite launched by (unfold time; lra). rewrite fly_fly.
+        replace s with (- p + INR k * T + time) at 2 3 by (unfold time; ring). rewrite launched by (unfold time; lra).
+        rewrite fly_fly.
         destruct (Rle_lt_or_eq_dec _ _ last) as [less|same].
         * replace t with (- p + INR k * T + (t - (- p + INR k * T))) at 1 by ring. rewrite inner by lra. f_equal. unfold time. ring.
         * replace t with (- p + INR (S k) * T) at 1 by (rewrite S_INR; lra). rewrite bounce.
@@ -67,7 +70,8 @@ Section Existence.
         unfold ground, height at 2 in touch. cbn [fst] in touch. lra.
     - replace 0 with (- p + INR 0 * T + p) by (cbn; ring). destruct (Rle_lt_or_eq_dec 0 p (proj1 range)) as [inside|zero].
       + rewrite inner by lra. unfold energy, fly, height, velocity. cbn [fst snd]. field.
-      + replace (- p + INR 0 * T + p) with (- p + INR 0 * T) by lra. rewrite bounce. unfold energy, height, velocity. cbn [fst snd]. field.
+      + replace (- p + INR 0 * T + p) with (- p + INR 0 * T) by lra. rewrite bounce. unfold energy, height, velocity.
+        cbn [fst snd]. field.
   Qed.
 
   (* ---------------------------------------------------------------- there are executions of the ball *)
@@ -110,7 +114,8 @@ Section Existence.
     Proof.
       intros above [low high] late. unfold motion_of. destruct (Rle_lt_or_eq_dec t T high) as [less|same].
       - rewrite (number_unique _ _ _ k) by lra. f_equal. ring.
-      - subst t. replace (start + INR k * T + T) with (start + INR (S k) * T) by (rewrite S_INR; ring). rewrite (number_unique _ _ _ (S k)) by lra.
+      - subst t. replace (start + INR k * T + T) with (start + INR (S k) * T) by (rewrite S_INR; ring).
+        rewrite (number_unique _ _ _ (S k)) by lra.
         rewrite Rminus_diag_eq by reflexivity. destruct (above_at_bounces b k above) as (q & range_q & here & _).
         destruct (above_at_bounces b (S k) above) as (z & range_z & next & _ & least).
         rewrite (in_period_T g r g_positive r_positive alpha q) by assumption.
@@ -130,7 +135,8 @@ Section Existence.
         split; [apply least|]; unfold time; lra.
       - intros k s t late order last none. destruct (above_at_bounces b k above) as (q & range_q & here & _ & least).
         set (from := s - (start + INR k * T)). set (to := t - (start + INR k * T)).
-        replace t with (start + INR k * T + to) in * by (unfold to; ring). replace s with (start + INR k * T + from) in * by (unfold from; ring).
+        replace t with (start + INR k * T + to) in * by (unfold to; ring).
+        replace s with (start + INR k * T + from) in * by (unfold from; ring).
         replace (start + INR k * T + to - (start + INR k * T + from)) with (to - from) by ring.
         rewrite table_is, !motion_in_period by (assumption || lra).
         apply (in_period_flies _ _ g_positive r_positive _ alpha_positive q); try assumption; [split; [apply least|]; lra|lra|].
@@ -167,13 +173,15 @@ Section Existence.
       assert (all : forall k q, 0 <= q < T -> above_at r q (at_bounce b k) -> 0 <= start + INR k * T + q ->
         (forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t) -> body (start + INR k * T + q) = fly g q (at_bounce b k) ->
         forall t, q <= t <= T -> body (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t).
-      { intros k q range_q above_q late least now_. apply (ball_in_period _ _ g_positive r_positive _ alpha_positive surface); try assumption.
+      { intros k q range_q above_q late least now_.
+        apply (ball_in_period _ _ g_positive r_positive _ alpha_positive surface); try assumption.
         intros t inside. apply table_is; lra. }
       assert (bounces : forall k, exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= start + INR k * T + q /\
         (forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t) /\ body (start + INR k * T + q) = fly g q (at_bounce b k)).
       { intro k. induction k as [|k (q & range_q & above_q & late & least & now_)].
         - exists (- start). cbn. repeat split; try assumption; try lra; [intros; lra|]. rewrite <- here. f_equal. ring.
-        - destruct (above_at_bounces b (S k) above) as (z & range_z & next & late_z & least_z). exists z. repeat split; try assumption; try lra.
+        - destruct (above_at_bounces b (S k) above) as (z & range_z & next & late_z & least_z). exists z.
+          repeat split; try assumption; try lra.
           assert (zero : z = 0).
           { apply Rle_antisym; [|lra]. apply least_z; [lra|]. rewrite S_INR. pose proof (pos_INR k). nra. }
           subst z. rewrite fly_0. replace (start + INR (S k) * T + 0) with (start + INR k * T + T) by (rewrite S_INR; ring).
@@ -194,8 +202,10 @@ Section Existence.
         replace (start + T) with (start + INR 0 * T + T) by (cbn; ring). apply (known 0%nat); cbn; lra. }
       split.
       - pose proof (stays_above _ _ _ _ moves (start + T) ltac:(lra)) as high.
-        replace (start + T) with (start + INR 1 * T + 0) in high at 1 by (cbn; ring). rewrite table_is, fly_0 in high by (cbn; lra). exact high.
-      - intros k t inside. rewrite one. unfold at_bounce. rewrite <- iterate_step. destruct (bounces_late k) as [-> late]. apply (known (S k)); lra.
+        replace (start + T) with (start + INR 1 * T + 0) in high at 1 by (cbn; ring).
+        rewrite table_is, fly_0 in high by (cbn; lra). exact high.
+      - intros k t inside. rewrite one. unfold at_bounce. rewrite <- iterate_step. destruct (bounces_late k) as [-> late].
+        apply (known (S k)); lra.
     Qed.
 
     (* From the first bounce after the time 0 on: the map takes the ball from bounce to bounce, and between two it has an impact where
@@ -220,14 +230,16 @@ Section Existence.
       forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t -> body (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t.
     Proof.
       intro above. pose proof (above_at_0 r b above) as above_0.
-      assert (other : exists c, above_at r (- start) c /\ forall t, (- start) <= t <= T -> in_period alpha r g c t = in_period alpha r g b t).
+      assert (other : exists c, above_at r (- start) c /\ forall t, - start <= t <= T ->
+        in_period alpha r g c t = in_period alpha r g b t).
       { destruct (Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2)) as [hits|no].
         - destruct (contact g r g_positive r_positive 0 b) as (falls & high & order & touch); try assumption; [lra|].
           set (d := contact_time r b) in *. destruct (Rlt_dec d (- start)) as [past|before].
           + exists (reflected alpha r b).
             assert (ahead : 0 <= alpha * ((r - velocity b) * (- start - d))) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; lra]).
             split; [unfold above_at, reflected, height, velocity in *; cbn [fst snd]; rewrite touch; lra|].
-            intros t inside. rewrite (in_period_after _ _ _ b) by (assumption || fold d; lra). apply in_period_before. intros [again _].
+            intros t inside. rewrite (in_period_after _ _ _ b) by (assumption || fold d; lra). apply in_period_before.
+            intros [again _].
             apply (strikes_is g r g_positive r_positive) in again.
             assert (0 < alpha * ((r - velocity b) * (T - d))) by (apply Rmult_lt_0_compat; [lra|apply Rmult_lt_0_compat; lra]).
             unfold reflected, height, velocity in *. cbn [fst snd] in again. rewrite touch in again. lra.
@@ -240,7 +252,8 @@ Section Existence.
       { intro k. unfold at_bounce. rewrite !iterate_step. f_equal.
         rewrite <- (in_period_T _ _ g_positive r_positive _ (- start) c), <- (in_period_T _ _ g_positive r_positive _ 0 b) by (assumption || lra).
         apply same. lra. }
-      intros k t inside late. rewrite motion_in_period by assumption. destruct k as [|k]; [apply same; cbn in late; lra|]. now rewrite next.
+      intros k t inside late. rewrite motion_in_period by assumption. destruct k as [|k]; [apply same; cbn in late; lra|].
+      now rewrite next.
     Qed.
   End Ball.
 
@@ -261,7 +274,8 @@ Section Existence.
   Theorem ball_is_unique table ball other : is_table g r table -> is_ball g alpha table ball -> is_ball g alpha table other ->
     ball 0 = other 0 -> forall t, 0 <= t -> ball t = other t.
   Proof.
-    intros moves first second same t late. destruct (table_has_period g r g_positive r_positive table moves) as (start & range & table_is).
+    intros moves first second same t late.
+    destruct (table_has_period g r g_positive r_positive table moves) as (start & range & table_is).
     destruct (number_is start T t T_positive ltac:(lra)) as [low high]. set (k := number start T t) in *.
     replace t with (start + INR k * T + (t - (start + INR k * T))) by ring.
     rewrite (proj2 (execution_is_motion _ _ range table_is ball first)), (proj2 (execution_is_motion _ _ range table_is other second)) by lra.

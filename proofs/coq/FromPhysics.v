@@ -53,7 +53,8 @@ Section FromPhysics.
   (* The impact of the periodic ball is before a quarter of the period is over for alpha < 1/3. *)
   Lemma e1_contact : contact_time r e = alpha / (1 + alpha) * T /\ height e = (r - velocity e) * contact_time r e.
   Proof.
-    destruct e1_strikes as (_ & _ & falls). unfold contact_time. split; [|field; lra]. unfold e1, period, height, velocity. cbn [fst snd]. field. lra.
+    destruct e1_strikes as (_ & _ & falls). unfold contact_time. split; [|field; lra]. unfold e1, period, height, velocity.
+    cbn [fst snd]. field. lra.
   Qed.
 
   (* ---------------------------------------------------------------- two balls with close states at a bounce *)
@@ -72,7 +73,8 @@ Section FromPhysics.
 
     Lemma close_heights t : 0 <= t <= T -> Rabs (height (in_period alpha r g b t) - height (in_period alpha r g e t)) <= 2 * r * T * q.
     Proof.
-      intro inside. destruct e1_strikes as (_ & e_hits & e_falls). destruct b_falls as [falls touch]. destruct e1_contact as [_ e_touch].
+      intro inside. destruct e1_strikes as (_ & e_hits & e_falls). destruct b_falls as [falls touch].
+      destruct e1_contact as [_ e_touch].
       apply absolute_bounds in close_height, close_velocity.
       set (c := contact_time r b) in *. set (d := contact_time r e) in *.
       assert (scale : - (r * T * q) <= (velocity b - velocity e) * t <= r * T * q) by nra.
@@ -103,7 +105,8 @@ Section FromPhysics.
         rewrite when. nra. }
       assert (fast : r / 2 <= r - velocity b).
       { assert (3 / 2 <= snd (e_1 alpha)).
-        { unfold e_1. cbn [snd]. apply Rmult_le_reg_r with (alpha + 1); [lra|]. replace (2 / (alpha + 1) * (alpha + 1)) with 2 by (field; lra). lra. }
+        { unfold e_1. cbn [snd]. apply Rmult_le_reg_r with (alpha + 1); [lra|].
+          replace (2 / (alpha + 1) * (alpha + 1)) with 2 by (field; lra). lra. }
         nra. }
       assert (gap : (r - velocity b) * (c - d) = height b - height e + (velocity b - velocity e) * d) by nra.
       assert (fine : 0 <= q) by (clear - r_positive close_velocity; nra).
@@ -147,18 +150,21 @@ Section FromPhysics.
         [apply e1_strikes|]. exists limit. split; [exact moves|]. intros k t inside late. now rewrite known, e1_is_fixed.
     Qed.
 
-    Theorem settling_bound body n k t : alpha < 1 / 3 -> is_ball g alpha table body -> rank (scaling r g (body bounce)) + 3 <= INR n -> 0 <= t <= T ->
+    Theorem settling_bound body n k t : alpha < 1 / 3 -> is_ball g alpha table body ->
+      rank (scaling r g (body bounce)) + 3 <= INR n -> 0 <= t <= T ->
       Rabs (height (body (bounce + INR (n + k) * T + t)) - height (in_period alpha r g e t)) <= 2 * r * T * (2 * alpha) ^ k /\
       (5 / 2 * T * (2 * alpha) ^ k < Rabs (t - contact_time r e) ->
         Rabs (velocity (body (bounce + INR (n + k) * T + t)) - velocity (in_period alpha r g e t)) <= r * (2 * alpha) ^ k) /\
       (t < T -> meets (surface_of table (bounce + INR (n + k) * T + t)) (body (bounce + INR (n + k) * T + t)) ->
         Rabs (t - contact_time r e) <= 5 / 2 * T * (2 * alpha) ^ k).
     Proof.
-      intros small moves late inside. destruct (orbit_from_bounce g r g_positive r_positive alpha alpha_positive _ _ range table_is body moves) as [above known].
+      intros small moves late inside. destruct (orbit_from_bounce g r g_positive r_positive alpha alpha_positive _ _
+        range table_is body moves) as [above known].
       fold bounce in above, known. rewrite known by exact inside.
       destruct (physical_bound r g r_positive g_positive alpha (body bounce) n k ltac:(lra) above late) as [heights velocities].
       assert (trapped : trap alpha (iterate (f alpha) (n + k) (scaling r g (body bounce)))).
-      { apply only_impacts; [lra|now apply (proj1 (above_ground_scaled r g r_positive g_positive _))|]. rewrite plus_INR. pose proof (pos_INR k). lra. }
+      { apply only_impacts; [lra|now apply (proj1 (above_ground_scaled r g r_positive g_positive _))|]. rewrite plus_INR.
+        pose proof (pos_INR k). lra. }
       rewrite <- (carries_iterates (scaling r g) (ball alpha r g) (f alpha) (conjugate r g r_positive g_positive alpha)) in trapped.
       set (b := iterate (ball alpha r g) (n + k) (body bounce)) in *. set (q := (2 * alpha) ^ k) in *.
       assert (high : above_ground b) by (apply (above_ground_scaled r g r_positive g_positive); apply trapped).
@@ -193,15 +199,19 @@ Section FromPhysics.
       { specialize (decays k ltac:(unfold k; lia)). fold q in decays. rewrite Rabs_right in decays by lra.
         apply Rmult_lt_compat_r with (r := scale) in decays; [|unfold scale; lra].
         now replace (epsilon / scale * scale) with epsilon in decays by (field; unfold scale; lra). }
-      assert (parts : 0 <= q * (r * T) /\ 0 <= q * r /\ 0 <= q * T) by (repeat split; apply Rmult_le_pos; lra). unfold scale in bound.
+      assert (parts : 0 <= q * (r * T) /\ 0 <= q * r /\ 0 <= q * T) by (repeat split; apply Rmult_le_pos; lra).
+      unfold scale in bound.
       assert (limit_is : forall u, 0 <= u <= T -> limit (bounce + INR (n + k) * T + u) = in_period alpha r g e u).
       { intros u in_range. destruct (bounces_late (n + k)) as [-> later]. apply known; lra. }
       rewrite limit_is by lra. destruct (settling_bound body n k time small moves late ltac:(lra)) as (heights & velocities & _).
-      fold q in heights, velocities. split; [lra|]. intro clear_. apply Rle_lt_trans with (r * q); [|lra]. apply velocities. apply Rnot_le_lt. intro near.
+      fold q in heights, velocities. split; [lra|]. intro away. apply Rle_lt_trans with (r * q); [|lra]. apply velocities.
+      apply Rnot_le_lt. intro near.
       destruct e1_strikes as (above & hits & _).
-      apply above_at_0 with (r := r) in above. destruct (contact g r g_positive r_positive 0 e) as (_ & _ & order & _); [lra|exact above|exact hits|].
-      set (c := contact_time r e) in *. apply (clear_ (bounce + INR (n + k) * T + c)).
-      - replace (bounce + INR (n + k) * T + c - (bounce + INR (n + k) * T + time)) with (- (time - c)) by ring. rewrite Rabs_Ropp. lra.
+      apply above_at_0 with (r := r) in above.
+      destruct (contact g r g_positive r_positive 0 e) as (_ & _ & order & _); [lra|exact above|exact hits|].
+      set (c := contact_time r e) in *. apply (away (bounce + INR (n + k) * T + c)).
+      - replace (bounce + INR (n + k) * T + c - (bounce + INR (n + k) * T + time)) with (- (time - c)) by ring.
+        rewrite Rabs_Ropp. lra.
       - rewrite limit_is by lra. rewrite (proj1 (bounces_late (n + k))), table_is by (pose proof (bounces_late (n + k)); lra).
         apply (one_impact g r g_positive r_positive alpha alpha_positive 0); [lra|exact above|exact order|now split].
     Qed.
@@ -233,7 +243,8 @@ Proof.
   assert (through : forall b, above_ground b -> exists body, is_ball g alpha table body /\
     forall k, body (start + INR (S k) * period r g) = in_period alpha r g (iterate (ball alpha r g) (S k) b) 0).
   { intros b above. destruct (execution_through g r g_positive r_positive alpha ltac:(lra) _ _ phase table_is b above) as (body & body_moves & known).
-    exists body. split; [exact body_moves|]. intro k. rewrite <- known; [f_equal; ring|lra|]. rewrite S_INR. pose proof (pos_INR k). nra. }
+    exists body. split; [exact body_moves|]. intro k. rewrite <- known; [f_equal; ring|lra|]. rewrite S_INR.
+    pose proof (pos_INR k). nra. }
   set (c := unscaling r g (e_2 alpha)). assert (scaled : scaling r g c = e_2 alpha) by now apply scaling_unscaling.
   destruct (e_2_has_period_2 alpha ltac:(lra)) as (above_2 & first & _ & back & _).
   assert (above_c : above_ground c) by (apply (above_ground_scaled r g r_positive g_positive); now rewrite scaled).
@@ -246,7 +257,8 @@ Proof.
   { intro j. rewrite body_is, other_is, (e1_is_fixed g r alpha) by assumption. set (d := iterate (ball alpha r g) (S (2 * j)) c).
     assert (scaled_d : scaling r g d = impact alpha (e_2 alpha)).
     { unfold d. rewrite (carries_iterates (scaling r g) (ball alpha r g) (f alpha) (conjugate r g r_positive g_positive alpha)), scaled.
-      change (f alpha (iterate (f alpha) (2 * j) (e_2 alpha)) = impact alpha (e_2 alpha)). now rewrite (iterate_periodic (f alpha) 2 _ back), first. }
+      change (f alpha (iterate (f alpha) (2 * j) (e_2 alpha)) = impact alpha (e_2 alpha)).
+      now rewrite (iterate_periodic (f alpha) 2 _ back), first. }
     assert (above_d : above_ground d).
     { apply (above_ground_scaled r g r_positive g_positive). rewrite scaled_d, <- first. now apply H_invariant. }
     assert (here : forall b, above_ground b -> in_period alpha r g b 0 = b).
@@ -258,7 +270,8 @@ Proof.
   set (epsilon := r * period r g * (fst (impact alpha (e_2 alpha)) - fst (e_1 alpha)) / 2).
   assert (area : 0 < r * period r g) by now apply Rmult_lt_0_compat.
   assert (some : 0 < epsilon) by (unfold epsilon; pose proof (Rmult_lt_0_compat _ _ area gap); lra).
-  destruct (tends body body_moves epsilon some) as [from_1 tends_1]. destruct (tends other other_moves epsilon some) as [from_2 tends_2].
+  destruct (tends body body_moves epsilon some) as [from_1 tends_1].
+  destruct (tends other other_moves epsilon some) as [from_2 tends_2].
   destruct (exceeded_by_a_number ((Rmax from_1 from_2 - start) / period r g)) as [j late].
   set (t := start + INR (S (2 * j)) * period r g).
   assert (long : Rmax from_1 from_2 <= t).

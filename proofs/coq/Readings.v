@@ -4,7 +4,7 @@
    Proved:   reads_lt, .., reads_iff   what is read of atoms and of formulas made of them;
              decide_.., for the tactic `decidable`: such a formula or its negation, as a map by pieces asks;
              `nonzero`, for what a quotient divides by;
-             bounded_by, within_is, far_is   an absolute value by inequalities;
+             bounded_by, within_one, within_is, far_is   an absolute value by inequalities;
              sum_is, one_more   steps of premises around a point;
              bounds_of    finitely many positive numbers lie between two. *)
 
@@ -88,6 +88,8 @@ Ltac nonzero := lazymatch goal with
 Lemma bounded_by a c w : Rabs a <= c * w <-> - c * w <= a /\ a <= c * w.
 Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
 
+Lemma within_one a c : Rabs a <= c -> - c * 1 <= a /\ a <= c * 1.
+Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
 Lemma within_is a c : Rabs a <= c <-> - c <= a /\ a <= c.
 Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
 Lemma far_is a c : c <= Rabs a -> a >= c \/ a <= - c.

@@ -181,8 +181,8 @@ FOUR_THIRDS, THREE_QUARTERS = Fraction(4, 3), Fraction(3, 4)
 
 @claim("part-corner", "part", "a corner", parameters=())
 def an_impulse_changes_the_velocity_of_a_corner_by_three_numbers() -> list[Statement]:
-    """An impulse changes a corner's velocity by three numbers, with B1, B2 >= 1 and (B1 - 1)(B2 -
-    1) = B3^2, and the kinetic energy by its work.
+    """An impulse changes a corner's velocity by three numbers, with B_1 >= 1, B_2 >= 1 and
+    (B_1 - 1)*(B_2 - 1) = B_3^2, and the kinetic energy by its work.
 
     The momentum changes by the impulse, the angular momentum about the centre of mass by its
     moment; all is per unit of mass.
@@ -218,10 +218,10 @@ def an_impulse_changes_the_velocity_of_a_corner_by_three_numbers() -> list[State
 
 @claim("part-rectangle", "part", "a rectangle", parameters=())
 def no_corner_of_a_rectangle_jams_below_four_thirds() -> list[Statement]:
-    """No corner of a rectangle, however it is turned, jams where mu <= 4/3, and |B3| <= (3/4) B1
+    """No corner of a rectangle, however it is turned, jams where mu <= 4/3, and |B_3| <= 3/4 B_1
     for each; both numbers are sharp for sides 1 to 2.
 
-    A corner jams where B2 - mu |B3| is negative: friction then turns it into the table.  The second
+    A corner jams where B_2 < mu |B_3|: friction then turns it into the table.  The second
     bound says that with mu >= 3/4 friction always holds a corner that has stopped.
     """
     upright, lying = (

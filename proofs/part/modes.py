@@ -343,7 +343,7 @@ def modes_cover() -> Statement:
 @claim("part-modes-cover", "part", "the modes", parameters=())
 def every_impact_is_of_one_of_the_modes() -> list[Statement]:
     """Every impact meets the conditions of one of the five modes, and a corner that stops sticks
-    exactly where mu >= |B3|/B1.
+    exactly where mu >= |B_3|/B_1.
     """
     return [
         modes_cover(),
@@ -417,11 +417,11 @@ def modes_agree_where_two_of_them_meet() -> list[Statement]:
 
 @claim("part-at-rest", "part", "S0 = 0", parameters=())
 def a_corner_at_rest_sticks_or_slides_as_friction_lets_it() -> list[Statement]:
-    """A corner with S0 = 0 sticks where mu >= |B3|/B1; else it slides at once, against the sign of
-    B3, and does not jam; either sigma gives this law.
+    """A corner with S_0 = 0 sticks where mu >= |B_3|/B_1; else it slides at once, against the sign
+    of B_3, and does not jam; either sigma gives this law.
 
-    By sigma = sgn B3 the law is that of sliding back in compression, by sigma = -sgn B3 that of
-    sliding.
+    With sigma the sign of B_3 the law is that of sliding back in compression, with the other sign
+    that of sliding.
     """
 
     def other_way(formula: Formula) -> Formula:

@@ -27,6 +27,10 @@ NAMED = {
     "B1^-": r"\mathcal{B}_1^-",
     "B1": r"\mathcal{B}_1",
     "B2": r"\mathcal{B}_2",
+    "B_1": "B_1",
+    "B_2": "B_2",
+    "B_3": "B_3",
+    "S_0": "S_0",
     "Delta_1 E": r"\Delta_1 E",
     "Delta_2 E": r"\Delta_2 E",
     "Delta E_max": r"\Delta E_{\max}",
@@ -96,7 +100,7 @@ LETTERS = {
 WORD = re.compile(
     r"""
     \(-alpha\)\^n | Delta_[12]\ E | Delta\ E_(?:max|sup) | Delta\ E\b | B1\^[0+\-](?!\w) | R\(b\)
-  | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:\.\w+)*(?:-\w+)+
+  | \|[A-Za-z]\w*\| | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:\.\w+)*(?:-\w+)+
   | [A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?
   | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
 """,
@@ -148,7 +152,7 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
         if not _begins(words, place):
             place += 1
             continue
-        last = _run(words, place)
+        last = max(_run(words, place), place + 1)
         tokens = [word for word, _, _ in words[place:last]]
         if any(_is_name(word) for word in tokens) or len(tokens) > 1:
             spans.append((words[place][1], words[last - 1][2]))
@@ -157,6 +161,7 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
 
 
 def _is_name(word: str) -> bool:
+    word = word.strip("|")
     base, raised, exponent = word.partition("^")
     if raised:
         return word in NAMED or _is_name(base) and (exponent.isdigit() or exponent in LETTERS)
@@ -232,15 +237,17 @@ def _run(words: list[tuple[str, int, int]], place: int) -> int:
             break
         if not expects and not depth:
             last = place
-    return max(last, 1)
+    return last
 
 
 def _is_factor(word: str, first: bool) -> bool:
     """Whether the word can stand beside another one as a factor."""
+    name = word.strip("|")
+    base = name.partition("^")[0]
     return (
-        word in LETTERS
-        or word in GLYPHS
-        or (word == ")" or word.isdigit() if first else word in NAMED)
+        base in LETTERS
+        or base in GLYPHS
+        or (word == ")" or word[0].isdigit() if first else name in NAMED)
     )
 
 
@@ -254,12 +261,14 @@ def _formula(text: str) -> str:
             pass
     shown = ""
     for found in WORD.finditer(text):
-        word = found.group()
+        word = found.group().strip("|")
+        bar = "|" if word != found.group() else ""
         piece = (
             NAMED.get(word) or REGIONS.get(word) or JOINING.get(word) if word != "/" else "/"
         ) or (
             _raised(word) if "^" in word[1:] else glyph(word) if _is_name(word) else _numeral(word)
         )
+        piece = bar + piece + bar
         if word == "*":
             continue
         spaced = (

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from juggleproof.proofs.stability.given import Expr, Map, expression, holds, symbols, written
 from juggleproof.proofs.stability.samples import Arrays, Floats, Point
@@ -22,7 +23,7 @@ class FixedPoint:
     piece: int
     terms: tuple[Expr, ...]  # the same in SymPy, with roots as such
 
-    def exists(self, system: Map, parameters: Arrays) -> NDArrayBool:
+    def exists(self, system: Map, parameters: Arrays) -> NDArray[np.bool_]:
         """For which parameters it is a fixed point of the map."""
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
@@ -34,9 +35,9 @@ class FixedPoint:
         return np.broadcast_to(inside, states[system.state[0]].shape)
 
     def stable_share(self, system: Map, parameters: Arrays) -> float:
-        """The share of the parameters for which it exists, with multipliers below 1 in size."""
+        """The share of the parameters for which it exists, with multipliers of size 1 at most."""
         exists = self.exists(system, parameters)
-        return float(np.mean(exists & (self.multiplier(system, parameters) < 1)))
+        return float(np.mean(exists & (self.multiplier(system, parameters) < 1 + 1e-9)))
 
     def is_at(self, terms: Sequence[str]) -> bool:
         """Whether these terms are the point."""
@@ -57,9 +58,6 @@ class FixedPoint:
         square = np.nan_to_num(stack.T.reshape(size, n, n), nan=np.inf, posinf=1e300)
         found: Floats = np.abs(np.linalg.eigvals(np.clip(square, -1e300, 1e300))).max(axis=1)
         return found
-
-
-NDArrayBool = Floats  # of 0 and 1, as NumPy takes them
 
 
 def fixed_points(system: Map) -> list[FixedPoint]:
@@ -89,7 +87,7 @@ def _found(system: Map) -> Iterator[FixedPoint]:
 def as_point(terms: tuple[Expr, ...]) -> Point | None:
     """The terms as text, with square roots named; None where there are others."""
     roots: list[tuple[str, str]] = []
-    names = {}
+    names: dict[Expr, str] = {}
     for root in sorted(set().union(*(t.atoms(sympy.Pow) for t in terms)), key=str):
         if root.exp.is_Integer:
             continue

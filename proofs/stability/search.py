@@ -5,7 +5,7 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -15,6 +15,7 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.work import Budget, Exhausted
@@ -34,7 +35,6 @@ from juggleproof.proofs.stability.refuting import escape_rules, instability_rule
 from juggleproof.proofs.stability.samples import (
     Point,
     around,
-    ends_of,
     licence,
     region,
     with_licences,
@@ -42,6 +42,7 @@ from juggleproof.proofs.stability.samples import (
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
+    equation_rules,
     lyapunov_functions,
     lyapunov_rules,
     quadratic_templates,
@@ -67,14 +68,15 @@ class Proof:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         statement = checker.read_statements(text)[rule.name]
-        proofs = {}
+        proofs: dict[str, Premise] = {}
         try:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proofs[name] = self.proof_of(premises[name], efforts, budget)
-                if proofs[name] is None:
+                proof = self.proof_of(premises[name], efforts, budget)
+                if proof is None:
                     return f"no proof of the premise {name} was found"
+                proofs[name] = proof
         except checker.Rejected as reason:
             return str(reason)
         found: Certificate = {"certified": {name: proofs[name] for name in premises}}
@@ -88,7 +90,7 @@ class Proof:
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
-    ) -> object | None:
+    ) -> Premise | None:
         """A proof of one premise, if one is found."""
         for effort in efforts:
             try:
@@ -110,8 +112,8 @@ def with_point_licences(domain: str, point: Point) -> str:
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
-    """What premises are to know of a point whose terms are not simple: that it is a fixed point, and
-    on which side of the guard and of the bounds of the space it lies.
+    """What premises are to know of a point whose terms are not simple: that it is a fixed point,
+    and on which side of the guard and of the bounds of the space it lies.
     """
     simple = all("/" not in term for term in fixed.point.terms) and not fixed.point.roots
     if simple:
@@ -130,8 +132,12 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
             with np.errstate(all="ignore"):
                 worst = float(np.min(np.asarray(value(written(poly), at_point), float)))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
-    put = [re.sub(r"[A-Za-z]\w*", lambda m: names.get(m[0], m[0]), line) for line in lines]
-    return tuple(dict.fromkeys(put))
+    return tuple(dict.fromkeys(renamed(line, names) for line in lines))
+
+
+def renamed(text: str, names: Mapping[str, str]) -> str:
+    """The text with other names in place of some."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str) -> Setting:
@@ -288,6 +294,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+    for rule in equation_rules(setting, space, name):
+        if not tried(proof, rule, EFFORTS, BUDGET, log):
+            return True
     found = sorted(candidates(setting, space, name), key=lambda one: one[0])[:MOST_CANDIDATES]
     for efforts, budget in ROUNDS:
         for _, rule in found:
@@ -304,13 +313,29 @@ def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, repo
     return fault
 
 
+def divisors(setting: Setting) -> list[str]:
+    """What is positive inside the space, for functions that grow without bound at its ends: each
+    of its strict bounds times the same at the point, which has no units, then their product.
+    """
+    system = setting.system
+    put = {name: f"{name}_point" for name in system.state}
+    found = []
+    for poly, strict in atoms(system.space):
+        text = written(poly)
+        if strict and poly.is_polynomial() and checker.names_in(text) & set(system.state):
+            found.append(text if text.isidentifier() else f"({text})")
+    several = ["*".join(found)] if len(found) > 1 else []
+    both = [f"{one}*{renamed(one, put)}" for one in found if setting.have]
+    return several + found + both
+
+
 def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
-    """Statements `lyapunov` that samples do not refute, each with a number that is small where it is
-    simple and fits well.
+    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
+    is simple and fits well.
     """
     system, point = setting.system, setting.point
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
-    positive = [n for n in system.state if ends_of(system.space, n)[0] == 0]
+    positive = divisors(setting)
     for kind, template in enumerate(quadratic_templates(system, setting.piece, positive)):
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)

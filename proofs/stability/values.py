@@ -14,14 +14,26 @@ from functools import cached_property
 
 import highspy
 import numpy as np
+import sympy
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, atoms, holds, value, written
+from juggleproof.proofs.stability.given import (
+    Map,
+    atoms,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples, after
 
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
 LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
+FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a number
+ORDERS = (2, 4)  # of the loss in the distance: 4 at a multiplier on the unit circle
 SMALLEST = 1e-5  # of a constant
 TURNS = 6  # of adding the samples that are missed
 
@@ -42,12 +54,17 @@ class Template:
         size = len(next(iter(point.values())))
         below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
         blocks = []
-        for guard, basis in zip(self.parts or ("0 < 1",), self.bases or (self.basis,)):
+        guards = self.parts or ("0 < 1",)
+        for guard, basis in zip(guards, self.bases or (self.basis,) * len(guards)):
             inside = np.broadcast_to(holds(guard, point), (size,))
             for b in basis:
                 column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
                 blocks.append(np.where(inside, column / below, 0.0))
         return np.stack(blocks, axis=1)
+
+    def every_term(self) -> list[str]:
+        """The b_i of all parts."""
+        return [b for basis in self.bases or (self.basis,) * max(1, len(self.parts)) for b in basis]
 
     def terms(self, numbers: Sequence[Fraction]) -> list[str]:
         """V as text, one term or one for each part."""
@@ -63,6 +80,11 @@ class Template:
             total = " + ".join(parts) or "0"
             texts.append(total if self.divisor == "1" else f"({total})/({self.divisor})")
         return texts
+
+
+def squares_of(system: Map) -> list[str]:
+    """The squares of the distances to the point."""
+    return [f"{name}_gap^2" for name in system.state]
 
 
 def signed(number: Fraction) -> str:
@@ -194,6 +216,10 @@ def lyapunov_functions(
     every, _ = margins(template, system, tests)
     if not len(chosen) or not len(every):
         return
+    plain = np.array([float(b in squares_of(system)) for b in template.every_term()])
+    if (every @ plain > 0).all() and (chosen @ plain > 0).all():
+        yield template.terms([Fraction(int(one)) for one in plain])
+        return
     for _ in range(TURNS):
         weights = best_weights(chosen)
         if weights is None:
@@ -217,14 +243,18 @@ def lyapunov_functions(
 
 
 def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
-    """Terms in the parameters that are positive on the domain, the nearest to its ends first."""
+    """Terms in the parameters and in the point's names that are positive on the domain, those first
+    that are close to its ends.
+    """
     found = [written(poly) for poly, strict in atoms(domain) if strict]
-    found += list(system.parameters)
+    found += [*system.parameters, *(f"{name}_point" for name in system.state)]
     texts = []
     for text in dict.fromkeys(found):
+        if not checker.names_in(text) <= parameters.keys():
+            continue
         with np.errstate(all="ignore"):
-            worst = np.min(np.asarray(value(text, parameters), float))
-        if worst > 0:
+            at = np.asarray(value(text, parameters), float)
+        if at.min() > 0 and np.ptp(at) > 0:
             texts.append(text)
     return texts
 
@@ -343,6 +373,9 @@ class Setting:
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
         known = self.point.with_roots(self.parameters)
+        if self.have:
+            values = zip(self.system.state, self.point.at(self.parameters))
+            known |= {f"{name}_point": np.broadcast_to(v, (self.count,)) for name, v in values}
         return power_products(positive_factors(self.system, self.domain, known), known, self.count)
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
@@ -373,35 +406,88 @@ def lyapunov_rules(
     with np.errstate(all="ignore"):
         here = function.at(samples.points, count)
         there = function.at(after(system, samples.points), count)
-        gaps = [name + "_gap" for name in system.state]
-        square = np.sum([samples.points[gap] ** 2 for gap in gaps], axis=0)
+    square = np.sum([samples.points[f"{name}_gap"] ** 2 for name in system.state], axis=0)
     fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
     samples = samples.where(fits)
-    total = " + ".join(f"{g}^2" for g in gaps)
-    total = total if len(gaps) == 1 else f"({total})"
-    ball = small_ball(setting, function)
-    if not ball:
+    radius, upper = next(small_balls(setting, function), ("", ""))
+    if not radius:
         return
-    radius, upper = ball
-    for power in LOSS_POWERS:
-        shares = ((here - there) / square * (1 + here) ** power)[fits]
+    for order, power in itertools.product(ORDERS, LOSS_POWERS):
+        size = np.sum([samples.points[f"{name}_gap"] ** order for name in system.state], axis=0)
+        shares = (here - there)[fits] / size * (1 + here[fits]) ** power
         least = samples.least(shares, setting.count)
+        total = " + ".join(f"{name}_gap^{order}" for name in system.state)
+        total = total if len(system.state) == 1 else f"({total})"
         for rank, constant in bounded_below(least, setting.products):
-            start = (
-                "" if constant == "1" else f"({constant})*" if "/" in constant else f"{constant}*"
-            )
+            bare = constant.isidentifier()
+            start = "" if constant == "1" else f"{constant}*" if bare else f"({constant})*"
             divide = {0: "", 1: "/(1 + {})", 2: "/(1 + {})^2"}[power]
             rows = [
                 ("on", on),
                 ("loss", start + total + divide.format("value")),
-                ("least", start + "distance^2" + divide.format("level")),
+                ("least", start + f"distance^{order}" + divide.format("level")),
                 ("upper", upper),
                 ("radius", radius),
             ]
-            yield rank + power / 4, setting.rule(name, function, rows)
+            yield rank + power / 4 + order - 2, setting.rule(name, function, rows)
 
 
-def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
+def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
+    """The statement whose V solves the discrete Lyapunov equation A^T P A - P = -D I for the
+    derivative A at the point, in the parameters, with D the common denominator.
+    """
+    system = setting.system
+    n = len(system.state)
+    if n > 3 or setting.have and len(system.pieces) > 1:
+        return
+    state, names = symbols(system.state), [f"{one}_point" for one in system.state]
+    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
+    at = symbols(names) if setting.have else map(expression, setting.point.terms)
+    matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
+    entries = {
+        (i, j): sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for i in range(n) for j in range(n)
+    }
+    form = sympy.Matrix(n, n, lambda i, j: entries[i, j])
+    equations = list(matrix.T * form * matrix - form + sympy.eye(n))
+    unknowns = sorted(set(entries.values()), key=str)
+    solutions = sympy.solve(equations, unknowns, dict=True)
+    if not solutions:
+        return
+    found = [sympy.together(solutions[0].get(one, 0)) for one in unknowns]
+    divisor = sympy.lcm([sympy.fraction(one)[1] for one in found])
+    known = setting.point.with_roots(setting.parameters)
+    known |= {
+        one: np.broadcast_to(v, (setting.count,))
+        for one, v in zip(names, setting.point.at(setting.parameters))
+    }
+    with np.errstate(all="ignore"):
+        signs = np.sign(np.asarray(value(written(divisor), known), float))
+    if (signs < 0).all():
+        divisor = -divisor
+    elif not (signs > 0).all():
+        return
+    values = dict(zip(unknowns, found))
+    gaps = symbols([f"{one}_gap" for one in system.state])
+    total = sum(
+        sympy.factor(sympy.cancel(values[entries[i, j]] * divisor)) * gaps[i] * gaps[j]
+        for i in range(n)
+        for j in range(n)
+    )
+    function = Function((written(total),))
+    loss = written(sympy.factor(divisor))
+    squares = " + ".join(squares_of(system))
+    for radius, upper in itertools.islice(small_balls(setting, function), 2):
+        rows = [
+            ("on", on),
+            ("loss", f"({loss})*({squares})"),
+            ("least", f"({loss})*distance^2"),
+            ("upper", upper),
+            ("radius", radius),
+        ]
+        yield setting.rule(name, function, rows)
+
+
+def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str]]:
     """Terms `radius` and `upper` with V <= upper |s - e| where |s - e| <= radius, at samples."""
     rng = np.random.default_rng(SEED)
     each = 200
@@ -433,9 +519,13 @@ def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
             continue
         shares = (size[which] * reach)[inside] / np.maximum(v, 1e-12)
         least = Samples({}, which[inside]).least(shares, setting.count)
+        number = str(1 / _floor(float(least.min()) / 2)) if least.min() > SMALLEST else ""
+        if number and np.ptp(np.log(least[np.isfinite(least)])) < FEW_FOLD:
+            yield radius, number
         for _, under in bounded_below(least, setting.products, 1):
-            return radius, _inverse(under)
-    return None
+            yield radius, _inverse(under)
+        if number:
+            yield radius, number
 
 
 def _inverse(text: str) -> str:

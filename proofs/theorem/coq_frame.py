@@ -27,7 +27,7 @@ class Frame:
         self.known = known
         self.names = state
         self.state = [*map(coq_name, state)]
-        self.axes = [f"Map.axis_{name}" for name in state]
+        self.axes = [f"States.axis_{name}" for name in state]
         self.pieces = range(1, len(own.get("piece")) + 1)
         names = " ".join(map(coq_name, parameters))
         self.bound = f" ({names} : R)" if names else ""
@@ -38,6 +38,7 @@ class Frame:
             "a": f" {names}" if names else "",
             "all": f"forall {names} : R, " if names else "",
             "open": opened("of_s", self.state),
+            "opening": opened("of_s", self.state).replace(". ", "; "),
             "s": " ".join(self.state) if len(state) > 1 else "of_s",
         }
 
@@ -71,24 +72,25 @@ class Frame:
         """What texts name beside parameters and state, in order, as `let` of Coq: roots, and around
         a point its coordinates, and the state less these.
         """
-        roots = [(name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")]
-        entries = roots
+        entries = [
+            (name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")
+        ]
         if own.get("value"):
-            moving, fixed = {*self.names, *(f"{name}_gap" for name in self.names)}, []
-            for root in roots:
-                if names_of(root[2]) & moving:
-                    moving.add(root[0])
+            moving, fixed = (
+                {*self.names},
+                0,
+            )  # roots of parameters, which a point may name, are first
+            for name, _, under in entries:
+                if names_of(under) & moving:
+                    moving.add(name)
                 else:
-                    fixed.append(root)
-            point = [
-                (f"{name}_point", coq_term(text), checker.parse(text))
-                for name, text in zip(self.names, own.get("point")[0])
+                    fixed += 1
+            entries.sort(key=lambda entry: entry[0] in moving)
+            sums = [(f"{name}_gap", f"{name} - {name}_point") for name in self.names]
+            point = zip((f"{name}_point" for name in self.names), own.get("point")[0])
+            entries[fixed:fixed] = [
+                (name, coq_term(text), checker.parse(text)) for name, text in [*point, *sums]
             ]
-            gaps = [
-                (f"{name}_gap", coq_term(text), checker.parse(text))
-                for name, text in ((name, f"{name} - {name}_point") for name in self.names)
-            ]
-            entries = [*fixed, *point, *gaps, *(one for one in roots if one not in fixed)]
         used = set().union(*map(names_in, parts))
         rows = ""
         for name, value, node in reversed(entries):
@@ -102,21 +104,21 @@ class Frame:
         own: checker.Statement,
         premise: str,
         known: str,
+        value: str = "",
         point: str = "$s",
         places: str = " in of_next |- *",
         case: str = "exact {}",
     ) -> str:
-        """Tactics that show something of the next state by a premise for each piece; known: what
-        it assumes; point: the coordinates; places: where the next state occurs.
+        """Tactics that show something of the next state by a premise for each piece, and for a term
+        of the value; known: what it assumes; point: the coordinates; places: where the next state
+        occurs.
         """
-        first, _, last = premise.partition(" ")
         cases = "|".join(
-            case.format(f"(${{P}}_{first}_{k}{last}$a {point} {known})") for k in self.pieces
+            case.format(f"(${{P}}_{premise}_{k}{value}$a {point} {known})") for k in self.pieces
         )
-        opened = self.words["open"].replace(". ", "; ")
         return self.fill(
             f"destruct (of_map_moves$a of_s of_map of_there) as {self.one_piece()};\n"
-            f"    rewrite of_same{places}; clear of_same; {opened}[{cases}].",
+            f"    rewrite of_same{places}; clear of_same; ${{opening}}[{cases}].",
             own,
         )
 

@@ -42,7 +42,7 @@ Proof.
 Qed.
 
 Lemma of_same_state : forall of_s of_t,
-  (forall of_j, Map.coordinate of_j of_s = Map.coordinate of_j of_t) -> of_s = of_t.
+  (forall of_j, States.coordinate of_j of_s = States.coordinate of_j of_t) -> of_s = of_t.
 Proof. intros of_s of_t of_same. $open${open_t}exact $equal. Qed.
 """
 
@@ -119,8 +119,8 @@ Qed.
 """
 
 NORM = """\
-(Map.f$a) Map.coordinate (fun of_j => Map.coordinate of_j (Contraction.point$a))
-    (fun of_j => Map.coordinate of_j (Contraction.weights$a)) (Contraction.set$a)
+(Map.f$a) States.coordinate (fun of_j => States.coordinate of_j (Contraction.point$a))
+    (fun of_j => States.coordinate of_j (Contraction.weights$a)) (Contraction.set$a)
     (Contraction.rate$a)"""
 
 CONSTANTS = """\
@@ -139,7 +139,7 @@ Qed.
 Lemma of_constants : ${all}Contraction.domain$a ->
   0 <= Contraction.rate$a /\\ Contraction.rate$a < 1 /\\ 0 < Contraction.radius$a /\\
   0 < Contraction.size$a /\\ exists low high, 0 < low /\\
-  forall of_j, low <= Map.coordinate of_j (Contraction.weights$a) <= high.
+  forall of_j, low <= States.coordinate of_j (Contraction.weights$a) <= high.
 Proof.
   intros$a of_dom. destruct (${P}_constants$a of_dom) as $numbers.
   split; [exact (Rge_le _ _ of_least)|split; [exact of_most|]].
@@ -194,7 +194,7 @@ Proof.
 Qed.
 
 Lemma of_stable : ${all}Contraction.domain$a ->
-  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a).
+  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a).
 Proof.
   intros$a of_dom. $constants
   exact (Rules.stability $norm
@@ -205,8 +205,8 @@ Qed.
 (* The point is fixed, stable, and attracts the set, at the rate. *)
 Theorem $theorem : ${all}Contraction.domain$a ->
   Map.space$a (Contraction.point$a) /\\ Map.f$a (Contraction.point$a) = Contraction.point$a /\\
-  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-  Map.attracting (Contraction.set$a) (Map.f$a) (Contraction.point$a) /\\
+  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  States.attracting (Contraction.set$a) (Map.f$a) (Contraction.point$a) /\\
   forall of_n of_c of_s, 0 <= of_c -> Contraction.set$a of_s -> Contraction.near$a of_c of_s ->
   Contraction.near$a (Contraction.rate$a ^ of_n * of_c) (Rules.iterate (Map.f$a) of_n of_s).
 Proof.
@@ -242,8 +242,8 @@ Qed.
 Theorem $theorem : ${all}LyapunovFunction.domain$a ->
   Map.space$a (LyapunovFunction.point$a) /\\
   Map.f$a (LyapunovFunction.point$a) = LyapunovFunction.point$a /\\
-  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
-  Map.attracting (LyapunovFunction.set$a) (Map.f$a) (LyapunovFunction.point$a).
+  States.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  States.attracting (LyapunovFunction.set$a) (Map.f$a) (LyapunovFunction.point$a).
 Proof.
   intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
   assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
@@ -280,7 +280,7 @@ Proof.
     ${open}exact (Rge_le _ _ (${P}_loss$a$E $gaps$v of_dom$H $sums of_there of_in$given)). }
   assert (of_least : forall of_s of_v of_d of_c, LyapunovFunction.set$a of_s ->
     of_above of_s of_v -> 0 <= of_v -> 0 < of_d -> 0 <= of_c ->
-    Lyapunov.far Map.coordinate (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a))
+    Lyapunov.far States.coordinate (fun of_j => States.coordinate of_j (LyapunovFunction.point$a))
       of_d of_s -> of_v <= of_c -> LyapunovFunction.least$a of_d of_c <= $loss).
   { intros of_s of_v of_d of_c [of_there of_in] of_high of_1 of_2 of_3 of_far of_4.
     assert (of_apart : $far).
@@ -326,13 +326,13 @@ Qed.
 
 (* The point is not stable. *)
 Theorem $theorem : ${all}ChetaevFunction.domain$a ->
-  ~ Map.stable (Map.space$a) (Map.f$a) (ChetaevFunction.point$a).
+  ~ States.stable (Map.space$a) (Map.f$a) (ChetaevFunction.point$a).
 Proof.
   intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
   assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
   destruct (${P}_constants$a$E of_dom$H) as [of_rate [of_radius of_upper]].
-  refine (Lyapunov.chetaev_instability (Map.f$a) Map.coordinate
-    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+  refine (Lyapunov.chetaev_instability (Map.f$a) States.coordinate
+    (fun of_j => States.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
     (ChetaevFunction.guards$a) (ChetaevFunction.values$a) $count (ChetaevFunction.direction$a)
     (ChetaevFunction.rate$a) (ChetaevFunction.radius$a) (ChetaevFunction.upper$a)
     of_rate of_radius (fun of_s => of_map_keeps$a of_s of_map) _ _ _).
@@ -351,8 +351,8 @@ Qed.
 ATTRACTS = """\
 (* The point is stable and attracts every state, within a bound. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-  Map.attracting (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  States.attracting (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
   forall of_s of_n of_k, Map.space$a of_s -> Descent.rank$a of_s + INR $extra <= INR of_n ->
   Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
     (Rules.iterate (Map.f$a) (of_n + of_k) of_s).
@@ -382,16 +382,16 @@ Qed.
 ATTRACTS_BY_LYAPUNOV = """\
 (* The point is stable and attracts every state. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
-  Map.attracting (Map.space$a) (Map.f$a) (LyapunovFunction.point$a).
+  States.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  States.attracting (Map.space$a) (Map.f$a) (LyapunovFunction.point$a).
 Proof.
   intros$a of_dom. destruct ($lyapunov$a (${P}_inside$a of_dom)) as (_ & _ & of_stays & of_tends).
   assert (of_into : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
     LyapunovFunction.set$a of_s).
   { intros of_s of_there of_in. split; [exact of_there|].
     ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
-  split; [exact of_stays|]. refine (Lyapunov.attraction_from_a_set (Map.f$a) Map.coordinate
-    (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a)) (Map.space$a)
+  split; [exact of_stays|]. refine (Lyapunov.attraction_from_a_set (Map.f$a) States.coordinate
+    (fun of_j => States.coordinate of_j (LyapunovFunction.point$a)) (Map.space$a)
     (LyapunovFunction.set$a) _ of_tends).
   intros of_s of_there.
   destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
@@ -401,10 +401,48 @@ Proof.
 Qed.
 """
 
+INTO = """\
+(* The point is stable and attracts every state, on the larger space. *)
+Theorem $theorem : ${all}Descent.domain$a ->
+  States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+  States.attracting (Map.space$a) (Map.f$a) ($around.point$a).
+Proof.
+  intros$a of_dom.
+  assert (of_map : Map.domain$a) by exact (${descent}_inside$a of_dom).
+  assert (of_inner : Inner.Descent.domain$a) by exact (${P}_inside$a of_dom).
+  assert (of_inner_map : Inner.Map.domain$a) by exact (${inner}_inside$a of_inner).
+  assert (of_agree : forall of_s, Map.space$a of_s -> Inner.Map.space$a of_s ->
+    Map.f$a of_s = Inner.Map.f$a of_s).
+  { intros of_s of_there of_within.
+    destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same; symmetry;
+      [$agree]. }
+  pose (of_keeps of_s := of_map_keeps$a of_s of_map).
+  pose (of_inner_keeps of_s := Inner.of_map_keeps$a of_s of_inner_map). split.
+  { refine (Lyapunov.into_stability (Map.f$a) (Inner.Map.f$a) States.coordinate
+      (fun of_j => States.coordinate of_j ($around.point$a)) (Map.space$a) (Inner.Map.space$a)
+      (Into.radius$a) of_keeps of_inner_keeps of_agree _ _ (proj1 ($attraction$a of_inner))).
+    { exact (${P}_constants$a of_dom). }
+    { intros of_s of_there of_close. pose proof $within as of_within.
+      ${open}exact (${P}_surrounds$a $s of_dom of_there of_within). } }
+  refine (Lyapunov.into_attraction (Map.f$a) (Inner.Map.f$a) States.coordinate
+    (fun of_j => States.coordinate of_j ($around.point$a)) (Map.space$a) (Inner.Map.space$a)
+    of_keeps of_inner_keeps of_agree _ ($tends ($attraction$a of_inner))).
+  intros of_s of_there.
+  destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
+  exists of_n.
+  assert (of_enters : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
+    Inner.Map.space$a of_s).
+  { clear of_s of_there of_late. intros of_s of_there of_in.
+    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
+  apply of_enters; [|exact ($descends$a of_dom of_s of_n of_there of_late)].
+  apply Rules.iterate_keeps; [exact of_keeps|exact of_there].
+Qed.
+"""
+
 ESCAPES = """\
 Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
   Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
-  exists of_j, Map.coordinate of_j (Escape.start$a) <> Map.coordinate of_j (Escape.point$a).
+  exists of_j, States.coordinate of_j (Escape.start$a) <> States.coordinate of_j (Escape.point$a).
 Proof.
   intros$a of_dom.
   assert (of_map : Map.domain$a) by exact (${P}_inside$a of_dom).
@@ -419,14 +457,14 @@ Qed.
 EXACTLY = """\
 (* The point is stable and attracts every state just for the parameters of the descent. *)
 Theorem $theorem : ${all}Map.domain$a ->
-  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
-   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
+  (Descent.domain$a <-> States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   States.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
 Proof.
   intros$a of_map.
-  refine (Rules.exactly (Map.f$a) Map.coordinate
-    (fun of_j => Map.coordinate of_j ($around.point$a))
-    (fun of_j => Map.coordinate of_j (Escape.point$a)) (Map.space$a) $period (Escape.start$a)
-    (Descent.domain$a) (Escape.domain$a) (Map.stable (Map.space$a) (Map.f$a) ($around.point$a))
+  refine (Rules.exactly (Map.f$a) States.coordinate
+    (fun of_j => States.coordinate of_j ($around.point$a))
+    (fun of_j => States.coordinate of_j (Escape.point$a)) (Map.space$a) $period (Escape.start$a)
+    (Descent.domain$a) (Escape.domain$a) (States.stable (Map.space$a) (Map.f$a) ($around.point$a))
     (${P}_covers$a of_map) _ _ _ _).
   { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
   { intro of_dom. exact ($tends ($attraction$a of_dom)). }
@@ -438,13 +476,13 @@ Qed.
 EXACTLY_OR_UNSTABLE = """\
 (* The point is stable and attracts every state just for the parameters of the descent. *)
 Theorem $theorem : ${all}Map.domain$a ->
-  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
-   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
+  (Descent.domain$a <-> States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   States.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
 Proof.
   intros$a of_map.
-  refine (Lyapunov.exactly_or_unstable (Map.f$a) Map.coordinate
-    (fun of_j => Map.coordinate of_j ($around.point$a))
-    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+  refine (Lyapunov.exactly_or_unstable (Map.f$a) States.coordinate
+    (fun of_j => States.coordinate of_j ($around.point$a))
+    (fun of_j => States.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
     (Descent.domain$a) (ChetaevFunction.domain$a) (${P}_covers$a of_map) _ _ _ _).
   { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
   { intro of_dom. exact ($tends ($attraction$a of_dom)). }

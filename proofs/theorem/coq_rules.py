@@ -24,6 +24,7 @@ from juggleproof.proofs.theorem.coq_frame import (
     theorem_name,
 )
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
+from juggleproof.proofs.theorem.coq_terms import coq_term
 from juggleproof.proofs.theorem.coq_values import (
     CHETAEV,
     LYAPUNOV,
@@ -36,7 +37,7 @@ from juggleproof.proofs.theorem.coq_values import (
 
 COQ = Path(__file__).resolve().parents[1] / "coq"
 # what says nothing of the orbits that tend to a point, or is a part of what does
-NO_THEOREM = ("universal", "sharp", "iterates", "map", "escapes")
+NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation", "escapes")
 
 
 def theorems_in(statements: Known) -> list[str]:
@@ -54,33 +55,48 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
     these use.  Raises NotWritten for a rule, or a part of a certificate, that is not written for
     Coq.
     """
-    chain = _chain(name, statements)
-    for one in chain:
+    everything = [*_chain(name, statements, whole=True)]
+    for one in everything:
         if statements[one].kind not in RULES:
             raise NotWritten(f"{one} is of a rule that is not written for Coq; claim it by another")
-    frame = Frame(statements[chain[0]], statements)
-    kinds = {statements[one].kind for one in chain}
+    kinds = {statements[one].kind for one in everything}
     rows = [Template(texts.HEADER).substitute(name=name)]
-    rows.append(_theory(not kinds.isdisjoint(("lyapunov", "unstable"))))
-    used = _uses(chain, certificates)
+    rows.append(_theory(not kinds.isdisjoint(("lyapunov", "unstable", "into"))))
+    frame = Frame(statements[everything[0]], statements)
+    rows += states(frame)
+    used = _uses(everything, certificates)
     rows += [
         lemmas(statement, certificates[one], statements)
         for one, statement in statements.items()
         if one in used
     ]
-    for one in chain:
-        own = statements[one]
-        define, prove = RULES[own.kind]
-        rows += [f"(* {'-' * 60} {one} *)\n", *define(frame, own), ""]
-        rows += [readings(own, certificates[one], statements), *prove(frame, own)]
+    rows += _chain_rows(name, frame, certificates)
     return "\n".join([*rows, f"Print Assumptions {theorem_name(name)}.", ""])
 
 
-def _chain(name: str, statements: Known) -> list[str]:
-    """The map rules that a statement rests on, the map first, and the statement."""
-    chain: list[str] = []
-    for one in rests_on(statements[name]):
-        chain += [each for each in _chain(one, statements) if each not in chain]
+def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) -> Iterator[str]:
+    """What a statement rests on, and the statement."""
+    for one in _chain(name, f.known):
+        own = f.known[one]
+        if own.kind == "into":
+            yield "Module Inner.\n"
+            yield from _chain_rows(own.text("attraction"), f, certificates)
+            yield "End Inner.\n"
+        define, prove = RULES[own.kind]
+        yield f"(* {'-' * 60} {one} *)\n"
+        yield from define(f, own)
+        yield "\n" + readings(own, certificates[one], f.known)
+        yield from prove(f, own)
+
+
+def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
+    """The map rules that a statement rests on, the map first, and the statement; with those on the
+    smaller space that a map leads into where the whole is asked for.
+    """
+    own, chain = known[name], []
+    for one in rests_on(own):
+        if whole or own.kind != "into" or one != own.text("attraction"):
+            chain += [each for each in _chain(one, known, whole) if each not in chain]
     return [*chain, name]
 
 
@@ -118,15 +134,21 @@ def _theory(with_lyapunov: bool) -> str:
 # The rules, each by its definitions, and by what follows from its premises.
 
 
-def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The state, its coordinates, domain and space, and the map by its pieces."""
-    axes = [axis.removeprefix("Map.") for axis in f.axes]
+def states(f: Frame) -> Iterator[str]:
+    """The state, its coordinates, and what is stable and attracting."""
+    axes = [axis.removeprefix("States.") for axis in f.axes]
     cases = " | ".join(f"{axis} => {name}" for axis, name in zip(axes, f.state))
-    yield "Module Map."
+    yield "Module States."
     yield f"Definition State : Type := {' * '.join(['R'] * len(axes))}."
     yield f"Inductive axis : Set := {' | '.join(axes)}."
     yield f"Definition coordinate (of_j : axis) {f.pattern} : R :=\n  match of_j with {cases} end."
     yield texts.STABLE
+    yield "End States.\n"
+
+
+def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """Domain and space, and the map by its pieces."""
+    yield "Module Map.\nImport States."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "space", "Prop", *own.get("space"))
     steps = "of_s"
@@ -172,7 +194,7 @@ def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def descent_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Rank and stages."""
-    yield "Module Descent.\nImport Map."
+    yield "Module Descent.\nImport States Map."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "rank", "R", *own.get("rank"))
     stages = own.get("stage")
@@ -223,7 +245,7 @@ def _in_a_stage(count: int) -> str:
 
 def contraction_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The set, the point, and the numbers of the norm."""
-    yield "Module Contraction.\nImport Map."
+    yield "Module Contraction.\nImport States Map."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "on", "Prop", *own.get("on"))
     for name in ("point", "weights"):
@@ -247,8 +269,8 @@ def contraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     parts = []
     for axis in f.axes:
-        apart = f"Map.coordinate {axis} of_s - Map.coordinate {axis} (Contraction.point$a)"
-        reach = f"of_c * Map.coordinate {axis} (Contraction.weights$a)"
+        apart = f"States.coordinate {axis} of_s - States.coordinate {axis} (Contraction.point$a)"
+        reach = f"of_c * States.coordinate {axis} (Contraction.weights$a)"
         parts.append(f"(- {reach} <= {apart} /\\\n   {apart} <= {reach})")
     yield f.fill(
         texts.CONTRACTS,
@@ -303,7 +325,7 @@ def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def escape_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Where the periodic orbit starts, and the point that it stays away from."""
-    yield "Module Escape.\nImport Map."
+    yield "Module Escape.\nImport States Map."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     for name in ("point", "start"):
         yield f.define(own, name, "State", *own.get(name)[0], of_state=False)
@@ -340,14 +362,67 @@ def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     )
 
 
+def _around(f: Frame, attraction: checker.Statement) -> str:
+    """The module with the point of an attraction."""
+    if attraction.kind == "into":
+        return "Inner." + _around(f, f.known[attraction.text("attraction")])
+    return LYAPUNOV if attraction.get("lyapunov") else "Contraction"
+
+
+def _tends(attraction: checker.Statement) -> str:
+    """What takes from its theorem that every state is attracted."""
+    bounded = bool(attraction.get("contraction"))
+    return "(fun of_all => proj1 (proj2 of_all))" if bounded else "proj2"
+
+
+def into_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """A neighbourhood of the point that is in the smaller space."""
+    inner = own
+    while inner.kind in ("into", "attracts"):
+        (name,) = (
+            text
+            for (key, _), text in zip(inner.lines, inner.texts)
+            if key in ("attraction", "contraction", "lyapunov")
+        )
+        inner = f.known[name]
+    yield "Module Into.\nImport States."
+    radius = f.lets(inner, own.get("radius")) + coq_term(*own.get("radius"))
+    yield f"Definition radius{f.bound} : R :=\n  {radius}."
+    yield "End Into."
+
+
+def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """The point is stable and attracts every state of the larger space."""
+    descent, attraction = f.known[own.text("descent")], f.known[own.text("attraction")]
+    inner_descent, last = f.known[attraction.text("descent")], f.extra_steps(descent) + 1
+    agree = "|".join(
+        f.fill(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)", own)
+        for k in f.pieces
+    )
+    yield f.fill(
+        texts.INTO,
+        own,
+        around=_around(f, own),
+        tends=_tends(attraction),
+        attraction=f"Inner.{theorem_name(attraction.name)}",
+        descent=reading_name(descent.name),
+        inner=f"Inner.{reading_name(inner_descent.name)}",
+        descends=theorem_name(descent.name),
+        extra=last - 1,
+        last=last,
+        one_piece=f.one_piece(),
+        agree=agree,
+        within=conjoined([f"(within_one _ _ (of_close {axis}))" for axis in f.axes]),
+    )
+
+
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state just on the domain of the descent."""
     attraction = f.known[own.text("attraction")]
-    by_lyapunov = bool(attraction.get("lyapunov"))
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     words = {
-        "around": LYAPUNOV if by_lyapunov else "Contraction",
-        "tends": "proj2" if by_lyapunov else "(fun of_all => proj1 (proj2 of_all))",
+        "around": _around(f, attraction),
+        "tends": _tends(attraction),
         "attraction": theorem_name(attraction.name),
         "each_axis": conjunctive(each),
         "back": "|".join(f"exact (eq_sym {one})" for one in each),
@@ -379,6 +454,7 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "lyapunov": (lyapunov_definitions, lyapunov_proofs),
     "unstable": (instability_definitions, instability_proofs),
     "attracts": (no_definitions, attraction_proofs),
+    "into": (into_definitions, into_proofs),
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),
 }

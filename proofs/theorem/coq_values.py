@@ -21,8 +21,8 @@ class Around:
         self.guards = [guard for guard, _ in own.get("value")]
         self.have = own.get("have")
         coordinates = f.state if len(f.axes) > 1 else ["of_s"]
-        at = [f"(Map.coordinate {axis} ({module}.point$a))" for axis in f.axes]
-        self.apart = [f"Map.coordinate {axis} of_s - {e}" for axis, e in zip(f.axes, at)]
+        at = [f"(States.coordinate {axis} ({module}.point$a))" for axis in f.axes]
+        self.apart = [f"States.coordinate {axis} of_s - {e}" for axis, e in zip(f.axes, at)]
         self.gaps = " ".join(f"({name} - {e})" for name, e in zip(coordinates, at))
         self.sums = " ".join(f"{name} (sum_is {name} {e})" for name, e in zip(coordinates, at))
         self.points = "".join(f" {e}" for e in at) if self.have else ""
@@ -77,7 +77,7 @@ def values_of(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The value, what it loses at least, and the set."""
-    yield f"Module {LYAPUNOV}.\nImport Map."
+    yield f"Module {LYAPUNOV}.\nImport States Map."
     yield from values_of(f, own)
     yield f.define(own, "on", "Prop", *own.get("on"))
     yield f.define(own, "loss", "R", *own.get("loss"), more=" (value : R)")
@@ -114,19 +114,20 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         choice = "destruct {} as [of_no|of_le]; [destruct (of_no of_guard)|exact of_le]"
         rows += f.by_pieces(
             own,
-            f"falls _{k}",
+            "falls",
             f"{before} {given} of_g of_next",
+            value=f"_{k}",
             point=f"{around.points} {around.gaps}{extra}",
             places=" in of_next, of_guard |- *",
             case=choice if guard else "exact {}",
         )
         falls.append(rows + " }")
         small.append(
-            f"apply (of_near_point_is$a _ _) in of_close; {f.words['open'].replace('. ', '; ')}"
+            f"apply (of_near_point_is$a _ _) in of_close; ${{opening}}"
             f"exact (${{P}}_small_{k}$a{around.points} {around.gaps} of_d of_dom{around.proofs}"
             f" {around.sums} of_there (Rle_ge _ _ of_1) of_close of_2{' of_here' if guard else ''})"
         )
-    norm = f"(Map.f$a) Map.coordinate (fun of_j => Map.coordinate of_j ({LYAPUNOV}.point$a))"
+    norm = f"(Map.f$a) States.coordinate (fun of_j => States.coordinate of_j ({LYAPUNOV}.point$a))"
     parts = f"({LYAPUNOV}.guards$a) ({LYAPUNOV}.values$a) {len(around.guards)}"
     losses = f"(fun of_s {'_' if is_plain else 'of_v'} => {loss}) ({LYAPUNOV}.least$a)"
     more = {
@@ -177,7 +178,7 @@ def _side(proof: str, k: int, count: int) -> str:
 
 def instability_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The value, what it grows by, and states as near the point as one likes."""
-    yield f"Module {CHETAEV}.\nImport Map."
+    yield f"Module {CHETAEV}.\nImport States Map."
     yield from values_of(f, own)
     yield f.define(own, "rate", "R", *own.get("rate"), of_state=False)
     terms = own.get("direction")[0]
@@ -201,15 +202,15 @@ def instability_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     for k, guard in enumerate(around.guards, 1):
         given = f"of_dom{around.proofs} {around.sums} of_there of_close"
         given += " of_here of_1" if guard else " of_1"
-        opened = f.words["open"].replace(". ", "; ")
         bounded.append(
-            f"apply (of_near_centre_is$a _ _) in of_close; {opened}"
+            f"apply (of_near_centre_is$a _ _) in of_close; ${{opening}}"
             f"exact (${{P}}_bounded_{k}$a{around.points} {around.gaps} {given})"
         )
         by = f.by_pieces(
             own,
-            f"grows _{k}",
+            "grows",
             f"{given} of_g of_next",
+            value=f"_{k}",
             point=f"{around.points} {around.gaps}",
             case=f"pose proof {{}} as {later}; [{grows}]",
         )

@@ -18,7 +18,7 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
-from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, SUBTRACT, edited, read
+from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, PUSH, SUBTRACT, edited, read
 from tests.certificates.checker.test_map_rules import (
     FAILING,
     FAILING_IN_A_SPACE,
@@ -26,7 +26,7 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_WITH_GUARDS,
 )
 
-STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, ASKED)]
+STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, ASKED)]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
 SUBTRACTING = STATEMENTS_OF[0]
@@ -60,6 +60,11 @@ CONCLUSIONS = {
     " of the space {x >= 0}",
     "nest/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
     " only if 0 < a < 1",
+    "push/relation": "for 0 <= a < 1: each state x of the space {0 = 0} has a next state, and all"
+    " next states are in it: u*x where u >= -a and u <= a and x > -1; -u*x/2 where u >= -a and"
+    " u <= a and x < 1; x/6 where x > 5, for all u",
+    "push/attracts": "for 0 <= a < 1/2: e = 0 is stable and attracts every state of the space;"
+    " f^n(s) is any state that the relation leads to from s in n steps",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",
@@ -391,7 +396,10 @@ def test_a_stored_rule_is_open_where_its_map_is_open_now_holds(
     assert certify(path) == 1
 
 
-ORDER = "; the lines of `contracts` are, in this order: map, domain, root (any number), on, point,"
+ORDER = (
+    "; the lines of `contracts` are, in this order: map or relation, domain, root (any number), on,"
+    " point,"
+)
 FAULTS: dict[str, tuple[Rows, str]] = {
     "missing": ((*NEAR[:3], NEAR[4], *NEAR[6:]), f"`point`, `rate` missing{ORDER}"),
     "out of order": (

@@ -98,3 +98,11 @@ def test_a_range_is_sharp_only_for_the_conclusion_itself_holds(
     is_conclusion: bool, text: str
 ) -> None:
     assert range_of_rule("t/exactly", SHARP, is_conclusion=is_conclusion) == text
+
+
+def test_a_map_without_parameters_has_no_range_holds() -> None:
+    texts = {
+        "t/map": "statement t/map\nover \ndomain 0 < 1\nstate x",
+        "t/near": "map t/map\ndomain 0 < 1",
+    }
+    assert range_of_rule("t/near", texts) == range_of_rule("t/map", texts) == ""

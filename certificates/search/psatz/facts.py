@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import comb, prod
-from operator import mul
+from operator import le, mul
 
 from flint import fmpz_mat, fmpz_mpoly
 
@@ -80,6 +80,15 @@ def power(factors: Factors, exponent: int) -> Factors:
     return tuple((index, e * exponent) for index, e in factors) if exponent else ()
 
 
+def implies(equation: fmpz_mpoly, other: fmpz_mpoly) -> bool:
+    """Whether the other one is a multiple of higher degree."""
+    return (
+        total_degree(equation) < total_degree(other)
+        and all(map(le, equation.degrees(), other.degrees()))
+        and not divmod(other, equation)[1]
+    )
+
+
 class Reduction:
     """The eliminations of a state in order, and the equations that are left."""
 
@@ -94,9 +103,7 @@ class Reduction:
         self.left = [
             Equation(poly, {index: ring.one}, ring.one, ())
             for index, poly in equations
-            if not any(
-                len(other) < len(poly) and not divmod(poly, other)[1] for _, other in equations
-            )
+            if not any(implies(other, poly) for _, other in equations)
         ]
         self.contradiction: Equation | None = None
         while self.left and self._divide_one():

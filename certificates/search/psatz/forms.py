@@ -18,11 +18,12 @@ from fractions import Fraction
 from functools import partial
 from itertools import combinations
 from itertools import product as choices
-from math import comb, gcd, lcm, prod
+from math import gcd, lcm, prod
 
-from flint import fmpq_poly, fmpz_mpoly
+import numpy as np
+from flint import fmpz_mpoly
 
-from juggleproof.certificates.algebra.numbers import bernstein, fraction
+from juggleproof.certificates.algebra.numbers import polynomial_text
 from juggleproof.certificates.algebra.polynomials import (
     Monomial,
     Ring,
@@ -32,127 +33,36 @@ from juggleproof.certificates.algebra.polynomials import (
 )
 from juggleproof.certificates.algebra.semidefinite import Floats, LinearEquations, as_squares
 from juggleproof.certificates.nodes import Node
-from juggleproof.certificates.search.psatz.facts import Factors, merge
+from juggleproof.certificates.search.psatz.facts import merge
 from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift
+from juggleproof.certificates.search.psatz.parameters import (
+    Axis,
+    bounds,
+    degree_in_all,
+    split_variables,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.search.psatz.sums_of_squares import (
     FactBlock,
     Square,
     SquaresProgram,
-    search_squares,
 )
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, Exhausted
 
-MOST_PARAMETERS = 8
 MOST_PARTS = 100  # Bernstein polynomials of one box
 MOST_COUPLED = 40  # the same, where all are parts of one program
-MOST_GUARDS = 6  # facts that are linear in z
-HALVINGS = 3  # of a box, one inside another
+MOST_GUARDS = 6  # facts of degree 1 or 2 in z
 MOST_GOALS = 3
-RAISED = 3
-FINE = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
-INNER = ((1e-4, 1e-5), (1e-6, 1e-6))
+RAISED = 3  # by how much a degree is raised
+EACH = 1500  # units of work for one coefficient
+SAMPLES, MARGIN = 1000, 1e-3
+HALVINGS = 3  # of a box, one inside another
+DENOMINATORS = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
+MIDDLES = ((1e-4, 1e-5), (1e-6, 1e-6))  # as `sums_of_squares.GOALS`, but in the middle of the cone
 
 Form = dict[Monomial, Fraction]  # exponents of all variables: coefficient
 Found = tuple[list[Square], list[fmpz_mpoly]]  # with the roots
-
-
-@dataclass(frozen=True)
-class Axis:
-    """A parameter with the numbers of the facts low <= parameter, parameter <= high; one of them
-    may be missing.
-    """
-
-    variable: int
-    low: int | None
-    high: int | None
-
-    def factors(self, k: int, degree: int) -> Factors:
-        """The k-th of the products of powers of the bounds: a basis of the polynomials of at most
-        this degree.
-        """
-        powers = [(self.low, k), (self.high, degree - k if self.low is not None else k)]
-        return tuple((fact, e) for fact, e in powers if fact is not None and e)
-
-    def row(self, problem: Problem, exponent: int, degree: int) -> list[Fraction]:
-        """The coefficients of parameter^exponent in this basis."""
-        size = {
-            fact: abs(constant_of(problem.facts[fact].poly.derivative(self.variable)) or 1)
-            for fact in (self.low, self.high)
-            if fact is not None
-        }
-        if self.low is not None and self.high is not None:
-            low, high = (problem.facts[k].end(self.variable) for k in (self.low, self.high))
-            values = bernstein(fmpq_poly([0] * exponent + [1]), low, high, degree)
-            return [
-                fraction(b)
-                * comb(degree, k)
-                / (high - low) ** degree
-                / size[self.low] ** k
-                / size[self.high] ** (degree - k)
-                for k, b in enumerate(values)
-            ]
-        (fact,) = size
-        end, sign = problem.facts[fact].end(self.variable), 1 if self.high is None else -1
-        return [
-            comb(exponent, k) * end ** (exponent - k) * Fraction(sign, size[fact]) ** k
-            if k <= exponent
-            else Fraction(0)
-            for k in range(degree + 1)
-        ]
-
-
-def bounds(problem: Problem) -> dict[int, Axis]:
-    """The variables that facts in them alone bound, with the tightest bounds."""
-    low: dict[int, int] = {}
-    high: dict[int, int] = {}
-    for k, fact in enumerate(problem.facts):
-        degrees = [int(d) for d in fact.poly.degrees()]
-        if sum(degrees) != 1:
-            continue
-        v = degrees.index(1)
-        above = (constant_of(fact.poly.derivative(v)) or 0) > 0
-        side = low if above else high
-        if v not in side or (fact.end(v) > problem.facts[side[v]].end(v)) == above:
-            side[v] = k
-    for v in low.keys() & high.keys():
-        if problem.facts[low[v]].end(v) >= problem.facts[high[v]].end(v):
-            del high[v]  # one value or none: no interval to write polynomials on
-    return {v: Axis(v, low.get(v), high.get(v)) for v in sorted({*low, *high})}
-
-
-def degree_in_all(poly: fmpz_mpoly, variables: Sequence[int]) -> int:
-    """The total degree in some of the variables."""
-    return max((sum(int(m[v]) for v in variables) for m in poly.monoms()), default=0)
-
-
-def split_variables(
-    problem: Problem, goal: fmpz_mpoly, axes: dict[int, Axis]
-) -> tuple[list[int], list[int]] | None:
-    """(parameters, others), so that the goal is of degree 2 at most in the others, if possible of
-    degree 2 in each term; None where there are none.
-    """
-    degrees = [int(d) for d in goal.degrees()]
-    used = {v for poly in problem.polys() for v, d in enumerate(poly.degrees()) if d}
-    both = {v for v, axis in axes.items() if axis.low is not None and axis.high is not None}
-    fixed = [v for v in sorted(used) if not degrees[v] and v in both]
-    open_ = [v for v in axes if degrees[v]]
-    if len(open_) > 2 * MOST_PARAMETERS:
-        return None
-    monomials = [[int(e) for e in m] for m in goal.monoms()]
-    best: tuple[tuple[int, bool, int], tuple[int, ...]] | None = None
-    for count in range(min(len(open_), MOST_PARAMETERS) + 1):
-        for chosen in combinations(open_, count):
-            rest = [v for v in range(len(degrees)) if v not in chosen]
-            heights = {sum(m[v] for v in rest) for m in monomials}
-            rank = sum(v not in both for v in chosen), heights != {2}, count
-            if max(heights) <= 2 and (best is None or rank < best[0]):
-                best = rank, chosen
-    if best is None:
-        return None
-    parameters = sorted({*best[1], *fixed})
-    return parameters, [v for v in sorted(used) if v not in parameters]
 
 
 @dataclass(frozen=True)
@@ -232,15 +142,17 @@ class QuadraticForm:
 
     # -------------------------------------------------------- nodes
 
-    def node(self, budget: Budget) -> Node | None:
-        """The node of the whole box; where None was found, `halving` may say how to halve it."""
+    def node(self, budget: Budget, coupled: bool) -> Node | None:
+        """The node of the whole box; where None was found, `halving` may say how to halve it.
+        `coupled`: also by facts with parameters.
+        """
         if not self.fits:
             return None
         for linear, quadratic in self._choices(True):
             node = self._apart(linear, quadratic, budget)
             if node is not None:
                 return node
-        for more in range(RAISED):
+        for more in range(RAISED if coupled else 0):
             for linear, quadratic in self._choices(False):
                 node = self._coupled(linear, quadratic, more, budget)
                 if node is not None:
@@ -248,25 +160,24 @@ class QuadraticForm:
         return None
 
     def _choices(self, free: bool) -> Iterator[tuple[list[Guard], list[Guard]]]:
-        """Facts of degree 1 and 2 in z, `free` of parameters or all: forms in the goal's variables
-        first.
+        """Facts of degree 1 and 2 in z, `free` of parameters or all: forms alone, then all; where
+        they are many, those in the goal's variables.
         """
-        tried: list[list[int]] = []
-        for alone, forms in choices((True, False), (True, False)):
-            linear, quadratic = (
-                [
-                    one
-                    for one in self.guards[height]
-                    if not (forms and not one.homogeneous)
-                    and not (alone and self._used(one) - self.own)
-                    and not (free and self._used(one) & set(self.parameters))
-                ]
-                for height in (1, 2)
-            )
-            key = [one.fact for one in (*linear, *quadratic)]
-            if key not in tried and len(key) <= MOST_GUARDS:
-                tried.append(key)
-                yield linear, quadratic
+        for forms in (True, False) if self.form.homogeneous else (False,):
+            for alone in (False, True):
+                linear, quadratic = (
+                    [
+                        one
+                        for one in self.guards[height]
+                        if not (forms and not one.homogeneous)
+                        and not (alone and self._used(one) - self.own)
+                        and not (free and self._used(one) & set(self.parameters))
+                    ]
+                    for height in (1, 2)
+                )
+                if len(linear) + len(quadratic) <= MOST_GUARDS:
+                    yield linear, quadratic
+                    break
 
     @staticmethod
     def _used(one: Guard) -> set[int]:
@@ -294,8 +205,10 @@ class QuadraticForm:
         blocks = list(self._products(linear, quadratic))
         for more in range(RAISED + 1):
             degrees = [degree_in(self.form.poly, axis.variable) + more for axis in axes]
-            if more and (not axes or prod(n + 1 for n in degrees) > MOST_PARTS):
+            count = prod(n + 1 for n in degrees)
+            if more and not axes or count > MOST_PARTS:
                 break
+            budget.spend(count * len(basis))
             found, at_vertex = self._each(
                 terms_of(self.form.poly, Fraction(-1)),
                 axes,
@@ -366,13 +279,14 @@ class QuadraticForm:
             ]
             for one in exponents
         ]
-        squares = as_squares(gram)
+        top = max((abs(c) for row in gram for c in row), default=Fraction(0)) or Fraction(1)
+        squares = as_squares([[c / top for c in row] for row in gram])  # which fit into floats
         if squares is None:
             return None
         roots = [
             sum((b * c for b, c in zip(basis, row) if c), self.ring.zero) for _, row in squares
         ]
-        return [(((), k), weight) for k, (weight, _) in enumerate(squares)], roots
+        return [(((), k), weight * top) for k, (weight, _) in enumerate(squares)], roots
 
     def _products(self, linear: list[Guard], quadratic: list[Guard]) -> Iterator[FactBlock]:
         """Products of two facts that are linear in z, and facts of degree 2, or of degree 1 where
@@ -393,8 +307,8 @@ class QuadraticForm:
         budget: Budget,
     ) -> Found | None:
         """A form without parameters as squares and products of facts, with the roots."""
-        budget.spend(20)
-        if not blocks or not form:
+        budget.spend(100)
+        if not blocks or not form or is_negative(form, basis, blocks):
             return None
         below = lcm(*(c.denominator for c in form.values()))
         whole = {m: int(c * below) for m, c in form.items()}
@@ -421,9 +335,13 @@ class QuadraticForm:
         inside = InnerProgram(
             self.ring, [goal, squares, *blocks], [], kept, total, count=1, completed=completed
         )
-        search_squares(
-            [inside, SquaresProgram(self.ring, [goal, squares, *blocks], [], kept, total)], budget
-        )
+        part = budget.part(EACH)
+        try:
+            if inside.node(part) is None and inside.solved:
+                SquaresProgram(self.ring, inside.blocks, [], kept, total).node(part)
+        except Exhausted:
+            if budget.left < 0:
+                raise
         return result[0] if result else None
 
     def _halving(self, axes: Sequence[Axis]) -> str:
@@ -449,8 +367,9 @@ class QuadraticForm:
             if bend > best:
                 middle = sum(both, Fraction(0)) / 2
                 best = bend
-                text = f"{middle.denominator}*{self.ring.names[v]} - {middle.numerator}"
-        return text.replace("- -", "+ ")
+                name = self.ring.names[v]
+                text = polynomial_text([-middle.numerator, middle.denominator], name)
+        return text
 
     # -------------------------------------------------------- all coefficients in one program
 
@@ -462,7 +381,7 @@ class QuadraticForm:
         whole = [self.form, *linear, *quadratic]
         if not alone and not self.equations:
             if not any(self._used(g) & set(self.parameters) for g in whole[1:]):
-                return None
+                return None  # each coefficient was tried apart
         products = list(self._products(linear, quadratic))
         axes = self._axes([g.poly for g in (*whole, *alone)])
         polys = [self.form.poly, *(b.poly for b in products), *(g.poly for g in alone)]
@@ -500,6 +419,7 @@ class QuadraticForm:
                     monomial = prod(parts, start=z)
                     exponents = tuple(map(int, monomial.monoms()[0]))
                     cofactors.append(((place, exponents), poly * monomial))
+        budget.spend(10 * len(blocks))
         total = Fraction(1, max(abs(int(c)) for c in self.form.poly.coeffs()))
 
         def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
@@ -514,8 +434,10 @@ class QuadraticForm:
         inside = InnerProgram(
             self.ring, blocks, cofactors, whole_lift, total, count=len(base), completed=completed
         )
-        programs = [inside, SquaresProgram(self.ring, blocks, cofactors, whole_lift, total)]
-        return search_squares(programs[: 1 if more else 2], budget)
+        node = inside.node(budget)
+        if node is None and inside.solved and not more:
+            node = SquaresProgram(self.ring, blocks, cofactors, whole_lift, total).node(budget)
+        return node
 
     def _times_bounds(
         self, block: FactBlock, axes: Sequence[Axis], degrees: Sequence[int]
@@ -540,17 +462,43 @@ def joined(one: Found, other: Found) -> Found:
     return [*one[0], *moved], [*one[1], *other[1]]
 
 
+def is_negative(form: Form, basis: Sequence[fmpz_mpoly], blocks: Sequence[FactBlock]) -> bool:
+    """Whether floats see a point at which no product of facts is negative, but the form is: then no
+    program leads to squares.
+    """
+    exponents = [tuple(map(int, b.monoms()[0])) for b in basis]
+    place = {
+        tuple(map(sum, zip(exponents[i], exponents[j]))): (i, j)
+        for i in range(len(basis))
+        for j in range(i + 1)
+    }
+    random, size = np.random.default_rng(11), (SAMPLES, len(basis))
+    points = random.normal(size=size) * np.exp(random.normal(size=size))
+    points /= np.abs(points).max(axis=1, keepdims=True)
+    if basis[0] == 1:
+        points[:, 0] = np.abs(points[:, 0])
+    kept = np.ones(SAMPLES, dtype=bool)
+    for terms in (*(terms_of(block.poly, Fraction(1)) for block in blocks), form):
+        top, values = max(map(abs, terms.values())), np.zeros(SAMPLES)
+        for m, c in terms.items():
+            i, j = place[m]
+            values += float(c / top) * points[:, i] * points[:, j]
+        kept &= values >= 0 if terms is not form else values < -MARGIN
+    return bool(kept.any())
+
+
 @dataclass
 class InnerProgram(SquaresProgram):
     """A program whose matrices are all definite: those of its first `count` blocks after the goal
     are not rounded, but `completed` from what the rounded ones leave.
     """
 
-    goals: Sequence[tuple[float, float]] = INNER
-    denominators: Sequence[int] = FINE
+    goals: Sequence[tuple[float, float]] = MIDDLES
+    denominators: Sequence[int] = DENOMINATORS
     kernels: Sequence[float] = ()
     count: int = 0
     completed: Callable[[list[Square], list[fmpz_mpoly], Form], Node | None] = lambda *_: None
+    solved: bool = False  # whether there are floating matrices
 
     def _rounded(
         self,
@@ -560,6 +508,7 @@ class InnerProgram(SquaresProgram):
         budget: Budget,
     ) -> Node | None:
         """The node of rational matrices near the floating ones, shorter ones first."""
+        self.solved = True
         for denominator in denominators:
             budget.spend(50 + len(linear.entries))
             used, roots = list[Square](), list[fmpz_mpoly]()
@@ -604,24 +553,34 @@ def is_vertex(place: Sequence[int], degrees: Sequence[int]) -> bool:
     return all(k in (0, n) for k, n in zip(place, degrees))
 
 
-def search_forms(state: State, ring: Ring, budget: Budget, halvings: int = HALVINGS) -> Node | None:
+def search_forms(
+    state: State, ring: Ring, budget: Budget, coupled: bool = True, halvings: int = HALVINGS
+) -> Node | None:
     """A node for a state one of whose strict facts is -Q > 0, with a quadratic form Q >= 0 in a box
-    of parameters; None where none was found.
+    of parameters; None where none was found.  Not `coupled`: of the last such fact alone, by facts
+    without parameters.
+
+    Raises Exhausted where the budget ends.
     """
     if state.closed:
         return ("close",)
     problem = Problem(state, ring, quotients=False)
     problem.divide()
-    goals = [k for k, f in enumerate(problem.facts) if f.strict and total_degree(f.poly) > 1]
-    for goal in goals[: -MOST_GOALS - 1 : -1]:
+    last = len(problem.facts) - 1
+    goals = [
+        k
+        for k, f in enumerate(problem.facts)
+        if f.strict and (k == last or total_degree(f.poly) > 1)
+    ]
+    for goal in goals[::-1][: MOST_GOALS if coupled else 1]:
         form = QuadraticForm(problem, goal)
-        node = form.node(budget)
+        node = form.node(budget, coupled)
         if node is not None:
             return node
         if form.halving and halvings:
             nodes = list[Node]()
             for case in state.by_sign(form.halving):
-                part = search_forms(case, ring, budget, halvings - 1)
+                part = search_forms(case, ring, budget, coupled, halvings - 1)
                 if part is None:
                     break
                 nodes.append(part)

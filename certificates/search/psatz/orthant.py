@@ -32,7 +32,6 @@ from juggleproof.certificates.search.psatz.linear_program import EXACT, Program,
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
 
-MOST_COLUMNS = 1200
 MOST_FOR_PAIRS = 8  # facts beside the coordinates
 ROUNDS = 2  # of multipliers, each for the monomials of those before
 MORE = 2  # degrees beyond that of the facts
@@ -181,8 +180,8 @@ class Base:
         self.degree = total_degree(self.poly)
 
 
-def search_orthant(problem: Problem, budget: Budget) -> Node | None:
-    """The node of an identity; None where none was found.
+def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
+    """The node of an identity of at most so many products; None where none was found.
 
     Raises Exhausted where the budget ends.
     """
@@ -197,7 +196,7 @@ def search_orthant(problem: Problem, budget: Budget) -> Node | None:
         starts = [[k for k, fact in enumerate(leaf.alone) if fact == last]]
         starts += [list(range(len(leaf.alone)))] if only is every else []
         for start in starts:
-            node = leaf.node(start, budget) if start else None
+            node = leaf.node(start, most, budget) if start else None
             if node is not None:
                 return node
     return None
@@ -234,7 +233,9 @@ class Leaf:
         self.equations = [Base(*orthant.changed(e.poly)) for e in self.problem.reduction.left]
         self.top = top
 
-    def _columns(self, start: Sequence[int], budget: Budget) -> list[tuple[int, Monomial]]:
+    def _columns(
+        self, start: Sequence[int], most: int, budget: Budget
+    ) -> list[tuple[int, Monomial]]:
         """The bases, and the equations after them, each times monomials that cancel one."""
         every = [*self.bases, *self.equations]
         one = (0,) * self.ring.size
@@ -261,7 +262,7 @@ class Leaf:
                             )
                         ):
                             continue
-                        if len(columns) >= MOST_COLUMNS:
+                        if len(columns) >= most:
                             return list(columns)
                         columns[k, factor] = None
                         new.update(
@@ -272,9 +273,11 @@ class Leaf:
             reached = {m: None for m in new if m not in reached}
         return list(columns)
 
-    def node(self, start: Sequence[int], budget: Budget) -> Node | None:
+    def node(self, start: Sequence[int], most: int, budget: Budget) -> Node | None:
         """The node of an identity."""
-        columns = sorted(self._columns(start, budget), key=lambda one: one[0] >= len(self.bases))
+        columns = sorted(
+            self._columns(start, most, budget), key=lambda one: one[0] >= len(self.bases)
+        )
         every = [*self.bases, *self.equations]
         numbers: dict[Monomial, int] = {}
         program = Program()

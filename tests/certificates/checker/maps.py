@@ -412,8 +412,8 @@ on h < 1 and x_gap < y_point
 point c, b
 have x_point^2 = a
 have y_point < 1
-value h > 2 -> x + h*y_gap
 value c*y
+value h > 2 -> x + h*y_gap
 loss value*x
 least level + distance
 upper c

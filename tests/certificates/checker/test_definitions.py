@@ -189,6 +189,13 @@ def test_rejects_a_definition_of_what_a_line_names(text: str, name: str) -> None
         assert refused(info.value, (kind, name))
 
 
+def test_a_definition_is_written_out_in_what_is_known_of_a_point_holds() -> None:
+    text = edited(SUBTRACT, "lyapunov", "value x\n", "have x_point = 0\nvalue x\n")
+    defined = "define zero(z) := z = 0\n\n" + text.replace("x_point = 0", "zero(x_point)")
+    assert checked(defined, searched(text)) == checked(text, searched(text))
+    assert checked(defined, searched(text))["demo/lyapunov"] == ("certified", None)
+
+
 def test_a_definition_may_be_over_what_a_relation_declares() -> None:
     above = "define times(z) over u := u*z\ndefine inside over x := x >= -2 and x <= 2\n\n"
     text = edited(PUSH, "relation", "-> u*x\n", "-> times(x)\n")

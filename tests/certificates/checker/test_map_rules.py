@@ -69,6 +69,9 @@ FAILING = [
     ("lyapunov", "least (1 - a)*distance", "least 0", "positive"),
     ("lyapunov", "least (1 - a)*distance", "least (1 - a)*level", "positive"),
     ("lyapunov", "point 0", "point -1", "point"),
+    ("lyapunov", "point 0", "point 0\nhave x_point = 1", "point"),
+    ("lyapunov", "point 0", "point 0\nhave 0 = 1", "point"),
+    ("lyapunov", "value x", "have x_point >= 0\nvalue x_gap", "surrounds"),
     ("lyapunov", "radius 1/2", "radius 2", "surrounds"),
     ("lyapunov", "value x", "value x - 1", "bounded"),
     ("lyapunov", "loss (1 - a)*value", "loss (1 - a)*value - 1", "loss"),
@@ -92,6 +95,7 @@ FAILING_WITH_GUARDS = [
     ("lyapunov", "(a - 3)*x/4", "-x/2", "falls-2-1"),
     ("unstable", UNSTABLE, "domain a > 1 and a < 1", "possible"),
     ("unstable", UNSTABLE, "domain a > 1/2 and a > 0 and 1 + a > 0", "inside"),
+    ("unstable", "direction distance", "direction distance\nhave x_point = a", "point"),
     ("unstable", "rate 2*a/(1 + a)", "rate 1", "constants"),
     ("unstable", "radius 1", "radius 0", "constants"),
     ("unstable", "upper 1", "upper 0", "constants"),
@@ -145,6 +149,13 @@ JOINS_INTO = [
 
 @pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
 def test_every_rule_holds_on_another_map(text: str) -> None:
+    results = checked(text, searched(text))
+    assert {outcome for outcome, _ in results.values()} == {"certified"}, results
+
+
+def test_what_a_statement_has_of_its_point_is_known_to_its_premises_holds() -> None:
+    text = edited(SUBTRACT, "lyapunov", "value x\n", "have x_point = 0\nvalue x_gap\n")
+    text = edited(text, "lyapunov", "on x < 1", "on x_gap < 1")
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
 
@@ -500,6 +511,9 @@ MALFORMED = [
         "loss (1 - a)*value + level",
         (Kind.UNDECLARED, "level", "premise loss of demo/lyapunov"),
     ),
+    ("lyapunov", "value x", "have x >= 0\nvalue x", (Kind.UNDECLARED, "x")),
+    ("lyapunov", "value x", "have distance > 0\nvalue x", (Kind.UNDECLARED, "distance")),
+    ("lyapunov", "radius 1/2", "radius 1/2 + x_gap", (Kind.UNDECLARED, "x_gap")),
     ("lyapunov", "value x", "value value", Kind.VALUE),
     ("lyapunov", "value x", "value value < 1 -> x", Kind.VALUE),
     ("lyapunov", "value x", "value x, x", Kind.VALUE),

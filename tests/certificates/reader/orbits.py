@@ -297,7 +297,7 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
     ]
     bounded, names = [*here, *positive], ("value",)
     before, more = bounded, names
-    if len(values) == 1:
+    if len(values) == 1 and not values[0][0]:
         before, more = [given, Line("let", ("value", values[0][1])), *positive], ()
     any_level = [
         Line("given", (">", distance, ZERO)),

@@ -87,6 +87,28 @@ def zero_is_stable_just_below_1() -> list[MapRule]:
     ]
 
 
+@claim("falling")
+def zero_attracts_from_above() -> list[MapRule]:
+    """x -> a x for x <= 1, x - 1 above: what attracts [0, 1] attracts all x >= 0."""
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x"))
+    pieces = (("piece", "x <= 1 -> a*x"), ("piece", "x > 1 -> x - 1"))
+    of = (("map", "falling/small"), ("domain", BELOW_1))
+    set_ = (("on", UNIT), ("point", "0"))
+    rank = (("domain", BELOW_1), ("rank", "x"), ("stage", "x <= 1"))
+    return [
+        MapRule("small", (*over, ("space", UNIT), *pieces)),
+        MapRule("near", (*of, *set_, *norm("1", rate="a", radius="1", size="1"))),
+        MapRule("down", (*of, ("rank", "0"), ("stage", UNIT))),
+        MapRule("inner", (("descent", "falling/down"), ("contraction", "falling/near"))),
+        MapRule("large", (*over, ("space", "x >= 0"), *pieces)),
+        MapRule("falls", (("map", "falling/large"), *rank)),
+        MapRule(
+            "all",
+            (("descent", "falling/falls"), ("attraction", "falling/inner"), ("radius", "1/2")),
+        ),
+    ]
+
+
 def norm(weights: str, rate: str, radius: str, size: str) -> tuple[tuple[str, str], ...]:
     """The numbers of a contraction."""
     return ("weights", weights), ("rate", rate), ("radius", radius), ("size", size)

@@ -22,22 +22,27 @@ from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import coqc
 from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
+LARGE = "falling/all"
+
+
+def settles(point: str) -> str:
+    """That a point is stable and attracts every state, as it is stated."""
+    words = "(Map.space a) (Map.f a)"
+    return f"States.stable {words} ({point} a) /\\ States.attracting {words} ({point} a)"
+
+
 CONCLUSIONS = {
-    SHARP: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
-    " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a)).",
-    PLANE: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
-    " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a) /\\",
-    SHIFTED: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
-    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
-    " (LyapunovFunction.point a).",
-    GROWN: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
-    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
-    " (LyapunovFunction.point a)).",
+    SHARP: f"Map.domain a -> (Descent.domain a <-> {settles('Contraction.point')}).",
+    PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
+    SHIFTED: f"Descent.domain a -> {settles('LyapunovFunction.point')}.",
+    GROWN: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
+    LARGE: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
 }
 
 
@@ -67,7 +72,7 @@ def test_coqc_accepts_a_theorem_alone_holds(name: str, tmp_path: Path) -> None:
     coqc()
     text = written(name, *judged())
     says = " ".join(text.split(f"Theorem {coq_rules.theorem_name(name)} :")[1].split())
-    assert says.startswith(CONCLUSIONS[name])
+    assert says.startswith(f"forall a : R, {CONCLUSIONS[name]}")
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b", text)
     result = taken(tmp_path, text)
     assert result.returncode == 0, result.stderr
@@ -170,12 +175,30 @@ def test_rejects_what_cannot_be_written_in_one_line(
     )
 
 
+INEQUALITY = """
+from juggleproof import always, claim, real
+
+@claim("square")
+def squares_are_not_negative():
+    '''No square is negative.'''
+    return always(real("x")**2 >= 0)
+"""
+
+
+def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(INEQUALITY)
+    says = f"{own}: no claim on the orbits of a map; add a MapRule that concludes one"
+    with pytest.raises(ClaimError, match=re.escape(says)):
+        export_coq([str(own)], None)
+
+
 @pytest.mark.parametrize(
     "names, says",
     [
         (
             [str(MAPS)],
-            "several theorems, scaled/exactly, mixed/all, shifted/all, grown/exactly; give",
+            "several theorems, scaled/exactly, mixed/all,",
         ),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
@@ -184,3 +207,12 @@ def test_rejects_what_cannot_be_written_in_one_line(
 def test_rejects_what_is_no_question(names: list[str], says: str) -> None:
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq(names, None)
+
+
+def test_the_theorem_that_the_page_shows_is_written_holds(tmp_path: Path) -> None:
+    page = ROOT / "docs/your-own.md"
+    (source,) = (block.text for block in blocks(page) if block.title == "map.py")
+    (tmp_path / "map.py").write_text(source)
+    assert run(["export", "coq", str(tmp_path / "map.py"), "-o", str(tmp_path)]) == 0
+    (shown,) = code(page, "coq")
+    assert shown in (tmp_path / "S_halving_near.v").read_text()

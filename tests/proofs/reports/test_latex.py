@@ -69,8 +69,17 @@ def test_every_change_is_told_in_the_words_of_mathematics_holds() -> None:
     assert not [one for one in changes if re.search(r"\b(put|turned|column|marks)\b", one)]
 
 
-def test_a_function_within_a_sentence_is_set_holds() -> None:
-    assert tex_words.prose("E(t) and the time t_R") == r"$E(t)$ and the time $t_{\jugR}$"
+@pytest.mark.parametrize(
+    ("sentence", "set_as"),
+    [
+        ("E(t) and the time t_R", r"$E(t)$ and the time $t_{\jugR}$"),
+        ("where B_2 < mu |B_3|:", r"where $B_2 < \mu|B_3|$:"),
+        ("1 - (1 - alpha) w^2 / 2", r"$1 - (1 - \jugrestitution)w^2/2$"),
+        ("as (w - (a b x)) is", r"as ($w$ - (a $\jugstate$ $x$)) is"),
+    ],
+)
+def test_a_sentence_is_set_holds(sentence: str, set_as: str) -> None:
+    assert tex_words.prose(sentence) == set_as
 
 
 def test_every_formula_is_read_with_its_macros_holds() -> None:
