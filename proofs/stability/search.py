@@ -49,10 +49,14 @@ from juggleproof.proofs.stability.values import (
 )
 
 PARAMETERS, STATES = 150, 40  # samples
-BUDGET = 300_000  # counted work for a premise
+BUDGET = 2_000_000  # counted work for a premise
 EFFORTS = (1, 2, SQUARED)
-ROUNDS = (((1,), 20_000), ((1, 2), 100_000), (EFFORTS, BUDGET))  # for all candidates, in turn
-MOST_CANDIDATES = 24
+ROUNDS = (  # efforts, budget, and how many of the candidates get it
+    ((1,), 20_000, 24),
+    ((1, 2), 100_000, 16),
+    (EFFORTS, 400_000, 8),
+    (EFFORTS, 2_000_000, 3),
+)
 Report = Callable[[str], None]
 
 
@@ -297,9 +301,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     for rule in equation_rules(setting, space, name):
         if not tried(proof, rule, EFFORTS, BUDGET, log):
             return True
-    found = sorted(candidates(setting, space, name), key=lambda one: one[0])[:MOST_CANDIDATES]
-    for efforts, budget in ROUNDS:
-        for _, rule in found:
+    found = sorted(candidates(setting, space, name), key=lambda one: one[0])
+    for efforts, budget, most in ROUNDS:
+        for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
     return False

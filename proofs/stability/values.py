@@ -370,12 +370,18 @@ class Setting:
         return len(next(iter(self.parameters.values()))) if self.parameters else 1
 
     @cached_property
+    def constants(self) -> Arrays:
+        """The samples of the parameters, with the roots and the point's names."""
+        known = self.point.with_roots(self.parameters)
+        values = zip(self.system.state, self.point.at(self.parameters))
+        return known | {f"{name}_point": np.broadcast_to(v, (self.count,)) for name, v in values}
+
+    @cached_property
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
-        known = self.point.with_roots(self.parameters)
-        if self.have:
-            values = zip(self.system.state, self.point.at(self.parameters))
-            known |= {f"{name}_point": np.broadcast_to(v, (self.count,)) for name, v in values}
+        known = self.constants
+        if not self.have:
+            known = {k: v for k, v in known.items() if not k.endswith("_point")}
         return power_products(positive_factors(self.system, self.domain, known), known, self.count)
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
@@ -455,11 +461,7 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
         return
     found = [sympy.together(solutions[0].get(one, 0)) for one in unknowns]
     divisor = sympy.lcm([sympy.fraction(one)[1] for one in found])
-    known = setting.point.with_roots(setting.parameters)
-    known |= {
-        one: np.broadcast_to(v, (setting.count,))
-        for one, v in zip(names, setting.point.at(setting.parameters))
-    }
+    known = setting.constants
     with np.errstate(all="ignore"):
         signs = np.sign(np.asarray(value(written(divisor), known), float))
     if (signs < 0).all():
@@ -492,7 +494,7 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
     rng = np.random.default_rng(SEED)
     each = 200
     which = np.repeat(np.arange(setting.count), each)
-    known = setting.point.with_roots(setting.parameters)
+    known = setting.constants
     points = {name: values[which] for name, values in known.items()}
     middle = [
         np.broadcast_to(e, (setting.count,))[which] for e in setting.point.at(setting.parameters)
