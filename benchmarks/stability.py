@@ -106,7 +106,7 @@ def is_stable_by_program(matrices: Floats) -> bool:
     falls = [A.T @ P @ A << P - MARGIN * np.eye(n) for A in matrices]
     problem = cvxpy.Problem(cvxpy.Minimize(0), [P >> np.eye(n), *falls])
     problem.solve(solver=cvxpy.CLARABEL)
-    return problem.status == cvxpy.OPTIMAL
+    return bool(problem.status == cvxpy.OPTIMAL)
 
 
 def quadratic(system: Map) -> str:

@@ -208,6 +208,14 @@ def checker_text(node: ast.AST) -> str:
     return ast.unparse(node).replace("**", "^").replace("==", "=")
 
 
+def conjuncts(text: str) -> list[str]:
+    """The parts of a conjunction, or the formula itself."""
+    node = checker.parse(text)
+    if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
+        return [inner for part in node.values for inner in conjuncts(checker_text(part))]
+    return [checker_text(node)]
+
+
 def conjunction(*parts: str) -> str:
     """All of these formulas, without those that always hold or stand twice."""
     kept = list(dict.fromkeys(part for part in parts if part and part != ANYWHERE))

@@ -45,9 +45,7 @@ REJECTED = {
     ),
     "state 1x\npiece 2": "{file}: 1x is no name; write letters, digits and _",
     "state x\npiece abs(x, 1)": "{file}: abs(x, 1): abs takes one term, max and min one or more",
-    "state x\npiece x/2\npoint 0, 0": (
-        "{file}: point has not a term for each of x; write so many"
-    ),
+    "state x\npiece x/2\npoint 0, 0": ("{file}: point has not a term for each of x; write so many"),
     "state x\npiece " + " + ".join(f"abs(x - {k})" for k in range(7)): (
         "{file}: more than 64 cases of abs, max and min in one piece"
     ),
