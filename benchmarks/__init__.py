@@ -9,6 +9,7 @@ it but `juggleproof bench`.
     bounds     minima of the literature, enclosed and checked
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table
+    stability  the maps in examples: what is proved, and by a semidefinite program
     speed      whole commands: seconds and memory
 
 Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.

@@ -49,6 +49,7 @@ COMMANDS = (
     Timed("juggleproof explain theorem --alpha 3/10 --state x=1000,w=-41"),
     Timed("juggleproof errata"),
     Timed('juggleproof bound "x^2 - x*y + y^2/2" --box x=-1..1,y=0..1 --width 0'),
+    Timed("juggleproof stability examples/lozi.map", 10.0),
     Timed("juggleproof export smt2 eq-37"),
     Timed("juggleproof export coq eq-37"),
     Timed("juggleproof export coq tests/proofs/coq/maps.py -o DIR"),

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from juggleproof.proofs.claims import claims_of as claims_of
     from juggleproof.proofs.forms import always as always
     from juggleproof.proofs.forms import exists_some as exists_some
+    from juggleproof.proofs.stability.claiming import stability as stability
     from juggleproof.scenes.errors import SceneError as SceneError
     from juggleproof.scenes.juggler.orbits import orbit as orbit
     from juggleproof.scenes.juggler.starts import point as point
@@ -54,6 +55,7 @@ else:
         "proofs.bounds": "enclose_minimum",
         "proofs.claims": "Claim claim claims_of",
         "proofs.forms": "always exists_some",
+        "proofs.stability.claiming": "stability",
         "scenes.errors": "SceneError",
         "scenes.juggler.orbits": "orbit",
         "scenes.juggler.starts": "point scene",

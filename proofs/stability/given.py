@@ -208,6 +208,14 @@ def checker_text(node: ast.AST) -> str:
     return ast.unparse(node).replace("**", "^").replace("==", "=")
 
 
+def conjuncts(text: str) -> list[str]:
+    """The parts of a conjunction, or the formula itself."""
+    node = checker.parse(text)
+    if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
+        return [inner for part in node.values for inner in conjuncts(checker_text(part))]
+    return [checker_text(node)]
+
+
 def conjunction(*parts: str) -> str:
     """All of these formulas, without those that always hold or stand twice."""
     kept = list(dict.fromkeys(part for part in parts if part and part != ANYWHERE))
@@ -269,6 +277,8 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
     state = tuple(said["state"][0].split())
     pieces: list[Piece] = []
     for text in said["piece"]:
+        if text.count(" -> ") > 1:
+            raise ClaimError(f"piece {text}: two arrows; write GUARD -> TERM, ..")
         guard, arrow, images = text.rpartition(" -> ")
         node = checker.parse(f"({images},)")
         terms = tuple(map(checker_text, node.elts)) if isinstance(node, ast.Tuple) else ()
@@ -291,6 +301,17 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
         strange = sorted(checker.names_in(text) - set(found.names))
         if strange:
             raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
+    for text in (found.domain, *found.point):
+        strange = sorted(checker.names_in(text) - set(found.parameters))
+        if strange:
+            raise ClaimError(f"{strange[0]} in {text} is no parameter; name it in `over`")
+    for name in found.names:
+        if not re.fullmatch(r"[A-Za-z]\w*", name):
+            raise ClaimError(f"{name} is no name; write letters, digits and _")
+        if found.names.count(name) > 1:
+            raise ClaimError(f"{name} is named twice; write it once, in `over` or in `state`")
+    if found.point and len(found.point) != len(state):
+        raise ClaimError(f"point has not a term for each of {' '.join(state)}; write so many")
     return found
 
 
@@ -309,7 +330,7 @@ def of_rule(rule: MapRule, name: str = "") -> Map:
 
 def _readable(text: str) -> str:
     """Decimals as exact fractions."""
-    return re.sub(r"\b\d*\.\d+\b", lambda number: f"({Fraction(number[0])})", text)
+    return re.sub(r"(?<![\w.])\d*\.\d+(?![\w.])", lambda number: f"({Fraction(number[0])})", text)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -343,6 +364,8 @@ def _inmost(node: ast.expr) -> ast.Call | None:
 def _cases(call: ast.Call) -> list[tuple[str, str]]:
     """(condition, what the call is there), of which one holds at each state."""
     arguments = [checker_text(argument) for argument in call.args]
+    if not arguments or ast.unparse(call.func) == "abs" and len(arguments) > 1:
+        raise ClaimError(f"{ast.unparse(call)}: abs takes one term, max and min one or more")
     if ast.unparse(call.func) == "abs":
         (one,) = arguments
         return [(f"{one} >= 0", one), (f"{one} < 0", f"-({one})")]

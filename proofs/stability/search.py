@@ -16,14 +16,16 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
-from juggleproof.certificates.search.certificate import search_proof
+from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
+    ANYWHERE,
     Map,
     atoms,
     conjunction,
+    conjuncts,
     expression,
     symbols,
     value,
@@ -133,7 +135,8 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
         if poly.free_symbols & set(symbols(system.state)):
             at_point = points | {name: points[name + "_point"] for name in system.state}
             with np.errstate(all="ignore"):
-                worst = float(np.min(np.asarray(value(written(poly), at_point), float)))
+                at = np.asarray(value(written(poly), at_point), float)
+                worst = float(np.min(at, initial=np.inf))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
     return tuple(dict.fromkeys(renamed(line, names) for line in lines))
 
@@ -174,9 +177,11 @@ def search_stability(system: Map, report: Report = lambda text: None) -> Outcome
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
-    system = with_licences(system)
+    given, system = system.domain, with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
     proof = Proof()
+    if not all(map(len, parameters.values())):
+        return Outcome(proof, "unknown", f"no parameters were found in the domain {given}", [])
     lines: list[str] = []
 
     def log(text: str) -> None:
@@ -194,14 +199,17 @@ def search_stability(system: Map, report: Report = lambda text: None) -> Outcome
             break
         split = narrowed(system, fixed, parameters)
         log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
-        found = settled(proof, system, fixed, split, log)
+        found = settled(proof, system, fixed, split, given, log)
         if found:
             return Outcome(proof, *found, lines)
     for fixed in every:
         if fixed.exists(system, parameters).all():
-            fault = refuted(proof, setting_of(system, fixed, system.domain), log)
+            setting = setting_of(system, fixed, system.domain)
+            fault = refuted(proof, setting, log)
             if fault:
-                return Outcome(proof, "refuted", f"{name_of(fixed)} {fault}", lines)
+                where = beyond(given, setting.domain, system.parameters)
+                sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
+                return Outcome(proof, "refuted", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
 
 
@@ -211,28 +219,48 @@ def name_of(fixed: FixedPoint) -> str:
     return f"({terms})" if len(fixed.point.terms) > 1 or " " in terms else terms
 
 
+def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
+    """What the domain asks of the parameters that the checker does not certify to hold on the given
+    one: a licence rests on samples, which miss an end point.
+    """
+    before, open_ = conjuncts(given), []
+    facts = [f"given {one}" for one in before]
+    for condition in conjuncts(domain):
+        if condition in before or condition == ANYWHERE:
+            continue
+        lines = [f"forall {' '.join(parameters)}", *facts, f"show {condition}"]
+        try:
+            statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
+            found = search_certificate(statement, {}, Budget(BUDGET))
+        except checker.Rejected:  # it divides by what may be 0
+            open_.append(condition)
+            continue
+        if checker.check_one(statement, found, {}, {})[0] != "certified":
+            open_.append(condition)
+    return " and ".join(open_)
+
+
 def settled(
-    proof: Proof, system: Map, fixed: FixedPoint, split: Sequence[str], log: Report
+    proof: Proof, system: Map, fixed: FixedPoint, split: Sequence[str], given: str, log: Report
 ) -> tuple[str, str] | None:
-    """Verdict and sentence for one fixed point, where something is certified."""
+    """Verdict and sentence for one fixed point, where something is certified; `given` is the domain
+    as the user gives it.
+    """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
+    where = beyond(given, setting.domain, system.parameters)
     name = name_of(fixed)
     if not split:
         fault = refuted(proof, setting, log, STRAY_ONLY)
         if fault:
-            return "refuted", f"{name} {fault}"
+            return "refuted", f"{name} {fault}{where and f' where {where}'}"
     if not attracted(proof, setting, log):
         return None
-    if not split:
+    if not where:
         return "stable", f"{name} is stable and attracts every state"
-    where = " and ".join(split)
     outer = conjunction(system.domain, f"not ({where})")
-    failing = region(outer, system.parameters, PARAMETERS)
-    if len(failing[system.parameters[0]]) == 0:
-        return "stable", f"{name} is stable and attracts every state at least where {where}"
-    beyond = setting_of(system, fixed, outer)
-    fault = refuted(proof, beyond, log)
+    outside = setting_of(system, fixed, outer)
+    fault = refuted(proof, outside, log) if outside.count else ""
     kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
     if fault and sharp(proof, setting, kind, log):
         return "exactly", f"{name} is stable and attracts every state if and only if {where}"

@@ -44,6 +44,7 @@ FOREIGN = {
         "mpmath",
         "z3",
         "cvc5",
+        "cvxpy",
         "scipy",
         "matplotlib",
         "rich",
@@ -72,7 +73,7 @@ UP = {  # arrows up that are left; nothing is added here
 CIRCLES: list[list[str]] = []  # circles that are left; nothing is added here
 LONGEST = {"symbolic": 6, "certificates": 21, "scenes": 8, "proofs": 17, "benchmarks": 6}
 MOST_FILES = 20
-MOST_INSIDE = 19  # a ratchet; libraries of the optional extras count too
+MOST_INSIDE = 20  # a ratchet; libraries of the optional extras count too
 
 
 def short(module: str) -> str:

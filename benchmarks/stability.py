@@ -1,0 +1,173 @@
+"""The maps in examples, settled by `juggleproof stability`, beside a quadratic Lyapunov function by
+a semidefinite program: what is proved, CPU seconds and bytes.
+
+    python -m juggleproof.benchmarks.stability             # all examples; some minutes
+    python -m juggleproof.benchmarks.stability --accept    # writes the table into docs/stability.md
+
+Exit 1 where a verdict is not what the page says of it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from juggleproof.benchmarks.generated import DOCS, Generated
+from juggleproof.benchmarks.processes import cpu_seconds
+from juggleproof.proofs.stability.given import ANYWHERE, Map, read_file
+from juggleproof.proofs.stability.norms import is_affine, matrices_of
+from juggleproof.proofs.stability.samples import Floats, region
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "examples"
+TABLE = Generated(DOCS / "stability.md", "stability")
+HEADS = ("map", "parameters", "outcome", "CPU s", "bytes", "check", "coqc", "SDP")
+SAMPLES = 20  # of the parameters, for the semidefinite program
+MARGIN = 1e-6  # by which it asks for less than P
+
+
+class Settled(NamedTuple):
+    """What the command says of an example, and the CPU seconds and bytes that it took; None where
+    there is no theorem, or no coqc.
+    """
+
+    outcome: str
+    seconds: float
+    size: int
+    checked: float
+    compiled: float | None
+
+
+def examples() -> list[Path]:
+    """The maps, by name."""
+    return sorted(FOLDER.glob("*.map"))
+
+
+def ran(*arguments: str | Path, cwd: Path | None = None) -> tuple[float, str]:
+    """CPU seconds of a program, and what it prints.
+
+    Raises RuntimeError where it ends with another exit code than 0 or 1.
+    """
+    began = cpu_seconds()
+    done = subprocess.run(arguments, cwd=cwd, capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1):
+        raise RuntimeError(f"{' '.join(map(str, arguments))}: {done.stderr}")
+    return cpu_seconds() - began, done.stdout
+
+
+def outcome_of(printed: str) -> str:
+    """Verdict and sentence, of what `juggleproof stability` prints.
+
+    >>> outcome_of("proved   tent: 0 is stable and attracts every state")
+    'proved: 0 is stable and attracts every state'
+    """
+    head, _, sentence = printed.partition("\n")[0].partition(": ")
+    return f"{head.split()[0]}: {sentence}"
+
+
+def settled(path: Path) -> Settled:
+    """The example settled, its certificates read by the bare checker, its theorem compiled."""
+    ours = (sys.executable, "-m", "juggleproof.proofs.command.main")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        seconds, printed = ran(*ours, "stability", path, "-o", folder)
+        claims = folder / f"{path.stem.replace('-', '_')}.py"
+        store = claims.with_suffix(".certificates")
+        size = (store / "certificates.jsonl").stat().st_size
+        checked, _ = ran(sys.executable, "-I", "-S", ROOT / "certificates/checker", store)
+        compiled = None
+        if shutil.which("coqc") and printed.startswith("proved"):
+            ran(*ours, "export", "coq", claims, "-o", folder)
+            (theorem,) = folder.glob("S_*.v")
+            compiled, axioms = ran("coqc", "-q", theorem.name, cwd=folder)
+            if not theorem.with_suffix(".vo").exists():
+                raise RuntimeError(f"coqc does not take the theorem of {path.name}: {axioms}")
+    return Settled(outcome_of(printed), seconds, size, checked, compiled)
+
+
+def is_stable_by_program(matrices: Floats) -> bool:
+    """Whether Clarabel, through CVXPY, has a P > 0 with A'PA < P for all matrices A (count, n, n).
+
+    Floats, which nobody checks.
+    """
+    import cvxpy
+
+    n = matrices.shape[1]
+    P = cvxpy.Variable((n, n), symmetric=True)
+    falls = [A.T @ P @ A << P - MARGIN * np.eye(n) for A in matrices]
+    problem = cvxpy.Problem(cvxpy.Minimize(0), [P >> np.eye(n), *falls])
+    problem.solve(solver=cvxpy.CLARABEL)
+    return bool(problem.status == cvxpy.OPTIMAL)
+
+
+def quadratic(system: Map) -> str:
+    """At how many samples of the parameters a common quadratic Lyapunov function of all pieces is
+    found, such as `20/20`; nothing where a piece is not affine.
+    """
+    if not is_affine(system):
+        return ""
+    samples = region(system.domain, system.parameters, SAMPLES)
+    count = len(next(iter(samples.values()))) if samples else 1
+    pieces = len(system.pieces)
+    matrices = matrices_of(system, samples, count).reshape(pieces, count, *2 * [len(system.state)])
+    yes = sum(is_stable_by_program(matrices[:, k]) for k in range(count))
+    return f"{yes}/{count}"
+
+
+def row(path: Path) -> tuple[str, ...]:
+    """The cells of an example, under HEADS."""
+    system, done = read_file(path), settled(path)
+    return (
+        path.stem,
+        "" if system.domain == ANYWHERE else f"`{system.domain}`",
+        done.outcome,
+        f"{done.seconds:.2g}",
+        f"{done.size}",
+        f"{done.checked:.2g}",
+        "" if done.compiled is None else f"{done.compiled:.2g}",
+        quadratic(system) if find_spec("cvxpy") else "",
+    )
+
+
+def line(cells: Sequence[str]) -> str:
+    """A line of a table in Markdown."""
+    return f"| {' | '.join(cells)} |"
+
+
+def outcomes(table: str) -> dict[str, str]:
+    """What a table says of each map.
+
+    >>> outcomes(TABLE.text())["switched"]
+    'proved: (0, 0) is stable and attracts every state'
+    """
+    rows = [text.strip("| ").split(" | ") for text in table.splitlines()[2:]]
+    return {cells[0]: cells[2] for cells in rows}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Prints the table, or writes it into the page."""
+    parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.stability")
+    parser.add_argument("--accept", action="store_true")
+    options = parser.parse_args(arguments)
+    lines = [line(HEADS), line(["---"] * len(HEADS))]
+    print("\n".join(lines))
+    for path in examples():
+        lines.append(line(row(path)))
+        print(lines[-1], flush=True)
+    done = "\n".join(lines)
+    if options.accept:
+        TABLE.write(done)
+    return int(outcomes(done) != outcomes(TABLE.text()))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

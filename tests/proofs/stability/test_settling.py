@@ -1,0 +1,177 @@
+"""What is said of a map is what the checker takes: nothing false is proved, not even at an end
+point of the domain that samples miss; what is written can be read again, and not be forged.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from juggleproof import MapRule, stability
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
+from juggleproof.proofs.command.check import check
+from tests.proofs.command import running
+
+STABLE, AWAY = "is stable and attracts every state", "does not attract"
+SETTLED = {  # name: (text, exit code, first line)
+    "halving": ("state x\npiece x/2", 0, f"proved   halving: 0 {STABLE}"),
+    "tent": (
+        "over a\ndomain 0 < a and a < 1\nstate x\nspace 0 <= x and x <= 1\npiece a*min(x, 1 - x)",
+        0,
+        f"proved   tent: 0 {STABLE}",
+    ),
+    "cobweb": (
+        "over s\ndomain 0 < s and s < 2\nstate p\nspace p >= 0\npiece max(0, 1 - s*p)",
+        0,
+        f"proved   cobweb: (1/(s + 1)) {STABLE} if and only if 1 - s > 0",
+    ),
+    "at-rest": (  # the identity at a = 0
+        "over a\ndomain 0 <= a and a < 1\nstate x\npiece (1 - a)*x",
+        0,
+        f"proved   at-rest: 0 {STABLE} at least where a > 0",
+    ),
+    "drift": (  # x + 1 at a = 0
+        "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
+        0,
+        f"proved   drift: 1/a {STABLE} at least where a > 0",
+    ),
+    "two-points": (
+        "state x\npiece x <= 1 -> x/2\npiece x > 1 -> x/3 + 4",
+        1,
+        f"refuted  two-points: 0 {AWAY} (6), which is periodic",
+    ),
+    "doubling": ("state x\npiece 2*x", 1, "refuted  doubling: 0 is not stable"),
+    "identity": ("state x\npiece x", 1, "unknown  identity: "),
+    "shift": ("state x\npiece x + 1", 1, "unknown  shift: "),
+    "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map: "),
+    "overlap": (
+        "state x\npiece x <= 0 -> x/2\npiece x >= 0 -> x/3",
+        1,
+        "unknown  overlap: the map: ",
+    ),
+    "leaving": (
+        "state x\nspace 0 <= x and x <= 1\npiece x/2 + 1",
+        1,
+        "unknown  leaving: the map: ",
+    ),
+    "empty": (
+        "over a\ndomain a > 1 and a < 0\nstate x\npiece x/2",
+        1,
+        "unknown  empty: no parameters were found in the domain a > 1 and a < 0",
+    ),
+}
+
+
+def map_file(folder: Path, name: str) -> Path:
+    path = folder / f"{name}.map"
+    path.write_text(SETTLED[name][0] + "\n")
+    return path
+
+
+@pytest.mark.parametrize("name", SETTLED)
+def test_a_map_is_settled_as_it_behaves_holds(name: str, tmp_path: Path) -> None:
+    _, code, line = SETTLED[name]
+    done = running.run("stability", str(map_file(tmp_path, name)))
+    assert (done.returncode, done.stderr) == (code, "")
+    first = done.stdout.split("\n")[0]
+    assert first == line or line.endswith(": ") and first.startswith(line)
+
+
+def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
+    """In two processes, whose hashes differ."""
+    path, results = map_file(tmp_path, "cobweb"), []
+    command = [sys.executable, "-m", "juggleproof.proofs.command.main", "stability", str(path)]
+    for seed in ("1", "2"):
+        folder = tmp_path / seed
+        folder.mkdir()
+        done = subprocess.run(
+            [*command, "--tried", "-o", "."],
+            cwd=folder,
+            capture_output=True,
+            env={**os.environ, "PYTHONPATH": str(running.ROOT), "PYTHONHASHSEED": seed},
+            timeout=240,
+            check=True,
+        )
+        files = {one.name: one.read_bytes() for one in folder.rglob("*") if one.is_file()}
+        results.append((done.stdout, files))
+    assert results[0] == results[1] and len(results[0][1]) == 3
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("written")
+    done = running.run("stability", str(map_file(folder, "tent")), "-o", str(folder))
+    assert done.returncode == 0
+    return folder / "tent.certificates"
+
+
+CHANGED = {
+    "a map with a larger slope": (
+        STATEMENTS,
+        "domain 0 < a and a < 1\n",
+        "domain 0 < a and a < 2\n",
+    ),
+    "a function that falls by more": (STATEMENTS, "loss ", "loss 2 + "),
+    "another point": (STATEMENTS, "\npoint 0\n", "\npoint 1/2\n"),
+    "a premise without proof": (
+        CERTIFICATES,
+        '"certified":{',
+        '"certified":{"more":["proof",[],[]],',
+    ),
+}
+
+
+@pytest.mark.parametrize("change", CHANGED)
+def test_rejects_a_written_folder_that_is_changed(
+    change: str, store: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, before, after = CHANGED[change]
+    for name in (STATEMENTS, CERTIFICATES):
+        text = (store / name).read_text()
+        assert name != file or before in text
+        (tmp_path / name).write_text(text.replace(before, after) if name == file else text)
+    assert check(store) == 0
+    assert capsys.readouterr().out.endswith(" 0 refuted, 0 unknown, 0 rejected\n")
+    assert check(tmp_path) == 1
+    assert not capsys.readouterr().out.endswith(" 0 rejected\n")
+
+
+def test_rejects_every_certificate_of_another_premise(store: Path, tmp_path: Path) -> None:
+    """Of the Lyapunov function: each in turn has the proof of the next."""
+    lines = [json.loads(line) for line in (store / CERTIFICATES).read_text().splitlines()]
+    ((name, certificate),) = [line for line in lines if line[0].endswith("/lyapunov")]
+    proofs = certificate["certified"]
+    names = list(proofs)
+    swapped = 0
+    for one, other in zip(names, names[1:]):
+        if proofs[one] == proofs[other]:
+            continue
+        forged = {"certified": {**proofs, one: proofs[other]}}
+        rows = [[n, forged if n == name else c] for n, c in lines]
+        (tmp_path / STATEMENTS).write_text((store / STATEMENTS).read_text())
+        (tmp_path / CERTIFICATES).write_text("".join(json.dumps(row) + "\n" for row in rows))
+        assert check(tmp_path) == 1, one
+        swapped += 1
+    assert swapped > 5
+
+
+def rule(*rows: tuple[str, str]) -> MapRule:
+    return MapRule("map", rows)
+
+
+def test_the_claim_form_names_statements_that_certify_takes_holds(tmp_path: Path) -> None:
+    found = stability(rule(("state", "x"), ("piece", "x/2")))
+    assert [one.name for one in found] == ["map", "lyapunov"]
+    at_zero = stability(rule(("state", "x"), ("piece", "x/2")), point=["0"])
+    assert at_zero == found
+
+
+def test_rejects_a_claim_on_a_map_that_is_not_stable() -> None:
+    with pytest.raises(ClaimError, match="0 is not stable"):
+        stability(rule(("state", "x"), ("piece", "2*x")))
