@@ -56,8 +56,7 @@ EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1,), 20_000, 24),
     ((1, 2), 100_000, 16),
-    (EFFORTS, 400_000, 8),
-    (EFFORTS, 2_000_000, 3),
+    (EFFORTS, 400_000, 4),
 )
 Report = Callable[[str], None]
 
@@ -326,9 +325,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    for rule in equation_rules(setting, space, name):
-        if not tried(proof, rule, EFFORTS, BUDGET, log):
-            return True
+        for rule in equation_rules(setting, space, name):
+            if not tried(proof, rule, EFFORTS, BUDGET, log):
+                return True
     found = sorted(candidates(setting, space, name), key=lambda one: one[0])
     for efforts, budget, most in ROUNDS:
         for _, rule in found[:most]:
