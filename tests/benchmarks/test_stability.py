@@ -1,5 +1,5 @@
-"""Every published map in examples comes out as docs/stability.md says, with no rank typed in it; what
-is written is read by the checker, by `certify` without a search, and by coqc.
+"""Every published map in examples comes out as docs/stability.md says, with no rank typed in it;
+what is written is read by the checker, by `certify` without a search, and by coqc.
 """
 
 from __future__ import annotations
