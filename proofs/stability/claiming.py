@@ -14,11 +14,12 @@ def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
     """The statements that the map's fixed point is stable and attracts every state, as they are
     found: what a claim returns whose map alone is given.
 
-    `point` names the fixed point by its terms, where there are several.  Raises ClaimError, one
-    line, where the point is not found to be stable.
+    The map has the name of the claim, since the statements refer to each other by it; `point` names
+    the fixed point by its terms, where there are several.  Raises ClaimError, one line, where the
+    point is not found to be stable.
 
     >>> from juggleproof.proofs.stability.claiming import stability
-    >>> tent = MapRule("map", (("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x"),
+    >>> tent = MapRule("tent", (("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x"),
     ...                        ("space", "0 <= x and x <= 1"), ("piece", "a*min(x, 1 - x)")))
     >>> [one.name for one in stability(tent)]
     ['map', 'lyapunov']

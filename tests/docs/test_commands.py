@@ -37,6 +37,7 @@ SMALLER = {
     "juggleproof bench": "--quick --seconds 1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.speed": "--only smt2 --runs 1",
+    "python -m juggleproof.benchmarks.stability": "--only switched",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
 # Commands that are run elsewhere: a file, and what in it runs them.
@@ -170,6 +171,8 @@ def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path, 
     if stored:  # what the line above it has written
         source = "mine.py" if "mine." in command else "mean.smt2"
         assert run(f"juggleproof certify {source}", page).returncode == 0
+    if " lozi/" in command:
+        assert run("juggleproof stability lozi.map -o lozi", page).returncode == 0
     less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
     if " -o scenes/" in command:
         (tmp_path / "scenes/part").mkdir(parents=True)

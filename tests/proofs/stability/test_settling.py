@@ -161,17 +161,29 @@ def test_rejects_every_certificate_of_another_premise(store: Path, tmp_path: Pat
     assert swapped > 5
 
 
-def rule(*rows: tuple[str, str]) -> MapRule:
-    return MapRule("map", rows)
+OWN = """from juggleproof import MapRule, claim, stability
+
+@claim("linear")
+def every_orbit_settles():
+    \"\"\"Every orbit tends to 0.\"\"\"
+    return stability(MapRule("linear", (("state", "x"), ("piece", "SLOPE*x"))))
+"""
 
 
-def test_the_claim_form_names_statements_that_certify_takes_holds(tmp_path: Path) -> None:
-    found = stability(rule(("state", "x"), ("piece", "x/2")))
-    assert [one.name for one in found] == ["map", "lyapunov"]
-    at_zero = stability(rule(("state", "x"), ("piece", "x/2")), point=["0"])
-    assert at_zero == found
+def test_a_claim_of_the_map_alone_is_certified_holds(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(OWN.replace("SLOPE", "1/2"))
+    done = running.run("certify", str(tmp_path / "own.py"), "--routes", "exact")
+    assert done.returncode == 0 and "2 statements: 2 certified" in done.stdout
 
 
-def test_rejects_a_claim_on_a_map_that_is_not_stable() -> None:
-    with pytest.raises(ClaimError, match="0 is not stable"):
-        stability(rule(("state", "x"), ("piece", "2*x")))
+def test_rejects_a_claim_of_a_map_that_is_not_stable(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(OWN.replace("SLOPE", "2"))
+    done = running.run("certify", str(tmp_path / "own.py"), "--routes", "exact")
+    assert done.returncode == 2 and "linear: 0 is not stable" in done.stderr
+
+
+def test_rejects_a_point_that_is_not_fixed() -> None:
+    rule = MapRule("halving", (("state", "x"), ("piece", "x/2")))
+    assert [one.name for one in stability(rule, point=["0"])] == ["map", "lyapunov"]
+    with pytest.raises(ClaimError, match="no fixed point was found to be stable"):
+        stability(rule, point=["1"])
