@@ -181,6 +181,16 @@ class Outcome:
 
 
 def search_stability(system: Map, report: Report = lambda text: None) -> Outcome:
+    """What `outcome_of` finds, with the roots in its sentence."""
+    found = outcome_of(system, report)
+    rows = [row for rule in found.proof.rules for row in rule.rows]
+    for root in dict.fromkeys(text for keyword, text in rows if keyword == "root"):
+        if root.partition(" = ")[0] in checker.names_in(found.sentence):
+            found.sentence += f"; {root}"
+    return found
+
+
+def outcome_of(system: Map, report: Report) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
@@ -228,11 +238,13 @@ def search_stability(system: Map, report: Report = lambda text: None) -> Outcome
 
 def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
     """What is certified of states close to the point, or nothing."""
+    pairs = zip(setting.system.state, setting.point.terms)
+    gaps = {f"{one}_gap": one if e == "0" else f"({one} - ({e}))" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
     for rule in islice(rules, LOCAL_TRIED):
         if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
-            on = dict(rule.rows)["on"]
+            on = renamed(dict(rule.rows)["on"], gaps)
             at = f" where {where}" if where else ""
             return f"{name} is stable{at}, and attracts every state with {on}"
     return ""
