@@ -19,6 +19,7 @@ HEADS = {
     "exactly": "proved",
     "stable": "proved",
     "refuted": "refuted",
+    "region": "in part",
     "unknown": "unknown",
 }
 

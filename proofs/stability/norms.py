@@ -13,13 +13,16 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, symbols
-from juggleproof.proofs.stability.samples import Arrays, Floats
+from juggleproof.proofs.stability.given import Map, holds, symbols
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
 from juggleproof.proofs.stability.values import Function, Setting, program, signed
 
 MOST_ROWS = 24
 CORNERS = 24  # parameters at which rows are carried back
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 50, 100)
+MOST_NORMS = 3  # that are tried
+SMALLEST_SIZE = 8  # halvings of the neighbourhood
+LOCAL_SHARES = (Fraction(1), Fraction(1, 2), Fraction(1, 8))  # of what samples leave
 SHARES = (0.5, 0.75, 0.9, 0.97)  # of the way from the spectral radius to 1, for the rate
 
 
@@ -148,40 +151,95 @@ def linear_form(row: Sequence[Fraction], names: Sequence[str]) -> str:
     return " + ".join(parts).replace("+ -", "- ")
 
 
-def norm_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
-    """The statements `lyapunov` whose function is a polytope norm."""
-    system = setting.system
-    far = corners(setting)
-    count = len(next(iter(far.values()))) if far else 1
-    matrices = matrices_of(system, far, count)
+def norms(matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
+    """Rows of norms that all these matrices contract, with a rate, the simplest first."""
     radius = max(float(np.abs(np.linalg.eigvals(matrix)).max()) for matrix in matrices)
     if radius >= 1:
         return
-    gaps = [f"{name}_gap" for name in system.state]
-    found = 0
     for share in SHARES:
         rate = max(radius + share * (1 - radius), 1e-3)
         for start in first_rows(matrices[0]):
             rows = invariant_rows(matrices, start, rate)
-            if rows is None:
-                continue
-            for exact, factor in rounded_rows(rows, matrices):
-                floats = np.array([[float(x) for x in row] for row in exact])
-                # |gap_j| <= V times the gauge of the j-th coordinate
-                most = max(gauge(unit, floats) for unit in np.eye(len(gaps)))
-                least = Fraction(1, int(most * float(1 / (1 - factor))) + 1)
-                upper = max(sum(abs(x) for x in row) for row in exact)
-                forms = [linear_form(row, gaps) for row in exact]
-                forms += [linear_form([-x for x in row], gaps) for row in exact]
-                rows_ = [
-                    ("on", on),
-                    ("loss", f"({1 - factor})*value"),
-                    ("least", f"({least})*distance"),
-                    ("upper", str(upper)),
-                    ("radius", "1"),
-                ]
-                yield setting.rule(name, Function(tuple(forms)), rows_)
-                found += 1
-                if found >= 3:
-                    return
+            if rows is not None:
+                yield from itertools.islice(rounded_rows(rows, matrices), 1)
+
+
+def norm_rule(
+    setting: Setting, rows: Sequence[Sequence[Fraction]], rate: Fraction, size: Fraction, name: str
+) -> MapRule:
+    """The statement `lyapunov` whose function is the norm of these rows: on the whole space, or
+    where the norm is at most `size`, if that is not 0.
+    """
+    gaps = [f"{one}_gap" for one in setting.system.state]
+    floats = np.array([[float(x) for x in row] for row in rows])
+    # |gap_j| <= V times the gauge of the j-th coordinate
+    most = max(gauge(unit, floats) for unit in np.eye(len(gaps)))
+    least = Fraction(1, int(most * float(1 / (1 - rate))) + 1)
+    upper = max(sum(abs(x) for x in row) for row in rows)
+    forms = [linear_form(row, gaps) for row in rows]
+    forms += [linear_form([-x for x in row], gaps) for row in rows]
+    inside = " and ".join(f"{form} <= {size}" for form in forms)
+    lines = [
+        ("on", inside if size else setting.system.space),
+        ("loss", f"({1 - rate})*value"),
+        ("least", f"({least})*distance"),
+        ("upper", str(upper)),
+        ("radius", str(size / upper) if size else "1"),
+    ]
+    return setting.rule(name, Function(tuple(forms)), lines)
+
+
+def norm_rules(setting: Setting, name: str) -> Iterator[MapRule]:
+    """The statements that a norm proves stability, and attraction of the whole space."""
+    far = corners(setting)
+    count = len(next(iter(far.values()))) if far else 1
+    found = norms(matrices_of(setting.system, far, count))
+    for rows, rate in itertools.islice(found, MOST_NORMS):
+        yield norm_rule(setting, rows, rate, Fraction(0), name)
+
+
+# -------------------------------------------------------------------------------------------------
+# Near the point only: a norm that the derivative there contracts, and how far the map does.
+
+
+def local_rules(setting: Setting, name: str) -> Iterator[MapRule]:
+    """The statements that a norm proves stability, and attraction of where it is at most a number;
+    the largest number first that samples leave.
+    """
+    system = setting.system
+    state = symbols(system.state)
+    names = symbols(setting.constants)
+    at = dict(zip(state, symbols([f"{one}_point" for one in system.state])))
+    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
+    entries = list(matrix.subs(at, simultaneous=True))
+    numbers = sympy.lambdify(names, entries, "numpy")(*setting.constants.values())
+    n = len(state)
+    stack = [np.broadcast_to(np.asarray(one, float), (setting.count,)) for one in numbers]
+    matrices = np.stack(stack, axis=1).reshape(setting.count, n, n)
+    chosen = np.linspace(0, setting.count - 1, min(setting.count, CORNERS)).astype(int)
+    rng = np.random.default_rng(SEED)
+    which = rng.integers(0, setting.count, 4000)
+    known = {one: values[which] for one, values in setting.constants.items()}
+    for rows, rate in itertools.islice(norms(matrices[chosen]), MOST_NORMS):
+        floats = np.array([[float(x) for x in row] for row in rows])
+        slower = (1 + rate) / 2
+        gaps = rng.uniform(-1, 1, (len(which), n))
+        gaps /= np.abs(gaps @ floats.T).max(axis=1)[:, None]  # of norm 1
+        for power in range(SMALLEST_SIZE):
+            size = Fraction(1, 2**power)
+            points = dict(known)
+            for j, one in enumerate(system.state):
+                gap = gaps[:, j] * float(size) * rng.uniform(0.05, 1, len(which))
+                points[f"{one}_gap"] = gap
+                points[one] = points[f"{one}_point"] + gap
+            with np.errstate(all="ignore"):
+                inside = np.broadcast_to(holds(system.space, points), (len(which),))
+                here = np.stack([points[f"{one}_gap"] for one in system.state], axis=1)
+                there = after(system, points)
+                moved = np.stack([there[f"{one}_gap"] for one in system.state], axis=1)
+                before = np.abs(here @ floats.T).max(axis=1)
+                fits = np.abs(moved @ floats.T).max(axis=1) <= float(slower) * before
+            if fits[inside].all():
+                for share in LOCAL_SHARES:
+                    yield norm_rule(setting, rows, slower, size * share, name)
                 break

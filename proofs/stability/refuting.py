@@ -86,7 +86,7 @@ def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
             if start.terms == setting.point.terms or not _stays(setting, start, word):
                 continue
             roots = dict([*setting.point.roots, *start.roots])
-            if len(roots) < len(setting.point.roots) + len(start.roots):
+            if len(roots) < len({*setting.point.roots, *start.roots}):
                 continue  # one name for two roots
             yield MapRule(
                 name,

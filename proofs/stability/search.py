@@ -31,7 +31,7 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
-from juggleproof.proofs.stability.norms import is_affine, norm_rules
+from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
@@ -52,6 +52,7 @@ from juggleproof.proofs.stability.values import (
 
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 2_000_000  # counted work for a premise
+LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1,), 20_000, 24),
@@ -120,8 +121,8 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
     """What premises are to know of a point whose terms are not simple: that it is a fixed point,
     and on which side of the guard and of the bounds of the space it lies.
     """
-    simple = all("/" not in term for term in fixed.point.terms) and not fixed.point.roots
-    if simple:
+    terms = [expression(term) for term in fixed.point.terms]
+    if all("/" not in written(t) or not t.free_symbols for t in terms) and not fixed.point.roots:
         return ()
     names = {name: f"{name}_point" for name in system.state}
     lines = []
@@ -129,6 +130,11 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
         above, below = sympy.fraction(sympy.together(image))
         left = f"{name}_point" if below == 1 else f"{name}_point*({written(below)})"
         lines.append(f"{left} = {written(above)}")
+    state = symbols(system.state)
+    if not sympy.Matrix(system.images[fixed.piece]).jacobian(state).free_symbols.isdisjoint(state):
+        for name, term in zip(system.state, terms):  # the equations have other solutions
+            above, below = sympy.fraction(term)
+            lines.append(f"{name}_point*({written(below)}) = {written(above)}")
     guard, _ = system.pieces[fixed.piece]
     points = setting.states.points
     for poly, _ in atoms(conjunction(system.space, guard)):
@@ -164,7 +170,8 @@ class Outcome:
     """What was found: the statements with certificates, what they come to, and what was tried.
 
     verdict: `exactly` (stable and attracting for these parameters and no others), `stable` (for
-    all, or at least for these parameters), `refuted` or `unknown`.
+    all, or at least for these parameters), `refuted`, `region` (stable and attracting a
+    neighbourhood at least) or `unknown`.
     """
 
     proof: Proof
@@ -174,6 +181,16 @@ class Outcome:
 
 
 def search_stability(system: Map, report: Report = lambda text: None) -> Outcome:
+    """What `outcome_of` finds, with the roots in its sentence."""
+    found = outcome_of(system, report)
+    rows = [row for rule in found.proof.rules for row in rule.rows]
+    for root in dict.fromkeys(text for keyword, text in rows if keyword == "root"):
+        if root.partition(" = ")[0] in checker.names_in(found.sentence):
+            found.sentence += f"; {root}"
+    return found
+
+
+def outcome_of(system: Map, report: Report) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
@@ -210,7 +227,27 @@ def search_stability(system: Map, report: Report = lambda text: None) -> Outcome
                 where = beyond(given, setting.domain, system.parameters)
                 sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
                 return Outcome(proof, "refuted", sentence, lines)
+    for fixed in every:
+        if fixed.exists(system, parameters).all():
+            setting = setting_of(system, fixed, system.domain)
+            near = near_by(proof, setting, name_of(fixed), given, log)
+            if near:
+                return Outcome(proof, "region", f"{near}; of the others nothing was found", lines)
     return Outcome(proof, "unknown", "", lines)
+
+
+def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
+    """What is certified of states close to the point, or nothing."""
+    pairs = zip(setting.system.state, setting.point.terms)
+    gaps = {f"{one}_gap": one if e == "0" else f"({one} - ({e}))" for one, e in pairs}
+    rules = local_rules(setting, f"{setting.system.name}/lyapunov")
+    for rule in islice(rules, LOCAL_TRIED):
+        if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
+            where = beyond(given, setting.domain, setting.system.parameters)
+            on = renamed(dict(rule.rows)["on"], gaps)
+            at = f" where {where}" if where else ""
+            return f"{name} is stable{at}, and attracts every state with {on}"
+    return ""
 
 
 def name_of(fixed: FixedPoint) -> str:
@@ -253,7 +290,9 @@ def settled(
     if not split:
         fault = refuted(proof, setting, log, STRAY_ONLY)
         if fault:
-            return "refuted", f"{name} {fault}{where and f' where {where}'}"
+            more = near_by(proof, setting, name, given, log)
+            sentence = f"{name} {fault}{where and f' where {where}'}"
+            return "refuted", sentence + (f"; {more}" if more else "")
     if not attracted(proof, setting, log):
         return None
     if not where:
@@ -322,7 +361,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     """Whether the point is certified to be stable and to attract every state."""
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
     if is_affine(setting.system):
-        for rule in norm_rules(setting, space, name):
+        for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
         for rule in equation_rules(setting, space, name):
