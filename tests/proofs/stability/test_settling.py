@@ -44,7 +44,8 @@ SETTLED = {  # name: (text, exit code, first line)
     "two-points": (
         "state x\npiece x <= 1 -> x/2\npiece x > 1 -> x/3 + 4",
         1,
-        f"refuted  two-points: 0 {AWAY} (6), which is periodic",
+        f"refuted  two-points: 0 {AWAY} (6), which is periodic; 0 is stable, and attracts every"
+        " state with x <= 1 and -x <= 1",
     ),
     "doubling": ("state x\npiece 2*x", 1, "refuted  doubling: 0 is not stable"),
     "identity": ("state x\npiece x", 1, "unknown  identity: "),
