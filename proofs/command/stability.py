@@ -75,7 +75,7 @@ def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
     for rule in found.proof.rules:
         kind = found.proof.known[rule.name].kind
         yield f"  {rule.name.rpartition('/')[2]}: {conclusion(kind, rule.name, texts)}"
-    if tried or found.verdict == "unknown":
+    if found.tried and (tried or found.verdict == "unknown"):
         yield "tried"
         yield from (f"  {line}" for line in found.tried)
     size = len(certificate_lines(found.proof.certificates))

@@ -29,6 +29,7 @@ Piece = tuple[str, tuple[str, ...]]  # guard, images
 
 ORDER = ("over", "domain", "state", "space", "piece", "point")
 ANYWHERE = "0 < 1"  # a formula that always holds, as text
+RESERVED = re.compile(r"value|level|distance|root_\d+|.*_(next|gap|point)")
 MOST_PIECES = 64  # after absolute values are taken apart
 
 
@@ -151,7 +152,11 @@ def _value(node: ast.expr, point: Point, number: Callable[[int], Value]) -> Valu
         raise ClaimError(f"{ast.unparse(node)} is no rational term")
     left = _value(node.left, point, number)
     if isinstance(node.op, ast.Pow):
-        return left ** int(ast.literal_eval(node.right))
+        try:
+            return left ** int(ast.literal_eval(node.right))
+        except (TypeError, ValueError):
+            text = checker_text(node)
+            raise ClaimError(f"{text}: no whole number in the exponent; write one") from None
     right = _value(node.right, point, number)
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
         left, right = (float(v) if isinstance(v, Fraction) else v for v in (left, right))
@@ -301,6 +306,9 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
         strange = sorted(checker.names_in(text) - set(found.names))
         if strange:
             raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
+    for _, images in pieces:
+        for image in images:
+            expression(image)  # raises what cannot be worked out
     for text in (found.domain, *found.point):
         strange = sorted(checker.names_in(text) - set(found.parameters))
         if strange:
@@ -308,6 +316,8 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
     for name in found.names:
         if not re.fullmatch(r"[A-Za-z]\w*", name):
             raise ClaimError(f"{name} is no name; write letters, digits and _")
+        if RESERVED.fullmatch(name):
+            raise ClaimError(f"{name} is a name of the rules; choose another")
         if found.names.count(name) > 1:
             raise ClaimError(f"{name} is named twice; write it once, in `over` or in `state`")
     if found.point and len(found.point) != len(state):

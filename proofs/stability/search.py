@@ -18,7 +18,9 @@ from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
+from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
@@ -69,6 +71,7 @@ class Proof:
     rules: list[MapRule] = field(default_factory=list)
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
+    open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
 
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
@@ -81,6 +84,7 @@ class Proof:
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
                 proof = self.proof_of(premises[name], efforts, budget)
                 if proof is None:
+                    self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
                 proofs[name] = proof
         except checker.Rejected as reason:
@@ -93,6 +97,13 @@ class Proof:
         self.certificates[rule.name] = found
         self.known[rule.name] = statement
         return ""
+
+    def why(self) -> str:
+        """What Z3 says of the last premise without a proof."""
+        if self.open is None:
+            return ""
+        kind, name, premise = self.open
+        return why(kind, name, premise, vote_and_model(premise), BUDGET)
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
@@ -207,10 +218,15 @@ def outcome_of(system: Map, report: Report) -> Outcome:
 
     fault = proof.add(system.rule(f"{system.name}/map"))
     if fault:
-        return Outcome(proof, "unknown", f"the map: {fault}", lines)
+        return Outcome(proof, "unknown", f"the map: {proof.why() or fault}", lines)
     every = fixed_points(system)
     if system.point:
         every = [one for one in every if one.is_at(system.point)]
+    every = [one for one in every if one.exists(system, parameters).any()]
+    if not every:
+        what = ", ".join(system.point)
+        none = f"{what} is no fixed point" if what else "no fixed point was found in the space"
+        return Outcome(proof, "unknown", none, lines)
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
         if not fixed.stable_share(system, parameters):
             break
@@ -372,6 +388,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
+    if found:  # of the candidate that fits best
+        proof.add(found[0][1], (1,))
+        log(proof.why())
     return False
 
 
