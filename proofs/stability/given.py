@@ -306,9 +306,9 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
         strange = sorted(checker.names_in(text) - set(found.names))
         if strange:
             raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
-    for _, images in pieces:
-        for image in images:
-            expression(image)  # raises what cannot be worked out
+    for _, terms in pieces:
+        for term in terms:
+            expression(term)  # raises what cannot be worked out
     for text in (found.domain, *found.point):
         strange = sorted(checker.names_in(text) - set(found.parameters))
         if strange:
