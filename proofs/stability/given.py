@@ -307,8 +307,8 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
         if strange:
             raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
     for _, terms in pieces:
-        for image in terms:
-            expression(image)  # raises what cannot be worked out
+        for term in terms:
+            expression(term)  # raises what cannot be worked out
     for text in (found.domain, *found.point):
         strange = sorted(checker.names_in(text) - set(found.parameters))
         if strange:

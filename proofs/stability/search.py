@@ -169,8 +169,9 @@ def setting_of(system: Map, fixed: FixedPoint, domain: str) -> Setting:
     domain = with_point_licences(domain, point)
     parameters = region(domain, system.parameters, PARAMETERS)
     for name in system.parameters:  # so that constants may divide by it
-        if (parameters[name] > 0).all():
-            domain = conjunction(domain, licence(expression(name), domain))
+        positive = conjunction(domain, licence(expression(name), domain))
+        if (parameters[name] > 0).all() and not beyond(domain, positive, system.parameters):
+            domain = positive
     states = around(system, point, parameters, STATES)
     bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
     return replace(bare, have=known_of(system, fixed, bare))

@@ -247,7 +247,7 @@ def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
     that are close to its ends.
     """
     found = [written(poly) for poly, strict in atoms(domain) if strict]
-    found += [*system.parameters, *(f"{name}_point" for name in system.state)]
+    found += [f"{name}_point" for name in system.state]
     texts = []
     for text in dict.fromkeys(found):
         if not checker.names_in(text) <= parameters.keys():
