@@ -76,9 +76,9 @@ class Proof:
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
-        statement = checker.read_statements(text)[rule.name]
         proofs: dict[str, Premise] = {}
         try:
+            statement = checker.read_statements(text)[rule.name]
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
@@ -87,12 +87,12 @@ class Proof:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
                 proofs[name] = proof
-        except checker.Rejected as reason:
-            return str(reason)
+        except checker.Rejected as fault:
+            return str(fault)
         found: Certificate = {"certified": {name: proofs[name] for name in premises}}
-        outcome, why = checker.check_one(statement, found, self.known, self.known)
+        outcome, reason = checker.check_one(statement, found, self.known, self.known)
         if outcome != "certified":
-            return str(why)
+            return str(reason)
         self.rules.append(rule)
         self.certificates[rule.name] = found
         self.known[rule.name] = statement
@@ -110,6 +110,8 @@ class Proof:
     ) -> Premise | None:
         """A proof of one premise, if one is found."""
         for effort in efforts:
+            if effort == SQUARED and premise.get("exists"):
+                continue  # there are no squares to find
             try:
                 proof = search_proof(premise, self.known, Budget(budget), effort=effort)
             except Exhausted:
