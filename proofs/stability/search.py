@@ -386,7 +386,8 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    found = sorted(candidates(setting, space, name), key=lambda one: one[0])
+    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
+    found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     for efforts, budget, most in ROUNDS:
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
