@@ -165,15 +165,18 @@ def renamed(text: str, names: Mapping[str, str]) -> str:
     return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
-def setting_of(system: Map, fixed: FixedPoint, domain: str) -> Setting:
-    """The samples for a search over parameters in a domain."""
+def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
+    """The samples for a search over parameters in a domain; `by_samples`: where parameters are
+    positive at samples, they are taken to be.
+    """
     point = fixed.point
     domain = with_point_licences(domain, point)
     parameters = region(domain, system.parameters, PARAMETERS)
     for name in system.parameters:  # so that constants may divide by it
         positive = conjunction(domain, licence(expression(name), domain))
-        if (parameters[name] > 0).all() and not beyond(domain, positive, system.parameters):
-            domain = positive
+        if (parameters[name] > 0).all():
+            if by_samples or not beyond(domain, positive, system.parameters):
+                domain = positive
     states = around(system, point, parameters, STATES)
     bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
     return replace(bare, have=known_of(system, fixed, bare))
@@ -313,7 +316,10 @@ def settled(
             sentence = f"{name} {fault}{where and f' where {where}'}"
             return "refuted", sentence + (f"; {more}" if more else "")
     if not attracted(proof, setting, log):
-        return None
+        smaller = setting_of(system, fixed, inner, by_samples=True)
+        if smaller.domain == setting.domain or not attracted(proof, smaller, log):
+            return None
+        setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
     outer = conjunction(system.domain, f"not ({where})")
