@@ -442,11 +442,9 @@ class Statement:
         """The text of each line of this keyword, with definitions written out."""
         return [text for (key, _), text in zip(self.lines, self.plain) if key == keyword]
 
-    def text(self, keyword: str = "") -> str:
-        """The text of the first line of this keyword, or of the whole statement, as in the file."""
+    def text(self) -> str:
+        """The text of the statement, as in the file."""
         rows = [(key, text) for (key, _), text in zip(self.lines, self.texts)]
-        if keyword:
-            return next(text for key, text in rows if key == keyword)
         return "\n".join(" ".join(row) for row in [("statement", self.name), *rows])
 
     def add(self, keyword: str, text: str, definitions: Definitions, statements: Known) -> None:

@@ -80,7 +80,7 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
         own = f.known[one]
         if own.kind == "into":
             yield "Module Inner.\n"
-            yield from _chain_rows(own.text("attraction"), f, certificates)
+            yield from _chain_rows(own.get("attraction")[0], f, certificates)
             yield "End Inner.\n"
         define, prove = RULES[own.kind]
         yield f"(* {'-' * 60} {one} *)\n"
@@ -95,7 +95,7 @@ def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
     """
     own, chain = known[name], []
     for one in rests_on(own):
-        if whole or own.kind != "into" or one != own.text("attraction"):
+        if whole or own.kind != "into" or one != own.get("attraction")[0]:
             chain += [each for each in _chain(one, known, whole) if each not in chain]
     return [*chain, name]
 
@@ -301,7 +301,7 @@ def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable, and attracts every state."""
-    descent = f.known[own.text("descent")]
+    descent = f.known[own.get("descent")[0]]
     if own.get("lyapunov"):
         yield f.fill(
             texts.ATTRACTS_BY_LYAPUNOV,
@@ -310,7 +310,7 @@ def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
             last=f.extra_steps(descent) + 1,
             descent=reading_name(descent.name),
             descends=theorem_name(descent.name),
-            lyapunov=theorem_name(own.text("lyapunov")),
+            lyapunov=theorem_name(own.get("lyapunov")[0]),
         )
         return
     yield f.fill(
@@ -365,7 +365,7 @@ def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 def _around(f: Frame, attraction: checker.Statement) -> str:
     """The module with the point of an attraction."""
     if attraction.kind == "into":
-        return "Inner." + _around(f, f.known[attraction.text("attraction")])
+        return "Inner." + _around(f, f.known[attraction.get("attraction")[0]])
     return LYAPUNOV if attraction.get("lyapunov") else "Contraction"
 
 
@@ -393,8 +393,8 @@ def into_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state of the larger space."""
-    descent, attraction = f.known[own.text("descent")], f.known[own.text("attraction")]
-    inner_descent, last = f.known[attraction.text("descent")], f.extra_steps(descent) + 1
+    descent, attraction = f.known[own.get("descent")[0]], f.known[own.get("attraction")[0]]
+    inner_descent, last = f.known[attraction.get("descent")[0]], f.extra_steps(descent) + 1
     agree = "|".join(
         f.fill(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)", own)
         for k in f.pieces
@@ -418,7 +418,7 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state just on the domain of the descent."""
-    attraction = f.known[own.text("attraction")]
+    attraction = f.known[own.get("attraction")[0]]
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     words = {
         "around": _around(f, attraction),
@@ -428,11 +428,11 @@ def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         "back": "|".join(f"exact (eq_sym {one})" for one in each),
     }
     if own.get("escape"):
-        escape = f.known[own.text("escape")]
+        escape = f.known[own.get("escape")[0]]
         name, period = theorem_name(escape.name), len(escape.get("word")[0])
         yield f.fill(texts.EXACTLY, own, escape=name, period=period, **words)
         return
-    unstable = f.known[own.text("unstable")]
+    unstable = f.known[own.get("unstable")[0]]
     around = Around(f, unstable, CHETAEV).words
     yield f.fill(
         texts.EXACTLY_OR_UNSTABLE,
