@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import gc
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -60,7 +59,6 @@ class CertifyOptions(argparse.Namespace):
 
 def command(parsed: argparse.Namespace) -> int:
     """Judges claims, or answers scripts of SMT-LIB; returns the exit code."""
-    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
     options = CertifyOptions(**vars(parsed))
     return certify_problems(options) if are_scripts(options.files) else certify(options)
 

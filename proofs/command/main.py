@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import os
 import re
 import sys
@@ -309,6 +310,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     ):
         given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
     parsed = build_parser().parse_args(given)
+    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
     try:
         code = _dispatch(parsed)
         print(end="", flush=True)  # there may be no standard output to flush
