@@ -86,7 +86,9 @@ def feasible(
             return best
         primal, dual, y = moved
         # by weak duality, `trace` times the trace of every solution is no less than right y
-        if max(max(float(np.abs(x).max()) for x in primal), right @ y / max(trace, HARDLY)) > LARGE:
+        if float(right @ y) > LARGE * max(trace, HARDLY):
+            return best
+        if max(float(np.abs(x).max()) for x in primal) > LARGE:
             return best
     return best
 
