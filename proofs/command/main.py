@@ -29,6 +29,8 @@ MODULES = {
     "simulate": "juggleproof.proofs.command.simulate",
     "bench": "juggleproof.proofs.command.bound",
 }
+PROBLEMS = "juggleproof.proofs.command.problems"  # what `certify` is for scripts of SMT-LIB
+SUFFIX = ".smt2"
 FORMATS = "html, latex, pdf, markdown, json, badge or figures"
 
 
@@ -350,11 +352,24 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command in ("bound", "stability"):
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if parsed.command == "certify" and are_scripts(parsed.files):
+        return int(import_module(PROBLEMS).command(parsed))
     if parsed.command == "certify":  # to load what makes reports takes a second
         report = import_module(MODULES["report"]) if parsed.report else None
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     code: int = import_module(MODULES[parsed.command]).command(parsed)
     return code
+
+
+def are_scripts(files: Sequence[Path]) -> bool:
+    """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are
+    not.
+    """
+    scripts = [path for path in files if path.suffix == SUFFIX]
+    if scripts and len(scripts) < len(files):
+        other = next(path for path in files if path.suffix != SUFFIX)
+        raise ClaimError(f"{other}: beside scripts of SMT-LIB; certify files of one kind at a time")
+    return bool(scripts)
 
 
 if __name__ == "__main__":
