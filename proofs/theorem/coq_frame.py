@@ -11,7 +11,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.coq.branch import Known
 from juggleproof.certificates.coq.text import coq_name, disjunctive
 from juggleproof.proofs.theorem.coq_readings import reading_name
-from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, term_of
+from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, names_of, term_of
 
 
 def theorem_name(name: str) -> str:
@@ -155,11 +155,6 @@ def equal_states(proofs: Sequence[str]) -> str:
     for one in proofs[1:]:
         proof = f"(f_equal2 pair {proof} {one})"
     return proof
-
-
-def names_of(node: ast.expr) -> set[str]:
-    """The names that occur in a term."""
-    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
 
 
 def nested(last: str, count: int) -> str:

@@ -440,7 +440,7 @@ Qed.
 """
 
 ESCAPES = """\
-Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
+Lemma of_periodic : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
   Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
   exists of_j, States.coordinate of_j (Escape.start$a) <> States.coordinate of_j (Escape.point$a).
 Proof.
@@ -451,6 +451,20 @@ Proof.
   $steps
   split; [exact of_there_0|split; [|$apart]].
   cbn [Rules.iterate]. rewrite $rewritten. exact $equal.
+Qed.
+
+(* The orbit of the start is periodic, and the point does not attract it. *)
+Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
+  Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
+  Escape.start$a <> Escape.point$a /\\
+  ~ States.attracting (Map.space$a) (Map.f$a) (Escape.point$a).
+Proof.
+  intros$a of_dom. destruct (of_periodic$a of_dom) as (of_there & of_back & of_j & of_apart).
+  split; [exact of_there|split; [exact of_back|split]].
+  { intro of_same. apply of_apart. now rewrite of_same. }
+  { intro of_all. exact (Rules.periodic_orbit_stays_away (Map.f$a) States.coordinate
+      (fun of_j => States.coordinate of_j (Escape.point$a)) $period (Escape.start$a) of_j
+      ltac:(lia) of_back of_apart (of_all _ of_there)). }
 Qed.
 """
 
@@ -468,7 +482,7 @@ Proof.
     (${P}_covers$a of_map) _ _ _ _).
   { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
   { intro of_dom. exact ($tends ($attraction$a of_dom)). }
-  { intro of_out. split; [lia|exact ($escape$a of_out)]. }
+  { intro of_out. split; [lia|exact (of_periodic$a of_out)]. }
   { intro of_out. pose proof (${P}_same_point$a of_out) as $each_axis. intros []; [$back]. }
 Qed.
 """

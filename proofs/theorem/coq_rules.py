@@ -1,5 +1,5 @@
 """A theorem on the orbits of a map, certified by rules of the checker, as one file of Coq: the map,
-the premises proved by their certificates, and the theorem by proofs/coq/Rules.v.
+the premises proved by their certificates, and the theorem by proofs/coq/orbits.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ from juggleproof.proofs.theorem.coq_values import (
     lyapunov_proofs,
 )
 
-COQ = Path(__file__).resolve().parents[1] / "coq"
-# what says nothing of the orbits that tend to a point, or is a part of what does
-NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation", "escapes")
+ORBITS = Path(__file__).resolve().parents[1] / "coq" / "orbits"
+# what says nothing of stability or attraction
+NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation")
 
 
 def theorems_in(statements: Known) -> list[str]:
@@ -116,7 +116,8 @@ def _theory(with_lyapunov: bool) -> str:
     sources = ["Readings.v", "Rules.v", *["Lyapunov.v"] * with_lyapunov]
     imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
     prelude, read, rules, *more = (
-        imports.sub("", text) for text in (PRELUDE, *((COQ / one).read_text() for one in sources))
+        imports.sub("", text)
+        for text in (PRELUDE, *((ORBITS / one).read_text() for one in sources))
     )
     return "\n".join(
         [
@@ -333,7 +334,7 @@ def escape_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The start is not the point, and is back after a period."""
+    """The start is back after a period, so that the point does not attract it."""
     (word,) = own.get("word")
     guards = [f"of_guard_{k}" for k in range(len(word))]
     back = [f"of_back_{k}" for k in range(len(f.axes))]
@@ -428,9 +429,8 @@ def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         "back": "|".join(f"exact (eq_sym {one})" for one in each),
     }
     if own.get("escape"):
-        escape = f.known[own.get("escape")[0]]
-        name, period = theorem_name(escape.name), len(escape.get("word")[0])
-        yield f.fill(texts.EXACTLY, own, escape=name, period=period, **words)
+        (word,) = f.known[own.get("escape")[0]].get("word")
+        yield f.fill(texts.EXACTLY, own, period=len(word), **words)
         return
     unstable = f.known[own.get("unstable")[0]]
     around = Around(f, unstable, CHETAEV).words

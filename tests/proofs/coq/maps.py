@@ -109,6 +109,19 @@ def zero_attracts_from_above() -> list[MapRule]:
     ]
 
 
+@claim("cycle")
+def a_point_that_two_states_never_reach() -> list[MapRule]:
+    """x -> a x (1 - x) on [0, 1], 3 < a < 7/2: 1 - 1/a does not attract a state of period 2."""
+    over = (("over", "a"), ("domain", "3 < a and a < 7/2"), ("state", "x"), ("space", UNIT))
+    root = ("root", "u = sqrt(a^2 - 2*a - 3)")
+    orbit = (("point", "1 - 1/a"), ("start", "(a + 1 - u)/(2*a)"), ("word", "1 1"))
+    domain = ("domain", "3 < a and a < 7/2 and a > 0")
+    return [
+        MapRule("map", (*over, ("piece", "x >= 0 -> a*x*(1 - x)"))),
+        MapRule("away", (("map", "cycle/map"), domain, root, *orbit)),
+    ]
+
+
 def norm(weights: str, rate: str, radius: str, size: str) -> tuple[tuple[str, str], ...]:
     """The numbers of a contraction."""
     return ("weights", weights), ("rate", rate), ("radius", radius), ("size", size)

@@ -28,7 +28,7 @@ from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
-LARGE = "falling/all"
+LARGE, CYCLE = "falling/all", "cycle/away"
 
 
 def settles(point: str) -> str:
@@ -43,6 +43,9 @@ CONCLUSIONS = {
     SHIFTED: f"Descent.domain a -> {settles('LyapunovFunction.point')}.",
     GROWN: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
     LARGE: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
+    CYCLE: "Escape.domain a -> Map.space a (Escape.start a) /\\"
+    " Rules.iterate (Map.f a) 2 (Escape.start a) = Escape.start a /\\ Escape.start a <>"
+    " Escape.point a /\\ ~ States.attracting (Map.space a) (Map.f a) (Escape.point a).",
 }
 
 
@@ -115,6 +118,7 @@ def test_rejects_a_forged_certificate(
         (SHARP, "domain (a : R) : Prop :=\n  0 < a /\\ a < 1.", "domain (a : R) : Prop := 0 < a."),
         (SHARP, "then image_1 a of_s\n  else of_s", "then of_s\n  else image_1 a of_s"),
         (PLANE, "(x / 4, (x + y) / 4)", "(x / 4, (x - y) / 4)"),
+        (CYCLE, "(a + 1 - u) / (2 * a)", "(a + 1 + u) / (3 * a)"),
     ],
 )
 def test_rejects_a_changed_map(name: str, old: str, new: str, tmp_path: Path) -> None:
