@@ -212,13 +212,14 @@ class Reading:
     def _exhibit(self) -> None:
         """What exists, from the polynomial lemma."""
         names, own = [*map(coq_name, self.form.existential)], self.branch.fresh()
+        applied = " ".join([lemma_name(self.statement.name), *self.universal, *self.premises])
         self._declare(self.form.existential)
         nodes = [said for keyword, said in self.statement.lines if keyword in ("with", "show")]
         node = nodes[0] if len(nodes) == 1 else ast.BoolOp(ast.And(), nodes)
         formula, kept = self.form.unfolding.goal(True), self.branch.fresh()
         self.stated.append(f"exists {' '.join(names)} : R, {formula_of(node, 0)}")
         self.rows += [
-            f"destruct {lemma_name(self.statement.name)} as ({' & '.join([*names, own])}).",
+            f"destruct ({applied}) as ({' & '.join([*names, own])}).",
             f"pose proof {own} as {kept}.",
             *self.branch.assume(formula, kept),
         ]
