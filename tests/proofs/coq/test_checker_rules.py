@@ -68,6 +68,7 @@ WEAKER = {
         "exists k, (k < count)%nat /\\ guard k s.",
         "exists k, guard k s.",
     ),
+    "after-the-point": ("Relation", "next t u -> forall j,", "next s u -> forall j,"),
     "loss-at-the-point": ("Lyapunov", "0 <= v -> 0 <= loss s v.", "0 <= v -> -1 <= loss s v."),
     "direction-elsewhere": (
         "Lyapunov",
