@@ -61,19 +61,21 @@ class Frame:
         return Template(text).substitute({**self.words, "P": prefix, "theorem": name, **more})
 
     def of_kind(
-        self, parts: Mapping[str, Mapping[str, str]], own: checker.Statement, around: str = ""
+        self,
+        parts: Mapping[str, Mapping[str, str]],
+        own: checker.Statement,
+        around: str = "",
+        **more: str,
     ) -> dict[str, str]:
-        """What is said of a map in one way, and of a relation in another, with the point of a
-        module, and that it is fixed.
+        """What is said of a map in one way, and of a relation in another, around the point of a
+        module, and that this point is fixed.
         """
-        words = {"around": around, "e": self.fill(kinds.POINT, own, around=around)}
-        images = (
-            f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)" for k in self.pieces
-        )
-        words |= {"one_piece": self.one_piece(), "images": self.fill("|".join(images), own)}
-        words["is_fixed"] = self.fill(kinds.FIXED[self.kind], own, around=around)
-        filled = {word: self.fill(text, own, **words) for word, text in parts[self.kind].items()}
-        return {**words, **filled}
+        words = {"around": around, "e": self.fill(kinds.POINT, own, around=around), **more}
+        texts = {"is_fixed": kinds.FIXED[self.kind], **parts[self.kind]}
+        return {
+            "around": around,
+            **{word: self.fill(text, own, **words) for word, text in texts.items()},
+        }
 
     def define(
         self,

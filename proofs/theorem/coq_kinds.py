@@ -96,7 +96,7 @@ Executions.relation_descent (Relation.next$a) (Relation.space$a)
 CONTRACTION = {
     "map": {
         "alone": "",
-        "fixed": f"Rules.fixed_point {_MAP_NORM} (of_closer$a of_dom)); [|reflexivity",
+        "fixed": f"apply (Rules.fixed_point {_MAP_NORM} (of_closer$a of_dom)); [|reflexivity].",
         "stability": f"Rules.stability {_MAP_NORM}{_PREMISES} (Map.space$a)",
         "contraction": f"Rules.contraction {_MAP_NORM}{_PREMISES}",
         "convergence": f"""\
@@ -111,8 +111,8 @@ Rules.convergence {_MAP_NORM}{_PREMISES} (Contraction.set$a) of_low of_high
     "relation": {
         "alone": "apply (of_only_next$a _ of_map of_there). intros of_t of_moves.\n  ",
         "fixed": f"""\
-Executions.relation_fixed_point (Relation.next$a) {_NORM}
-    (of_closer$a of_dom) (Contraction.point$a) of_t); [|exact of_moves|reflexivity""",
+apply (Executions.relation_fixed_point (Relation.next$a) {_NORM}
+    (of_closer$a of_dom) (Contraction.point$a) of_t); [|exact of_moves|reflexivity].""",
         "stability": f"""\
 Executions.relation_stability (Relation.next$a) (Relation.space$a)
     {_NORM}{_PREMISES}""",
@@ -158,12 +158,6 @@ Lyapunov.attraction_from_a_set (Map.f$a) States.coordinate $e
         "approach": """\
 rewrite Rules.iterate_add.
     exact (of_nearer of_k _ _ (Rlt_le _ _ of_size) of_in (of_small$a of_near _ of_in)).""",
-        "into": "Lyapunov.into",
-        "same_step": "Map.f$a of_s = Inner.Map.f$a of_s",
-        "agree": """\
-{ intros of_s of_there of_within.
-    destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same; symmetry;
-      [$images]. }""",
     },
     "relation": {
         "kept": """\
@@ -177,8 +171,22 @@ rewrite <- (Nat.add_0_r of_n) in of_in.
     exact (of_nearer of_k _ (fun of_m => of_x (of_n + of_m)%nat)
       (Executions.execution_later _ of_n of_x of_runs) (Rlt_le _ _ of_size) of_in
       (of_small$a of_near _ of_in)).""",
+    },
+}
+
+# The same pieces on a smaller space, in the module Inner.
+INTO = {
+    "map": {
+        "into": "Lyapunov.into",
+        "same_step": "Map.f$a of_s = Inner.Map.f$a of_s",
+        "agree": """\
+intros of_s of_there of_within.
+    destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same; symmetry;
+      [$images].""",
+    },
+    "relation": {
         "into": "Executions.relation_into",
         "same_step": "Relation.next$a of_s of_t -> Inner.Relation.next$a of_s of_t",
-        "agree": "{ exact (fun _ _ _ _ of_moves => of_moves). }",
+        "agree": "exact (fun _ _ _ _ of_moves => of_moves).",
     },
 }

@@ -214,7 +214,7 @@ Proof.
   assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
   assert (of_there : ${M}.space$a (Contraction.point$a)) by exact (${P}_point$a of_dom).
   split; [exact of_there|split; [|split; [|split]]].
-  { ${alone}apply of_same_state. apply ($fixed].
+  { ${alone}apply of_same_state. $fixed
     apply (of_surrounded$a of_dom); [exact of_there|].
     intro of_j. unfold Rminus. rewrite Rplus_opp_r, Rabs_R0.
     apply Rmult_le_pos; [lra|destruct (of_between of_j); lra]. }
@@ -397,7 +397,7 @@ Proof.
   assert (of_inner_map : Inner.${M}.domain$a) by exact (${inner}_inside$a of_inner).
   assert (of_agree : forall $st, ${M}.space$a of_s -> Inner.${M}.space$a of_s ->
     $same_step).
-  $agree
+  { $agree }
   pose (of_keeps $st := of_map_keeps$a $st of_map).
   pose (of_inner_keeps $st := Inner.of_map_keeps$a $st of_inner_map). split.
   { refine (${into}_stability ($F) (Inner.$F) States.coordinate

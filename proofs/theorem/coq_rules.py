@@ -440,7 +440,13 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state of the larger space."""
     descent, attraction = f.known[own.get("descent")[0]], f.known[own.get("attraction")[0]]
     inner_descent, last = f.known[attraction.get("descent")[0]], f.extra_steps(descent) + 1
-    words = f.of_kind(kinds.ENTERED, own, _around(f, own))
+    images = "|".join(
+        f.fill(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)", own)
+        for k in f.pieces
+    )
+    around, one_piece = _around(f, own), f.one_piece()
+    words = f.of_kind(kinds.ENTERED, own, around)
+    words |= f.of_kind(kinds.INTO, own, around, one_piece=one_piece, images=images)
     yield f.fill(
         texts.INTO,
         own,
