@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from html import escape
 
+from juggleproof.certificates import checker
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.mathml import mathml
 from juggleproof.proofs.reports.words import SIGN, WORDS, parts_of, pieces
@@ -15,7 +16,7 @@ from juggleproof.proofs.reports.words import SIGN, WORDS, parts_of, pieces
 # -------------------------------------------------------------------------------------------------
 # Sentences, statements and values with their formulas as MathML.
 
-NAMES = ("exists", "integer", "over", "state")
+NAMES = ("exists", "integer", "over", "state", "input")
 FORMULAS = (
     "given",
     "have",
@@ -30,9 +31,12 @@ FORMULAS = (
     "rate",
     "radius",
     "size",
+    "loss",
+    "least",
+    "upper",
 )
-TUPLES = ("point", "start", "weights")
-LINKS = ("sharp", "map", "descent", "contraction", "attraction", "escape")
+TUPLES = ("point", "start", "weights", "direction")
+LINKS = ("sharp", *checker.NAMED)
 ONE_LINE = {
     "show": 144,
     "with": 144,
@@ -190,6 +194,8 @@ def _row(keyword: str, parts: Sequence[str]) -> Row:
     if keyword in ("let", "root", "number"):
         name, _, value = parts[0].partition(" = ")
         return Row(word, (named(name, value),))
+    if keyword == "value":
+        return Row(word, (f" {mathml(ARROW)} ".join(map(formula, parts[0].split(" -> "))),))
     if keyword in ("piece", "iterates", "after"):
         before, _, images = parts[0].partition(" -> ")
         source = _tuple(_listed(before)) if keyword == "iterates" else formula(before)
@@ -321,7 +327,7 @@ def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[s
     lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
     listed = {
         keyword: {name: 0 for word, names in lines if word == keyword for name in names.split()}
-        for keyword in ("forall", "exists", "over", "state", "integer")
+        for keyword in ("forall", "exists", "over", "state", "input", "integer")
     }
     names = {name: 0 for some in listed.values() for name in some}
     notation = {name for name, _, meaning in NOTATION if meaning and is_meant(name, names)}
