@@ -71,6 +71,7 @@ class Proof:
     rules: list[MapRule] = field(default_factory=list)
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
+    budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
 
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
@@ -82,7 +83,8 @@ class Proof:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proof = self.proof_of(premises[name], efforts, budget)
+                work = budget * self.budget // BUDGET
+                proof = self.proof_of(premises[name], efforts, work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -99,11 +101,12 @@ class Proof:
         return ""
 
     def why(self) -> str:
-        """What Z3 says of the last premise without a proof."""
+        """What Z3 says of the last premise without a proof, and its text."""
         if self.open is None:
             return ""
         kind, name, premise = self.open
-        return why(kind, name, premise, vote_and_model(premise), BUDGET)
+        line = why(kind, name, premise, vote_and_model(premise), self.budget)
+        return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
@@ -197,23 +200,25 @@ class Outcome:
     tried: list[str]
 
 
-def search_stability(system: Map, report: Report = lambda text: None) -> Outcome:
-    """What `outcome_of` finds, with the roots in its sentence."""
-    found = outcome_of(system, report)
+def search_stability(
+    system: Map, report: Report = lambda text: None, budget: int = BUDGET
+) -> Outcome:
+    """What `outcome_of` finds, with the roots written out in its sentence."""
+    found = outcome_of(system, report, budget)
     rows = [row for rule in found.proof.rules for row in rule.rows]
-    for root in dict.fromkeys(text for keyword, text in rows if keyword == "root"):
-        if root.partition(" = ")[0] in checker.names_in(found.sentence):
-            found.sentence += f"; {root}"
+    roots = (text.split(" = ", 1) for keyword, text in rows if keyword == "root")
+    found.sentence = renamed(found.sentence, dict(roots))
     return found
 
 
-def outcome_of(system: Map, report: Report) -> Outcome:
+def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
-    given, system = system.domain, with_licences(system)
+    given, guards = system.domain, [guard for guard, _ in system.pieces]
+    system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
-    proof = Proof()
+    proof = Proof(budget=budget)
     if not all(map(len, parameters.values())):
         return Outcome(proof, "unknown", f"no parameters were found in the domain {given}", [])
     lines: list[str] = []
@@ -224,14 +229,16 @@ def outcome_of(system: Map, report: Report) -> Outcome:
 
     fault = proof.add(system.rule(f"{system.name}/map"))
     if fault:
-        return Outcome(proof, "unknown", f"the map: {proof.why() or fault}", lines)
-    every = fixed_points(system)
-    if system.point:
-        every = [one for one in every if one.is_at(system.point)]
-    every = [one for one in every if one.exists(system, parameters).any()]
+        line, _, text = (proof.why() or fault).partition("\n")
+        if guards != [guard for guard, _ in system.pieces]:
+            line += "; a piece applies only where it divides by nothing that is 0"
+        return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
+    every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     if not every:
         what = ", ".join(system.point)
-        none = f"{what} is no fixed point" if what else "no fixed point was found in the space"
+        none = f"{what} is no fixed point in the space"
+        if not what:
+            none = "no isolated fixed point in square roots was found in the space"
         return Outcome(proof, "unknown", none, lines)
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
         if not fixed.stable_share(system, parameters):
@@ -261,12 +268,12 @@ def outcome_of(system: Map, report: Report) -> Outcome:
 def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
     """What is certified of states close to the point, or nothing."""
     pairs = zip(setting.system.state, setting.point.terms)
-    gaps = {f"{one}_gap": one if e == "0" else f"({one} - ({e}))" for one, e in pairs}
+    gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
     for rule in islice(rules, LOCAL_TRIED):
         if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
-            on = renamed(dict(rule.rows)["on"], gaps)
+            on = renamed(with_bars(dict(rule.rows)["on"]), gaps)
             at = f" where {where}" if where else ""
             return f"{name} is stable{at}, and attracts every state with {on}"
     return ""
@@ -274,8 +281,21 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
 
 def name_of(fixed: FixedPoint) -> str:
     """The point as a person reads it."""
-    terms = ", ".join(fixed.point.terms)
-    return f"({terms})" if len(fixed.point.terms) > 1 or " " in terms else terms
+    return in_brackets(", ".join(fixed.point.terms))
+
+
+def in_brackets(text: str) -> str:
+    """The text, in brackets where it is no single number or name."""
+    return text if text.isalnum() else f"({text})"
+
+
+def with_bars(formula: str) -> str:
+    """The formula with |t| <= r in place of t <= r and -t <= r."""
+    parts = formula.split(" and ")
+    kept = [part for part in parts if part.removeprefix("-") == part or part[1:] not in parts]
+    return " and ".join(
+        f"|{part.replace(' <=', '| <=')}" if f"-{part}" in parts else part for part in kept
+    )
 
 
 def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
@@ -371,7 +391,8 @@ def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) ->
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
         if not fault:
-            return f"does not attract ({said['start']}), which is periodic"
+            what = "periodic" if " " in said["word"] else "a fixed point"
+            return f"does not attract {in_brackets(said['start'])}, which is {what}"
     if stray:
         return ""
     for rule in islice(instability_rules(setting, name + "unstable"), 6):
@@ -398,18 +419,25 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
-    if found:  # of the candidate that fits best
-        proof.add(found[0][1], (1,))
-        log(proof.why())
+    if not found:
+        log("no function of the forms that are looked for falls at all samples")
+    elif proof.add(found[0][1], (1,)):  # the candidate that fits best
+        log(f"{function_of(found[0][1])}: {proof.why()}")
     return False
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
     """Tries to certify a candidate."""
     fault = proof.add(rule, efforts, budget)
-    said = dict(rule.rows)
-    report(f"V = {said['value']}, loss {said['loss']}: {fault or 'certified'}")
+    report(f"{function_of(rule)}: {fault or 'certified'}")
     return fault
+
+
+def function_of(rule: MapRule) -> str:
+    """The function of a candidate, and its loss."""
+    values = "; ".join(text for keyword, text in rule.rows if keyword == "value")
+    greatest = f"the greatest of {values}" if "; " in values else values
+    return f"V = {greatest}, loss {dict(rule.rows)['loss']}"
 
 
 def divisors(setting: Setting) -> list[str]:
