@@ -484,7 +484,10 @@ def premises_of(
     """
     for keyword, name in ((key, text) for key, text in rule.lines if key in checker.NAMED):
         if name not in stated:
-            similar = get_close_matches(name, stated, 1)
+            part = name.partition("/")[1:]
+            similar = get_close_matches(name, stated, 1) or [
+                one for one in stated if one.partition("/")[1:] == part
+            ]
             hint = f"did you mean {similar[0]}?" if similar else "state it first, in this claim"
             raise ClaimError(
                 f"{rule.name}: the line `{keyword} {name}` names no rule that stands before it;"

@@ -59,7 +59,8 @@ def maps_of(path: Path) -> list[Map]:
                 name = f"{claim.id}-{rule.name}" if len(rules) > 1 else claim.id
                 maps.append(of_rule(rule, name))
         except (ClaimError, checker.Rejected) as problem:
-            raise ClaimError(f"{claim.where}: {claim.id}: {problem}") from None
+            text = str(problem).removeprefix(f"{claim.id}: ")
+            raise ClaimError(f"{claim.where}: {claim.id}: {text}") from None
         except Exception as problem:
             raised = f"{type(problem).__name__}: {problem}"
             raise ClaimError(f"{claim.where}: {claim.id} raises {raised}; mend it") from problem

@@ -289,7 +289,8 @@ def read_rows(
 
 
 def short(text: str) -> str:
-    """The text, or its beginning where it is long."""
+    """The text in one line, or its beginning where it is long."""
+    text = " ".join(text.split())
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 2]}.."
 
 
@@ -353,7 +354,7 @@ def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
     try:
         node = checker.parse(_readable(text))
     except checker.Rejected:
-        raise ClaimError(f"unreadable: {short(text.strip()) or 'no text'}; write {SIGNS}") from None
+        raise ClaimError(f"unreadable: {short(text) or 'no text'}; write {SIGNS}") from None
     calls = [inner for inner in ast.walk(node) if isinstance(inner, ast.Call)]
     for call in calls:
         _refuse_call(call, in_piece=keyword == "piece")

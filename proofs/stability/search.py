@@ -285,8 +285,8 @@ def name_of(fixed: FixedPoint) -> str:
 
 
 def in_brackets(text: str) -> str:
-    """The text, in brackets where it is no single number or name."""
-    return text if text.isalnum() else f"({text})"
+    """The text, in brackets where it is a sum or a list, or has a sign."""
+    return f"({text})" if " " in text or text.startswith("-") else text
 
 
 def with_bars(formula: str) -> str:

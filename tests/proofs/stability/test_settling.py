@@ -36,6 +36,21 @@ SETTLED = {  # name: (text, exit code, first line)
         0,
         f"proved   at-rest: 0 {STABLE} at least where a > 0",
     ),
+    "side": (  # the first piece has the point beside its guard
+        "state x\npiece x < 0 -> x/2\npiece x >= 0 -> x/3",
+        0,
+        f"proved   side: 0 {STABLE}",
+    ),
+    "named": (  # of the three, one has no square roots
+        "state x\nspace -1 <= x <= 1\npiece x/2 + (x^3 - x^2)/8\npoint 0",
+        0,
+        f"proved   named: 0 {STABLE}",
+    ),
+    "not-fixed": (
+        "state x\npiece x/2\npoint 1",
+        1,
+        "unknown  not-fixed: 1 is no fixed point in the space",
+    ),
     "drift": (  # x + 1 at a = 0
         "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
         0,
@@ -44,8 +59,14 @@ SETTLED = {  # name: (text, exit code, first line)
     "two-points": (
         "state x\npiece x <= 1 -> x/2\npiece x > 1 -> x/3 + 4",
         1,
-        f"refuted  two-points: 0 {AWAY} (6), which is periodic; 0 is stable, and attracts every"
-        " state with x <= 1 and -x <= 1",
+        f"refuted  two-points: 0 {AWAY} 6, which is a fixed point; 0 is stable, and attracts every"
+        " state with |x| <= 1",
+    ),
+    "two-cycle": (
+        "over a\ndomain 3 < a and a < 7/2\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)",
+        1,
+        f"refuted  two-cycle: ((a - 1)/a) {AWAY} ((a - sqrt(a^2 - 2*a - 3) + 1)/(2*a)), which is"
+        " periodic",
     ),
     "doubling": ("state x\npiece 2*x", 1, "refuted  doubling: 0 is not stable"),
     "identity": ("state x\npiece x", 1, "unknown  identity: "),
