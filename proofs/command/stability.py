@@ -39,7 +39,7 @@ def command(parsed: argparse.Namespace) -> int:
         with busy("searching"):
             found = search_stability(system, budget=parsed.budget)
         print("\n".join(lines_of(system, found, parsed.tried)))
-        if parsed.output is not None:
+        if parsed.output is not None and found.proof.rules:
             write(parsed.output, system.name, found)
         code = max(code, int(HEADS[found.verdict] != "proved"))
     return code
@@ -95,7 +95,8 @@ def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
         yield "tried"
         yield from (textwrap.indent(line, "  ") for line in found.tried)
     size = len(certificate_lines(found.proof.certificates))
-    yield f"checked  {len(texts)} statements, {size} bytes of certificates"
+    count = f"{len(texts)} statement{'' if len(texts) == 1 else 's'}"
+    yield f"checked  {count}, {size} bytes of certificates"
 
 
 def write(folder: Path, name: str, found: Outcome) -> None:
@@ -109,4 +110,4 @@ def write(folder: Path, name: str, found: Outcome) -> None:
     statements = "\n\n".join(block for block in blocks if block) + "\n"
     store = path.with_suffix(".certificates")
     write_store(store, statements, {name: found.proof.certificates})
-    print(f"written  {path}, {store}; `juggleproof explain {name} {path}` tells it whole")
+    print(f"written  {path}, {store}; `juggleproof explain {name} {path}` shows it whole")

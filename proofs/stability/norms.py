@@ -120,8 +120,11 @@ def rounded_rows(rows: Floats, matrices: Floats) -> Iterator[tuple[list[list[Fra
     scaled = rows / np.abs(rows).max()
     seen = set()
     for denominator in DENOMINATORS:
-        exact = [[Fraction(round(x * denominator), denominator) for x in row] for row in scaled]
-        key = tuple(tuple(row) for row in exact)
+        every = [
+            tuple(Fraction(round(x * denominator), denominator) for x in row) for row in scaled
+        ]
+        key = tuple(dict.fromkeys(every))
+        exact = list(map(list, key))
         floats = np.array([[float(x) for x in row] for row in exact])
         if key in seen or np.linalg.matrix_rank(floats) < rows.shape[1]:
             continue

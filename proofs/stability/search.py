@@ -220,7 +220,9 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     parameters = region(system.domain, system.parameters, PARAMETERS)
     proof = Proof(budget=budget)
     if not all(map(len, parameters.values())):
-        return Outcome(proof, "unknown", f"no parameters were found in the domain {given}", [])
+        hint = "; put in what an equation fixes" if " = " in given else ""
+        none = f"no parameters were found in the domain {given}{hint}"
+        return Outcome(proof, "unknown", none, [])
     lines: list[str] = []
 
     def log(text: str) -> None:
@@ -273,7 +275,10 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
     for rule in islice(rules, LOCAL_TRIED):
         if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
-            on = renamed(with_bars(dict(rule.rows)["on"]), gaps)
+            on = with_bars(dict(rule.rows)["on"])
+            for one, gap in gaps.items():
+                on = on.replace(f"|{one}|", f"|{gap}|")
+            on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
             at = f" where {where}" if where else ""
             return f"{name} is stable{at}, and attracts every state with {on}"
     return ""
@@ -291,11 +296,17 @@ def in_brackets(text: str) -> str:
 
 def with_bars(formula: str) -> str:
     """The formula with |t| <= r in place of t <= r and -t <= r."""
-    parts = formula.split(" and ")
-    kept = [part for part in parts if part.removeprefix("-") == part or part[1:] not in parts]
-    return " and ".join(
-        f"|{part.replace(' <=', '| <=')}" if f"-{part}" in parts else part for part in kept
-    )
+    rows = [part.split(" <= ") for part in formula.split(" and ")]
+    if any(len(row) != 2 for row in rows):
+        return formula
+    known = [(expression(left), right) for left, right in rows]
+    lines = []
+    for k, ((left, right), (term, _)) in enumerate(zip(rows, known)):
+        if (-term, right) not in known:
+            lines.append(f"{left} <= {right}")
+        elif (-term, right) not in known[:k]:
+            lines.append(f"|{left}| <= {right}")
+    return " and ".join(lines)
 
 
 def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:

@@ -69,6 +69,19 @@ SETTLED = {  # name: (text, exit code, first line)
         " periodic",
     ),
     "doubling": ("state x\npiece 2*x", 1, "refuted  doubling: 0 is not stable"),
+    "quotient": (  # its region has sides with both variables
+        "state x y\nspace x > 0 and y > 0\npiece 1 + x/y, x",
+        1,
+        "in part  quotient: (2, 2) is stable, and attracts every state with |(4/5)*(y - 2)| <= 1/8"
+        " and |x - 2| <= 1/8 and |(3/5)*(x - 2) + (-3/5)*(y - 2)| <= 1/8; of the others nothing"
+        " was found",
+    ),
+    "circle": (
+        "over c s\ndomain c^2 + s^2 = 1\nstate x y\npiece c*x - s*y, s*x + c*y",
+        1,
+        "unknown  circle: no parameters were found in the domain c^2 + s^2 = 1; put in what an"
+        " equation fixes",
+    ),
     "identity": ("state x\npiece x", 1, "unknown  identity: "),
     "shift": ("state x\npiece x + 1", 1, "unknown  shift: "),
     "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map: "),
