@@ -154,7 +154,8 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
     """The lines of a statement below its name, each keyword with its formulas; lines of one keyword
     that follow each other are joined.
 
-    The names that `forall` lists are left out: they are all that stand in the lines.
+    The names that `forall` lists are left out: they are all that stand in the lines.  So is a line
+    that names nothing.
 
     >>> lines_of("statement a/b\\nforall x y\\ngiven x > 0 and y > 1\\ngiven x < y\\nshow x > y")
     [('given', ('x > 0', 'y > 1', 'x < y')), ('show', ('x > y',))]
@@ -166,7 +167,7 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
         parts = conjuncts(content) if keyword in FORMULAS else [content]
         if joined and joined[-1][0] == keyword and keyword in FORMULAS and keyword != "stage":
             joined[-1][1].extend(parts)
-        elif keyword != "forall":
+        elif keyword != "forall" and content:
             joined.append((keyword, parts))
     return [
         (keyword, tuple(chained(parts) if keyword in FORMULAS else parts))

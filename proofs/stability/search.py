@@ -37,11 +37,11 @@ from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rule
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
-    Point,
     around,
     licence,
     region,
     with_licences,
+    with_point_licences,
 )
 from juggleproof.proofs.stability.values import (
     Function,
@@ -100,6 +100,10 @@ class Proof:
         self.known[rule.name] = statement
         return ""
 
+    def domain(self) -> str:
+        """For which parameters the last statement holds."""
+        return dict(self.rules[-1].rows)["domain"]
+
     def why(self) -> str:
         """What Z3 says of the last premise without a proof, and its text."""
         if self.open is None:
@@ -122,15 +126,6 @@ class Proof:
             if proof is not None:
                 return proof
         return None
-
-
-def with_point_licences(domain: str, point: Point) -> str:
-    """The domain, with what the point's terms divide by said to be positive."""
-    for text in (*point.terms, *(under for _, under in point.roots)):
-        _, below = sympy.fraction(sympy.together(expression(text)))
-        for divisor, _ in sympy.factor_list(below)[1]:
-            domain = conjunction(domain, licence(divisor, domain))
-    return domain
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
@@ -255,7 +250,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             setting = setting_of(system, fixed, system.domain)
             fault = refuted(proof, setting, log)
             if fault:
-                where = beyond(given, setting.domain, system.parameters)
+                where = beyond(given, proof.domain(), system.parameters)
                 sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
                 return Outcome(proof, "refuted", sentence, lines)
     for fixed in every:
@@ -343,8 +338,9 @@ def settled(
     if not split:
         fault = refuted(proof, setting, log, STRAY_ONLY)
         if fault:
+            there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
-            sentence = f"{name} {fault}{where and f' where {where}'}"
+            sentence = f"{name} {fault}{there and f' where {there}'}"
             return "refuted", sentence + (f"; {more}" if more else "")
     if not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
@@ -431,7 +427,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
             if not tried(proof, rule, efforts, budget, log):
                 return True
     if not found:
-        log("no function of the forms that are looked for falls at all samples")
+        log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
     elif proof.add(found[0][1], (1,)):  # the candidate that fits best
         log(f"{function_of(found[0][1])}: {proof.why()}")
     return False

@@ -205,6 +205,114 @@ def every_orbit_settles():
 """
 
 
+SEVERAL = """from juggleproof import MapRule, claim
+
+@claim("two")
+def every_orbit_settles():
+    \"\"\"Every orbit tends to 0.\"\"\"
+    state = ("state", "x")
+    return [MapRule("slow", (state, ("piece", "x/2"))), MapRule("fast", (state, ("piece", "x/9")))]
+"""
+
+
+def test_maps_of_one_claim_are_apart_holds(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(SEVERAL)
+    done = running.run("stability", str(tmp_path / "own.py"), "-o", str(tmp_path / "out"))
+    assert (done.returncode, done.stderr) == (0, "")
+    for name in ("two-slow", "two-fast"):
+        assert f"proved   {name}: 0 {STABLE}\n" in done.stdout
+        assert check(tmp_path / "out" / f"{name.replace('-', '_')}.certificates") == 0
+
+
+MAP = 'MapRule("linear", (("state", "x"), ("piece", "SLOPE*x")))'
+FAULTS = {  # what stands in place of the map, and what is wrong with it
+    'MapRule("linear", (("state", "x"), ("piece", 0.5)))': (
+        "('piece', 0.5) is no line of a rule; write a pair (keyword, text)"
+    ),
+    'MapRule("linear", ("state x", "piece x/2"))': (
+        "'state x' is no line of a rule; write a pair (keyword, text)"
+    ),
+    'MapRule("linear", (("piece", "x/2"), ("state", "x")))': (
+        "the line `state x`: state comes too late; write over, domain, state, space, piece, point"
+    ),
+    'MapRule("linear", (("state", "x"), ("piece", "sin(x)")))': (
+        "the line `piece sin(x)`: sin(..) is no function here; abs, max and min are"
+    ),
+    'MapRule("linear", (("state", "x"), ("piece", "x/2\\npoint 1")))': (
+        "the line `piece x/2 point 1`: unreadable: x/2 point 1; write names, 3/10 or 0.3,"
+        " + - * / ^, abs max min, < <= = != >= >, and or not"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['1/']": (
+        "the line `point 1/`: unreadable: 1/; write names, 3/10 or 0.3, + - * / ^, abs max min,"
+        " < <= = != >= >, and or not"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['0', '0']": (
+        "the line `point 0, 0`: 2 terms for 1 state variables; write a term for each of x"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['1']": (
+        "1 is no fixed point in the space; `juggleproof stability` tells what was tried"
+    ),
+    f"{MAP.replace('SLOPE', '1/0')}": (
+        "the line `piece 1/0*x`: 1/0*x divides by 0; mend the divisor"
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_rejects_a_claim_whose_map_is_wrong_in_one_line(fault: str, tmp_path: Path) -> None:
+    file = tmp_path / "own.py"
+    file.write_text(OWN.replace(MAP, fault))
+    line = f"juggleproof: {file}:3: linear: {FAULTS[fault]}\n"
+    for command in (("stability", str(file)), ("certify", str(file), "--jobs", "1")):
+        done = running.run(*command)
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", line)
+
+
+def test_rejects_a_claim_that_fails(tmp_path: Path) -> None:
+    file = tmp_path / "own.py"
+    file.write_text(OWN.replace(MAP, "1/0"))
+    done = running.run("stability", str(file))
+    raised = f"{file}:3: linear raises ZeroDivisionError: division by zero; mend it"
+    assert (done.returncode, done.stderr) == (2, f"juggleproof: {raised}\n")
+
+
+@pytest.mark.parametrize("stem", ["3d", "my_map", "Hénon", "a b (2)", "class", "x.y"])
+def test_what_is_written_of_a_file_with_any_name_is_certified_holds(
+    stem: str, tmp_path: Path
+) -> None:
+    (tmp_path / f"{stem}.map").write_text(SETTLED["halving"][0])
+    done = running.run("stability", str(tmp_path / f"{stem}.map"), "-o", str(tmp_path))
+    assert done.returncode == 0
+    (claims,) = tmp_path.glob("*.py")
+    certified = running.run("certify", str(claims), "--jobs", "1", "--routes", "exact")
+    assert (certified.returncode, certified.stderr) == (0, "")
+
+
+def test_what_is_unknown_says_which_premise_with_its_text_holds(tmp_path: Path) -> None:
+    done = running.run("stability", str(map_file(tmp_path, "overlap")), "-o", str(tmp_path / "out"))
+    assert done.stdout.splitlines() == [
+        "unknown  overlap: the map: apart-2-1, the guards of pieces 1 and 2 do not overlap: false"
+        " at x = 0",
+        "tried",
+        "  statement overlap/map.apart-2-1",
+        "  forall x",
+        "  range 0 < 1",
+        "  given 0 < 1",
+        "  given x >= 0",
+        "  given x <= 0",
+        "  show 0 = 1",
+        "checked  0 statements, 0 bytes of certificates",
+    ]
+    assert not (tmp_path / "out").exists()
+
+
+def test_less_work_leaves_a_premise_open_and_says_so_holds(tmp_path: Path) -> None:
+    path = str(map_file(tmp_path, "halving"))
+    done = running.run("stability", path, "--budget", "10")
+    assert done.returncode == 1 and "try --budget 100\n" in done.stdout
+    assert running.run("stability", path, "--budget", "2000000").returncode == 0
+
+
 def test_a_claim_of_the_map_alone_is_certified_holds(tmp_path: Path) -> None:
     (tmp_path / "own.py").write_text(OWN.replace("SLOPE", "1/2"))
     done = running.run("certify", str(tmp_path / "own.py"), "--routes", "exact")
