@@ -251,14 +251,15 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             fault = refuted(proof, setting, log)
             if fault:
                 where = beyond(given, proof.domain(), system.parameters)
-                sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
+                at = f"at least where {where}, " if where else ""
+                sentence = f"{at}{name_of(fixed)} {fault}"
                 return Outcome(proof, "refuted", sentence, lines)
     for fixed in every:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
             near = near_by(proof, setting, name_of(fixed), given, log)
             if near:
-                return Outcome(proof, "region", f"{near}; of the others nothing was found", lines)
+                return Outcome(proof, "region", f"{near}; of other states nothing was found", lines)
     return Outcome(proof, "unknown", "", lines)
 
 
@@ -274,8 +275,8 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
             for one, gap in gaps.items():
                 on = on.replace(f"|{one}|", f"|{gap}|")
             on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
-            at = f" where {where}" if where else ""
-            return f"{name} is stable{at}, and attracts every state with {on}"
+            at = f"at least where {where}, " if where else ""
+            return f"{at}{name} is stable, and attracts every state with {on}"
     return ""
 
 
@@ -340,8 +341,8 @@ def settled(
         if fault:
             there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
-            sentence = f"{name} {fault}{there and f' where {there}'}"
-            return "refuted", sentence + (f"; {more}" if more else "")
+            at = f"at least where {there}, " if there else ""
+            return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
     if not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
@@ -354,7 +355,10 @@ def settled(
     fault = refuted(proof, outside, log) if outside.count else ""
     kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
     if fault and sharp(proof, setting, kind, log):
-        return "exactly", f"{name} is stable and attracts every state if and only if {where}"
+        inside = beyond(system.domain, setting.domain, system.parameters)
+        divides = beyond(given, system.domain, system.parameters)
+        of = f", of all parameters with {divides}" if divides else ""
+        return "exactly", f"{name} is stable and attracts every state if and only if {inside}{of}"
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
