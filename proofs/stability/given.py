@@ -285,6 +285,9 @@ def read_rows(
             system = _with_line(system, keyword, text)
         except ClaimError as problem:
             raise ClaimError(f"{place(k)}: {problem}") from None
+        except (checker.Rejected, RecursionError):
+            what = f"unreadable: {short(text)}; write shorter formulas of {SIGNS}"
+            raise ClaimError(f"{place(k)}: {what}") from None
     return system
 
 
@@ -373,10 +376,10 @@ def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
 
 def _refuse_call(call: ast.Call, in_piece: bool) -> None:
     name = ast.unparse(call.func)
-    if name in ("implies", "iff"):
+    if name in ("implies", "iff") and len(call.args) == 2:
         return
     if name not in FUNCTIONS:
-        raise ClaimError(f"{short(name)}(..) is no function here; abs, max and min are")
+        raise ClaimError(f"{short(name)}(..) is no function here; write abs, max or min")
     if not in_piece:
         raise ClaimError(f"{name} stands outside of a piece; write comparisons without it")
     if any(isinstance(inner, (ast.Compare, ast.BoolOp)) for inner in ast.walk(call)):

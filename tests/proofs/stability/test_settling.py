@@ -247,7 +247,7 @@ FAULTS = {  # what stands in place of the map, and what is wrong with it
         "the line `state x`: state comes too late; write over, domain, state, space, piece, point"
     ),
     'MapRule("linear", (("state", "x"), ("piece", "sin(x)")))': (
-        "the line `piece sin(x)`: sin(..) is no function here; abs, max and min are"
+        "the line `piece sin(x)`: sin(..) is no function here; write abs, max or min"
     ),
     'MapRule("linear", (("state", "x"), ("piece", "x/2\\npoint 1")))': (
         "the line `piece x/2 point 1`: unreadable: x/2 point 1; write names, 3/10 or 0.3,"
