@@ -78,6 +78,7 @@ class Proof:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
+        self.open = None
         try:
             statement = checker.read_statements(text)[rule.name]
             premises = checker.premises_of(statement, self.known)
@@ -432,9 +433,11 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
-    elif proof.add(found[0][1], (1,)):  # the candidate that fits best
-        log(f"{function_of(found[0][1])}: {proof.why()}")
-    return False
+        return False
+    best = found[0][1]
+    fault = proof.add(best, (1,))
+    log(f"{function_of(best)}: {proof.why() or fault}")
+    return not fault
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
