@@ -32,6 +32,7 @@ from juggleproof.proofs.evaluating import Ends, ends_of, is_surely
 
 AROUND = ("contraction", "lyapunov", "attraction")  # lines that name what holds around a point
 LONGEST_SET = 60  # characters of a set that is written in a conclusion
+ALWAYS = ("0 < 1", "0 = 0")  # what is written where nothing is asked
 
 
 class Lines:
@@ -57,7 +58,9 @@ class Lines:
     def for_domain(self) -> str:
         """For which parameters a conclusion holds; nothing where there are none."""
         names = self.of_map().one("over").split()
-        every = self.intervals() or f"all {', '.join(names)} with {self.one('domain')}"
+        domain = self.one("domain")
+        with_domain = "" if domain in ALWAYS else f" with {domain}"
+        every = self.intervals() or f"all {', '.join(names)}{with_domain}"
         return f"for {every}: " if names else ""
 
     def of_map(self) -> Lines:
@@ -95,7 +98,13 @@ class Lines:
 
 
 def _set(called: str, condition: str) -> str:
+    if condition in ALWAYS:
+        return f"{called} of all states"
     return f"{called} {{{condition}}}" if len(condition) <= LONGEST_SET else called
+
+
+def _where(guard: str) -> str:
+    return "" if guard in ("", *ALWAYS) else f" where {guard}"
 
 
 def _terms(text: str) -> list[str]:
@@ -154,7 +163,7 @@ def _of_iterates(f: Lines) -> str:
 def _of_map(f: Lines) -> str:
     state = ", ".join(f.one("state").split())
     pieces = [piece.split(" -> ") for piece in f.all("piece")]
-    images = [f"f({state}) = {_vector(image)} where {guard}" for guard, image in pieces]
+    images = [f"f({state}) = {_vector(image)}{_where(guard)}" for guard, image in pieces]
     return (
         f"{f.for_domain()}f maps {_set('the space', f.one('space'))} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
@@ -165,7 +174,7 @@ def _of_relation(f: Lines) -> str:
     state = ", ".join(f.one("state").split())
     inputs = f", for all {', '.join(f.one('input').split())}" if f.one("input") else ""
     pieces = [piece.split(" -> ") for piece in f.all("piece")]
-    images = [f"{_vector(image)} where {guard}" for guard, image in pieces]
+    images = [f"{_vector(image)}{_where(guard)}" for guard, image in pieces]
     return (
         f"{f.for_domain()}each state {state} of {_set('the space', f.one('space'))} has a next"
         f" state, and all next states are in it: {'; '.join(images)}{inputs}"
@@ -193,11 +202,15 @@ def _of_contraction(f: Lines) -> str:
 def _greatest(f: Lines) -> str:
     """The greatest of the terms `value`, and what their names of the point mean."""
     each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
-    terms = [term + (f" where {guard}" if guard else "") for guard, term in each]
+    terms = [term + _where(guard) for guard, term in each]
+    state = f.of_map().one("state").split()
+    points = {name: f"e_{name}" if len(state) > 1 else "e" for name in state}
+    meanings = {f"{name}_gap": f"{name} - {point}" for name, point in points.items()}
+    meanings |= {f"{name}_point": point for name, point in points.items()}
     names = [
-        f"{name}_gap = {name} - {name}_point, {name}_point of e"
-        for name in f.of_map().one("state").split()
-        if {f"{name}_gap", f"{name}_point"} & checker.names_in(*terms)
+        f"{name} = {meaning}"
+        for name, meaning in meanings.items()
+        if name in checker.names_in(*terms)
     ]
     greatest = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
     return ", ".join([greatest, *names])
@@ -471,7 +484,10 @@ def premises_of(
     """
     for keyword, name in ((key, text) for key, text in rule.lines if key in checker.NAMED):
         if name not in stated:
-            similar = get_close_matches(name, stated, 1)
+            part = name.partition("/")[1:]
+            similar = get_close_matches(name, stated, 1) or [
+                one for one in stated if one.partition("/")[1:] == part
+            ]
             hint = f"did you mean {similar[0]}?" if similar else "state it first, in this claim"
             raise ClaimError(
                 f"{rule.name}: the line `{keyword} {name}` names no rule that stands before it;"
@@ -552,10 +568,12 @@ def why(
         numbers = _numbers(premise, model)
         parts = ["false", f" at {values}" * bool(values), f", where {numbers}" * bool(numbers)]
         return f"{about} {''.join(parts)}"
-    says = {"holds": "Z3 says that it holds", "fails": "Z3 says that it is false"}
+    if vote.answer == "fails":
+        return f"{about} Z3 says that it is false"
+    says = "Z3 says that it holds" if vote.answer == "holds" else "Z3 gives no answer"
     return (
-        f"{about} {says.get(vote.answer, 'Z3 gives no answer')}; no certificate was found within"
-        f" the budget: try --budget {MORE * budget}, or a lemma"
+        f"{about} {says}; no certificate was found within the budget: try --budget"
+        f" {MORE * budget}, or a lemma"
     )
 
 

@@ -231,6 +231,13 @@ def build_parser() -> argparse.ArgumentParser:
     )
     stability.add_argument("--tried", action="store_true", help="also tell what was tried")
     stability.add_argument(
+        "--budget",
+        type=_count,
+        default=2_000_000,
+        metavar="N",
+        help="counted work for a premise (default: 2000000)",
+    )
+    stability.add_argument(
         "-o",
         "--output",
         type=Path,

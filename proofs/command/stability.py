@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator
+import textwrap
+from collections.abc import Iterator
 from pathlib import Path
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.certificates.store import certificate_lines, comment, write_file, write_store
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.orbit_rules import conclusion
 from juggleproof.proofs.run import claims_of_file
 from juggleproof.proofs.stability.claiming import as_claims
-from juggleproof.proofs.stability.given import Map, of_rule, read_file
+from juggleproof.proofs.stability.given import Map, of_rule, pairs_of, read_file
 from juggleproof.proofs.stability.search import Outcome, search_stability
 
 HEADS = {
@@ -35,35 +37,49 @@ def command(parsed: argparse.Namespace) -> int:
         if count:
             print()
         with busy("searching"):
-            found = search_stability(system)
+            found = search_stability(system, budget=parsed.budget)
         print("\n".join(lines_of(system, found, parsed.tried)))
-        if parsed.output is not None:
+        if parsed.output is not None and found.proof.rules:
             write(parsed.output, system.name, found)
         code = max(code, int(HEADS[found.verdict] != "proved"))
     return code
 
 
 def maps_of(path: Path) -> list[Map]:
-    """The maps of a text file, or of the claims of a Python file."""
+    """The maps of a text file, or of the claims of a Python file; those of a claim that returns
+    several bear its name and their own.
+    """
     if path.suffix != ".py":
         return [read_file(path)]
     maps = []
-    for one in claims_of_file(path):
-        for rule in map_rules(one.read):
-            maps.append(of_rule(rule, one.id))
+    for claim in claims_of_file(path):
+        try:
+            rules = map_rules(claim.read())
+            for rule in rules:
+                name = f"{claim.id}-{rule.name}" if len(rules) > 1 else claim.id
+                maps.append(of_rule(rule, name))
+        except (ClaimError, checker.Rejected) as problem:
+            text = str(problem).removeprefix(f"{claim.id}: ")
+            raise ClaimError(f"{claim.where}: {claim.id}: {text}") from None
+        except Exception as problem:
+            raised = f"{type(problem).__name__}: {problem}"
+            raise ClaimError(f"{claim.where}: {claim.id} raises {raised}; mend it") from problem
     if not maps:
         raise ClaimError(
             f"{path}: no claim returns a map; return a MapRule with `state` and `piece`"
         )
+    names = [one.name for one in maps]
+    for name in names:
+        if names.count(name) > 1:
+            raise ClaimError(f"{path}: {name} is the name of two maps; rename one")
     return maps
 
 
-def map_rules(read: Callable[..., object]) -> Iterator[MapRule]:
+def map_rules(body: object) -> list[MapRule]:
     """The maps among the statements that a claim returns."""
-    body = read()
-    for one in body if isinstance(body, list) else [body]:
-        if isinstance(one, MapRule) and "piece" in dict(one.rows):
-            yield one
+    every = body if isinstance(body, (list, tuple)) else [body]
+    rules = [one for one in every if isinstance(one, MapRule)]
+    return [one for one in rules if "piece" in dict(pairs_of(one))]
 
 
 def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
@@ -77,9 +93,10 @@ def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
         yield f"  {rule.name.rpartition('/')[2]}: {conclusion(kind, rule.name, texts)}"
     if found.tried and (tried or found.verdict == "unknown"):
         yield "tried"
-        yield from (f"  {line}" for line in found.tried)
+        yield from (textwrap.indent(line, "  ") for line in found.tried)
     size = len(certificate_lines(found.proof.certificates))
-    yield f"checked  {len(texts)} statements, {size} bytes of certificates"
+    count = f"{len(texts)} statement{'' if len(texts) == 1 else 's'}"
+    yield f"checked  {count}, {size} bytes of certificates"
 
 
 def write(folder: Path, name: str, found: Outcome) -> None:
@@ -93,4 +110,4 @@ def write(folder: Path, name: str, found: Outcome) -> None:
     statements = "\n\n".join(block for block in blocks if block) + "\n"
     store = path.with_suffix(".certificates")
     write_store(store, statements, {name: found.proof.certificates})
-    print(f"written  {path}, {store}; `juggleproof explain {name} {path}` tells it whole")
+    print(f"written  {path}, {store}; `juggleproof explain {name} {path}` shows it whole")

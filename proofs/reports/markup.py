@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from html import escape
 
+from juggleproof.certificates import checker
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.mathml import mathml
 from juggleproof.proofs.reports.words import SIGN, WORDS, parts_of, pieces
@@ -15,7 +16,7 @@ from juggleproof.proofs.reports.words import SIGN, WORDS, parts_of, pieces
 # -------------------------------------------------------------------------------------------------
 # Sentences, statements and values with their formulas as MathML.
 
-NAMES = ("exists", "integer", "over", "state")
+NAMES = ("exists", "integer", "over", "state", "input")
 FORMULAS = (
     "given",
     "have",
@@ -30,9 +31,12 @@ FORMULAS = (
     "rate",
     "radius",
     "size",
+    "loss",
+    "least",
+    "upper",
 )
-TUPLES = ("point", "start", "weights")
-LINKS = ("sharp", "map", "descent", "contraction", "attraction", "escape")
+TUPLES = ("point", "start", "weights", "direction")
+LINKS = ("sharp", *checker.NAMED)
 ONE_LINE = {
     "show": 144,
     "with": 144,
@@ -150,7 +154,8 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
     """The lines of a statement below its name, each keyword with its formulas; lines of one keyword
     that follow each other are joined.
 
-    The names that `forall` lists are left out: they are all that stand in the lines.
+    The names that `forall` lists are left out: they are all that stand in the lines.  So is a line
+    that names nothing.
 
     >>> lines_of("statement a/b\\nforall x y\\ngiven x > 0 and y > 1\\ngiven x < y\\nshow x > y")
     [('given', ('x > 0', 'y > 1', 'x < y')), ('show', ('x > y',))]
@@ -162,7 +167,7 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
         parts = conjuncts(content) if keyword in FORMULAS else [content]
         if joined and joined[-1][0] == keyword and keyword in FORMULAS and keyword != "stage":
             joined[-1][1].extend(parts)
-        elif keyword != "forall":
+        elif keyword != "forall" and content:
             joined.append((keyword, parts))
     return [
         (keyword, tuple(chained(parts) if keyword in FORMULAS else parts))
@@ -190,6 +195,8 @@ def _row(keyword: str, parts: Sequence[str]) -> Row:
     if keyword in ("let", "root", "number"):
         name, _, value = parts[0].partition(" = ")
         return Row(word, (named(name, value),))
+    if keyword == "value":
+        return Row(word, (f" {mathml(ARROW)} ".join(map(formula, parts[0].split(" -> "))),))
     if keyword in ("piece", "iterates", "after"):
         before, _, images = parts[0].partition(" -> ")
         source = _tuple(_listed(before)) if keyword == "iterates" else formula(before)
@@ -321,7 +328,7 @@ def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[s
     lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
     listed = {
         keyword: {name: 0 for word, names in lines if word == keyword for name in names.split()}
-        for keyword in ("forall", "exists", "over", "state", "integer")
+        for keyword in ("forall", "exists", "over", "state", "input", "integer")
     }
     names = {name: 0 for some in listed.values() for name in some}
     notation = {name for name, _, meaning in NOTATION if meaning and is_meant(name, names)}

@@ -50,8 +50,13 @@ KINDS = {  # kind of rule -> what it says, in a few words
     "attracts": "every orbit tends to the point",
     "escapes": "a periodic orbit stays away",
     "descends": "a falling rank leads to the trap",
+    "into": "a falling rank leads to a smaller space, where every orbit tends to the point",
     "contracts": "orbits in the trap close in on the point",
+    "lyapunov": "a function falls along every orbit to the point",
+    "unstable": "a function grows near the point, which is not stable",
+    "iterates": "the iterates of a map",
     "map": "a map of the space into itself, piece by piece",
+    "relation": "the next states of each state, piece by piece",
 }
 
 

@@ -441,81 +441,15 @@ WORDS = {
     "iterates": "the map",
     "after": "after",
     "over": "for all",
+    "input": "for all inputs",
     "domain": "given",
     "holds": "exactly if",
     "number": "where",
     "state": "of the state",
     "space": "in",
     "piece": "the map",
-    "rank": "rank",
-    "stage": "stage",
-    "on": "on",
-    "point": "point",
-    "weights": "weights",
-    "rate": "rate",
-    "radius": "radius",
-    "size": "size",
-    "start": "start",
+    "word": "pieces",
 }
-NAMES = {
-    "sharp",
-    "map",
-    "descent",
-    "contraction",
-    "attraction",
-    "escape",
-    "word",
-}  # lines that name statements, or pieces by number
-
-
-def lines_of(text: str) -> list[tuple[str, str, str]]:
-    r"""The lines after the first as (word, "math" or "text", content).
-
-    >>> text = "statement a/b\nforall r\ngiven r > 0\nshow r^2 > 0"
-    >>> lines_of(text)  # doctest: +NORMALIZE_WHITESPACE
-    [('for all', 'math', '\\dot\\rho_0'), ('given', 'math', '\\dot\\rho_0 > 0'),
-     ('then', 'math', '\\dot\\rho_0^2 > 0')]
-    """
-    rows = []
-    for line in text.splitlines()[1:]:
-        keyword, _, content = line.partition(" ")
-        if keyword in NAMES:
-            rows.append((keyword, "text", content))
-        else:
-            rows.append((WORDS.get(keyword, keyword), "math", _content(keyword, content)))
-    return list(_merged(rows))
-
-
-def _content(keyword: str, content: str) -> str:
-    if keyword in ("forall", "integer", "exists", "over", "state"):
-        return ",\\ ".join(map(glyph, content.split()))
-    if keyword in ("let", "root", "number"):
-        name, _, value = content.partition(" = ")
-        rooted = re.fullmatch(r"(sqrt|root)\((.*)\)", value)
-        if not rooted:
-            return f"{glyph(name)} = {latex_of(value)}"
-        if rooted.group(1) == "sqrt":
-            return rf"{glyph(name)} = \sqrt{{{latex_of(rooted.group(2))}}}"
-        polynomial, low, high = parts_of(rooted.group(2))
-        between = rf"{latex_of(low)} \le {glyph(name)} \le {latex_of(high)}"
-        return (
-            rf"{glyph(name)}\ \text{{is the root"
-            rf" of}}\ {latex_of(polynomial)}\ \text{{with}}\ {between}"
-        )
-    if keyword in ("iterates", "piece") and "->" in content:
-        source, _, image = content.partition(" -> ")
-        if keyword == "piece":
-            return rf"{latex_of(source)} \;\mapsto\; ({', '.join(map(latex_of, parts_of(image)))})"
-        return (
-            rf"({', '.join(map(latex_of, parts_of(_bare(source))))}) \mapsto"
-            rf" ({', '.join(map(latex_of, parts_of(_bare(image))))})"
-        )
-    if keyword == "after":
-        count, _, image = content.partition(" -> ")
-        return rf"{glyph(count)}:\ ({', '.join(map(latex_of, parts_of(_bare(image))))})"
-    if keyword in ("point", "weights", "start"):
-        return f"({', '.join(map(latex_of, parts_of(content)))})"
-    return r"\text{never}" if keyword == "holds" and content == "0 = 1" else latex_of(content)
 
 
 def _bare(text: str) -> str:
@@ -531,26 +465,6 @@ def parts_of(text: str) -> list[str]:
             parts.append(text[start:place].strip())
             start = place + 1
     return [*parts, text[start:].strip()]
-
-
-def _merged(lines: list[tuple[str, str, str]]) -> Iterator[tuple[str, str, str]]:
-    """Lines with the same word in a row as one; 0 < alpha < 1 as one formula."""
-    place = 0
-    while place < len(lines):
-        word, kind, content = lines[place]
-        held = [content]
-        while (
-            word != "then"
-            and kind == "math"
-            and place + 1 < len(lines)
-            and lines[place + 1][:2] == (word, kind)
-        ):
-            place += 1
-            held.append(lines[place][2])
-        if held[:2] == [r"\alpha > 0", r"\alpha < 1"]:
-            held[:2] = [r"0 < \alpha < 1"]
-        yield word, kind, ",\\quad ".join(held)
-        place += 1
 
 
 def formulas_of(text: str) -> Iterator[tuple[str, str]]:
@@ -572,15 +486,20 @@ def formulas_of(text: str) -> Iterator[tuple[str, str]]:
             "rate",
             "radius",
             "size",
+            "loss",
+            "least",
+            "upper",
         ):
             yield content, latex_of(content)
-        elif keyword in ("point", "weights", "start"):
+        elif keyword in ("point", "weights", "start", "direction"):
             yield from ((part, latex_of(part)) for part in parts_of(content))
         elif keyword in ("let", "root", "number"):
             value = content.partition(" = ")[2]
             rooted = re.fullmatch(r"(?:sqrt|root)\((.*)\)", value)
             for part in parts_of(rooted.group(1)) if rooted else [value]:
                 yield part, latex_of(part)
+        elif keyword == "value":
+            yield from ((part, latex_of(part)) for part in content.split(" -> "))
         elif keyword in ("piece", "iterates", "after") and "->" in content:
             source, _, image = content.partition(" -> ")
             for part in [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -24,8 +25,7 @@ def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
     >>> [one.name for one in stability(tent)]
     ['map', 'lyapunov']
     """
-    system = of_rule(rule)
-    found = search_stability(replace(system, point=tuple(point)) if point else system)
+    found = search_stability(of_rule(rule, point=point))
     if found.verdict not in ("exactly", "stable"):
         what = found.sentence or "no fixed point was found to be stable"
         raise ClaimError(f"{rule.name}: {what}; `juggleproof stability` tells what was tried")
@@ -46,7 +46,7 @@ def as_claims(name: str, found: Outcome) -> str:
             "",
             "",
             f'@claim("{name}")',
-            f"def {name.replace('-', '_')}_is_settled():",
+            f"def map_{re.sub(r'[.-]', '_', name)}_is_settled():",
             f'    """{says[:1].upper() + says[1:]}."""',
             "    return [",
             *rows,

@@ -7,9 +7,9 @@ from __future__ import annotations
 import ast
 import operator
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, reduce
 from pathlib import Path
@@ -19,6 +19,8 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import formula_of, term_of
+from juggleproof.certificates.formulas import RESERVED as WORDS
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.proofs.encoding import from_sympy
 
@@ -29,8 +31,12 @@ Piece = tuple[str, tuple[str, ...]]  # guard, images
 
 ORDER = ("over", "domain", "state", "space", "piece", "point")
 ANYWHERE = "0 < 1"  # a formula that always holds, as text
+FUNCTIONS = ("abs", "max", "min")
+SIGNS = "names, 3/10 or 0.3, + - * / ^, abs max min, < <= = != >= >, and or not"
 RESERVED = re.compile(r"value|level|distance|root_\d+|.*_(next|gap|point)")
 MOST_PIECES = 64  # after absolute values are taken apart
+MOST_POWER = 100  # what is above takes SymPy without end
+LONGEST = 60  # characters of a text in a message
 
 
 @dataclass(frozen=True)
@@ -152,11 +158,7 @@ def _value(node: ast.expr, point: Point, number: Callable[[int], Value]) -> Valu
         raise ClaimError(f"{ast.unparse(node)} is no rational term")
     left = _value(node.left, point, number)
     if isinstance(node.op, ast.Pow):
-        try:
-            return left ** int(ast.literal_eval(node.right))
-        except (TypeError, ValueError):
-            text = checker_text(node)
-            raise ClaimError(f"{text}: no whole number in the exponent; write one") from None
+        return left ** int(ast.literal_eval(node.right))
     right = _value(node.right, point, number)
     if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
         left, right = (float(v) if isinstance(v, Fraction) else v for v in (left, right))
@@ -210,7 +212,7 @@ def _atoms(node: ast.expr) -> Iterable[tuple[Expr, bool]]:
 
 def checker_text(node: ast.AST) -> str:
     """The text of a syntax tree."""
-    return ast.unparse(node).replace("**", "^").replace("==", "=")
+    return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
 def conjuncts(text: str) -> list[str]:
@@ -218,7 +220,7 @@ def conjuncts(text: str) -> list[str]:
     node = checker.parse(text)
     if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
         return [inner for part in node.values for inner in conjuncts(checker_text(part))]
-    return [checker_text(node)]
+    return [str(formula_of(node))]
 
 
 def conjunction(*parts: str) -> str:
@@ -239,90 +241,187 @@ def read_file(path: Path) -> Map:
     Raises ClaimError, one line with file and line, for anything else.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClaimError(f"{path} cannot be read ({type(error).__name__})") from None
-    rows: list[tuple[str, str]] = []
-    for count, line in enumerate(lines, 1):
-        keyword, _, rest = line.partition("#")[0].strip().partition(" ")
-        if not keyword:
-            continue
-        if keyword not in ORDER:
-            known = ", ".join(ORDER)
-            raise ClaimError(f"{path}:{count}: {keyword} is no line of a map; write {known}")
-        if rows and ORDER.index(keyword) < ORDER.index(rows[-1][0]):
-            raise ClaimError(f"{path}:{count}: {keyword} comes too late; write {', '.join(ORDER)}")
-        try:
-            if keyword not in ("over", "state"):
-                checker.parse(_readable(rest.replace(" -> ", ", ")))
-        except checker.Rejected as reason:
-            raise ClaimError(f"{path}:{count}: {reason}") from None
-        rows.append((keyword, rest.strip()))
-    try:
-        return read_rows(re.sub(r"\W+", "-", path.stem), rows)
-    except ClaimError as problem:
-        raise ClaimError(f"{path}: {problem}") from None
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        raise ClaimError(f"{path} cannot be read: not in UTF-8; save it so") from None
+    except OSError as error:
+        raise ClaimError(f"{path} cannot be read: {error.strerror}; name a text file") from None
+    rows, numbers = [], []
+    for number, line in enumerate(text.split("\n"), 1):
+        words = line.partition("#")[0].split()
+        if words:
+            rows.append((words[0], " ".join(words[1:])))
+            numbers.append(number)
+    name = re.sub(r"[^A-Za-z0-9]+", "-", path.stem).strip("-") or "map"
+    return read_rows(name, rows, str(path), numbers)
 
 
-def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
+def read_rows(
+    name: str, rows: Sequence[tuple[str, str]], file: str = "", numbers: Sequence[int] = ()
+) -> Map:
     """The map that lines (keyword, text) say; absolute values, maxima and minima are taken apart
     into pieces, and decimals are exact fractions.
+
+    Raises ClaimError for anything else, which names file and number of the line, or else the line.
     """
-    said: dict[str, list[str]] = {keyword: [] for keyword in ORDER}
-    for keyword, text in rows:
-        if keyword not in said:
-            raise ClaimError(f"{keyword} is no line of a map; write {', '.join(ORDER)}")
-        said[keyword].append(_readable(text))
+
+    def place(k: int) -> str:
+        return f"{file}:{numbers[k]}" if file else f"the line `{short(' '.join(rows[k]))}`"
+
+    keywords = [keyword for keyword, _ in rows]
+    for k, (keyword, before) in enumerate(zip(keywords, ["", *keywords])):
+        if keyword not in ORDER:
+            raise ClaimError(f"{place(k)}: {keyword} is no line of a map; write {', '.join(ORDER)}")
+        if before and ORDER.index(keyword) < ORDER.index(before):
+            raise ClaimError(f"{place(k)}: {keyword} comes too late; write {', '.join(ORDER)}")
+        if keyword == before != "piece":
+            raise ClaimError(f"{place(k)}: {keyword} stands twice; write one such line")
     for keyword in ("state", "piece"):
-        if not said[keyword]:
-            raise ClaimError(f"a line `{keyword} ..` is missing")
-    for keyword in ORDER:
-        if keyword != "piece" and len(said[keyword]) > 1:
-            raise ClaimError(f"{keyword} stands twice; write one such line")
-    state = tuple(said["state"][0].split())
-    pieces: list[Piece] = []
-    for text in said["piece"]:
-        if text.count(" -> ") > 1:
-            raise ClaimError(f"piece {text}: two arrows; write GUARD -> TERM, ..")
-        guard, arrow, images = text.rpartition(" -> ")
-        node = checker.parse(f"({images},)")
-        terms = tuple(map(checker_text, node.elts)) if isinstance(node, ast.Tuple) else ()
-        if len(terms) != len(state):
+        if keyword not in keywords:
+            raise ClaimError(f"{file}: " * bool(file) + f"a line `{keyword} ..` is missing")
+    system = Map(name, (), ANYWHERE, (), ANYWHERE, ())
+    for k, (keyword, text) in enumerate(rows):
+        try:
+            system = _with_line(system, keyword, text)
+        except ClaimError as problem:
+            raise ClaimError(f"{place(k)}: {problem}") from None
+        except (checker.Rejected, RecursionError):
+            what = f"unreadable: {short(text)}; write shorter formulas of {SIGNS}"
+            raise ClaimError(f"{place(k)}: {what}") from None
+    return system
+
+
+def short(text: str) -> str:
+    """The text in one line, or its beginning where it is long."""
+    text = " ".join(text.split())
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 2]}.."
+
+
+def _with_line(system: Map, keyword: str, text: str) -> Map:
+    """The map with what one more line says."""
+    if keyword in ("over", "state"):
+        names = tuple(text.split())
+        for k, one in enumerate(names):
+            _refuse_name(one, (*system.names, *names[:k]))
+        if keyword == "over":
+            return replace(system, parameters=names)
+        if not names:
+            raise ClaimError("no state variable; name one or more")
+        return replace(system, state=names)
+    names = system.parameters if keyword in ("domain", "point") else system.names
+    if keyword == "domain":
+        return replace(system, domain=_formula(_tree(text, names, keyword)))
+    if keyword == "space":
+        return replace(system, space=_formula(_tree(text, names, keyword)))
+    guard, arrow, images = text.rpartition("->")
+    if "->" in guard or arrow and keyword == "point":
+        raise ClaimError("too many arrows; write one, in a piece with a guard")
+    terms = _tree(images, names, keyword)
+    each = terms.elts if isinstance(terms, ast.Tuple) else [terms]
+    if len(each) != len(system.state):
+        raise ClaimError(
+            f"{len(each)} terms for {len(system.state)} state variables; write a term for each of"
+            f" {' '.join(system.state)}"
+        )
+    if keyword == "point":
+        return replace(system, point=tuple(map(_term, each)))
+    where = checker_text(_tree(guard, names, keyword)) if guard.strip() else ""
+    cases = _taken_apart(where, tuple(map(checker_text, each)))
+    pieces = [
+        (_formula(checker.parse(guard)), tuple(_term(checker.parse(one)) for one in after))
+        for guard, after in cases
+    ]
+    found = (piece for piece in pieces if not _never(piece[0]))
+    return replace(system, pieces=(*system.pieces, *found))
+
+
+def _refuse_name(name: str, others: Collection[str]) -> None:
+    if not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
+        raise ClaimError(f"{name} is no name; write letters a to z, digits and _, spaces between")
+    if name in WORDS or name in FUNCTIONS:
+        raise ClaimError(f"{name} is a word of the language; choose another")
+    if RESERVED.fullmatch(name):
+        raise ClaimError(f"{name} is a name of the rules; choose another")
+    if name in others:
+        raise ClaimError(f"{name} is named twice; write it once, in `over` or in `state`")
+
+
+def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
+    """The tree of a text in these names, on a line of this keyword; decimals are exact fractions.
+
+    Raises ClaimError for what cannot be read.
+    """
+    if not text.isascii():
+        strange = next(one for one in text if not one.isascii())
+        raise ClaimError(f"{strange} in a formula; write {SIGNS}")
+    try:
+        node = checker.parse(_readable(text))
+    except checker.Rejected:
+        raise ClaimError(f"unreadable: {short(text) or 'no text'}; write {SIGNS}") from None
+    calls = [inner for inner in ast.walk(node) if isinstance(inner, ast.Call)]
+    for call in calls:
+        _refuse_call(call, in_piece=keyword == "piece")
+    called = [call.func for call in calls]
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Name) and inner not in called and inner.id not in names:
+            if keyword in ("domain", "point"):
+                raise ClaimError(f"{inner.id} is no parameter; name it in `over`")
             raise ClaimError(
-                f"piece {text}: {len(terms)} terms for {len(state)} state variables; write"
-                f" GUARD -> a term for each of {' '.join(state)}"
+                f"{inner.id} is neither parameter nor state variable; name it in `over` or `state`"
             )
-        pieces += [one for one in _taken_apart(guard if arrow else "", terms) if not _never(one[0])]
-    found = Map(
-        name,
-        tuple(" ".join(said["over"]).split()),
-        " and ".join(said["domain"]) or ANYWHERE,
-        state,
-        " and ".join(said["space"]) or ANYWHERE,
-        tuple(pieces),
-        tuple(text.strip() for text in said["point"][0].split(",")) if said["point"] else (),
-    )
-    for text in (found.space, *(part for guard, images in pieces for part in (guard, *images))):
-        strange = sorted(checker.names_in(text) - set(found.names))
-        if strange:
-            raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
-    for _, terms in pieces:
-        for term in terms:
-            expression(term)  # raises what cannot be worked out
-    for text in (found.domain, *found.point):
-        strange = sorted(checker.names_in(text) - set(found.parameters))
-        if strange:
-            raise ClaimError(f"{strange[0]} in {text} is no parameter; name it in `over`")
-    for name in found.names:
-        if not re.fullmatch(r"[A-Za-z]\w*", name):
-            raise ClaimError(f"{name} is no name; write letters, digits and _")
-        if RESERVED.fullmatch(name):
-            raise ClaimError(f"{name} is a name of the rules; choose another")
-        if found.names.count(name) > 1:
-            raise ClaimError(f"{name} is named twice; write it once, in `over` or in `state`")
-    if found.point and len(found.point) != len(state):
-        raise ClaimError(f"point has not a term for each of {' '.join(state)}; write so many")
-    return found
+    if _degree(node) > MOST_POWER:
+        raise ClaimError(f"a power above {MOST_POWER}; write lower ones")
+    return node
+
+
+def _refuse_call(call: ast.Call, in_piece: bool) -> None:
+    name = ast.unparse(call.func)
+    if name in ("implies", "iff") and len(call.args) == 2:
+        return
+    if name not in FUNCTIONS:
+        raise ClaimError(f"{short(name)}(..) is no function here; write abs, max or min")
+    if not in_piece:
+        raise ClaimError(f"{name} stands outside of a piece; write comparisons without it")
+    if any(isinstance(inner, (ast.Compare, ast.BoolOp)) for inner in ast.walk(call)):
+        raise ClaimError(f"{name} of a formula; it takes terms")
+
+
+def _degree(node: ast.AST) -> int:
+    """The greatest product of exponents that stand above each other."""
+    inner = max(map(_degree, ast.iter_child_nodes(node)), default=1)
+    if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)):
+        return inner
+    try:
+        return inner * abs(int(ast.literal_eval(node.right)))
+    except (TypeError, ValueError):
+        text = short(checker_text(node))
+        raise ClaimError(f"{text}: no whole number in the exponent; write one") from None
+
+
+def _term(node: ast.expr) -> str:
+    """The term as text; raises ClaimError for what is none, and for a division by 0."""
+    try:
+        text = str(term_of(node))
+    except ClaimError:
+        bare = short(checker_text(node))
+        raise ClaimError(f"{bare} is no term; write a piece as GUARD -> TERM, ..") from None
+    if expression(text).has(sympy.zoo, sympy.nan):
+        raise ClaimError(f"{short(text)} divides by 0; mend the divisor")
+    return text
+
+
+def _formula(node: ast.expr) -> str:
+    """The formula as text; raises ClaimError for what is none, and for a division by 0."""
+    try:
+        text = str(formula_of(node))
+    except ClaimError:
+        bare = short(checker_text(node))
+        raise ClaimError(f"{bare} is no formula; write comparisons, with and, or, not") from None
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Compare):
+            for side in (inner.left, *inner.comparators):
+                _term(side)
+    return text
 
 
 def _never(guard: str) -> bool:
@@ -333,9 +432,22 @@ def _never(guard: str) -> bool:
     )
 
 
-def of_rule(rule: MapRule, name: str = "") -> Map:
-    """The map of a map rule, under its own name or this one."""
-    return read_rows(name or rule.name.rpartition("/")[2], rule.rows)
+def of_rule(rule: MapRule, name: str = "", point: Sequence[str] = ()) -> Map:
+    """The map of a map rule, under its own name or this one, with this point where there is one;
+    raises ClaimError for lines that make no map.
+    """
+    named = [("point", ", ".join(map(str, point)))] if point else []
+    return read_rows(name or rule.name.rpartition("/")[2], [*pairs_of(rule), *named])
+
+
+def pairs_of(rule: MapRule) -> list[tuple[str, str]]:
+    """The lines of a rule; raises ClaimError where one is no pair of texts."""
+    rows = []
+    for row in rule.rows:
+        if not isinstance(row, (tuple, list)) or [type(part) for part in row] != [str, str]:
+            raise ClaimError(f"{row!r} is no line of a rule; write a pair (keyword, text)")
+        rows.append((row[0], row[1]))
+    return rows
 
 
 def _readable(text: str) -> str:
@@ -366,7 +478,7 @@ def _taken_apart(guard: str, images: tuple[str, ...]) -> list[Piece]:
 def _inmost(node: ast.expr) -> ast.Call | None:
     """A call of abs, max or min with no such call in it."""
     for inner in ast.walk(node):
-        if isinstance(inner, ast.Call) and ast.unparse(inner.func) in ("abs", "max", "min"):
+        if isinstance(inner, ast.Call) and ast.unparse(inner.func) in FUNCTIONS:
             return next(filter(None, map(_inmost, inner.args)), None) or inner
     return None
 
@@ -375,7 +487,7 @@ def _cases(call: ast.Call) -> list[tuple[str, str]]:
     """(condition, what the call is there), of which one holds at each state."""
     arguments = [checker_text(argument) for argument in call.args]
     if not arguments or ast.unparse(call.func) == "abs" and len(arguments) > 1:
-        raise ClaimError(f"{ast.unparse(call)}: abs takes one term, max and min one or more")
+        raise ClaimError(f"{short(checker_text(call))}: abs takes one term, max and min more")
     if ast.unparse(call.func) == "abs":
         (one,) = arguments
         return [(f"{one} >= 0", one), (f"{one} < 0", f"-({one})")]

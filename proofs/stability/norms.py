@@ -120,8 +120,12 @@ def rounded_rows(rows: Floats, matrices: Floats) -> Iterator[tuple[list[list[Fra
     scaled = rows / np.abs(rows).max()
     seen = set()
     for denominator in DENOMINATORS:
-        exact = [[Fraction(round(x * denominator), denominator) for x in row] for row in scaled]
-        key = tuple(tuple(row) for row in exact)
+        exact: list[list[Fraction]] = []
+        for row in scaled:
+            fractions = [Fraction(round(x * denominator), denominator) for x in row]
+            if fractions not in exact and [-x for x in fractions] not in exact:
+                exact.append(fractions)
+        key = tuple(map(tuple, exact))
         floats = np.array([[float(x) for x in row] for row in exact])
         if key in seen or np.linalg.matrix_rank(floats) < rows.shape[1]:
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,11 +39,6 @@ class FixedPoint:
         exists = self.exists(system, parameters)
         return float(np.mean(exists & (self.multiplier(system, parameters) < 1 + 1e-9)))
 
-    def is_at(self, terms: Sequence[str]) -> bool:
-        """Whether these terms are the point."""
-        given = map(expression, terms)
-        return all(sympy.simplify(a - b) == 0 for a, b in zip(self.terms, given))
-
     def multiplier(self, system: Map, parameters: Arrays) -> Floats:
         """The largest modulus of an eigenvalue of the derivative of its piece there."""
         matrix = sympy.Matrix(system.images[self.piece]).jacobian(symbols(system.state))
@@ -61,13 +56,23 @@ class FixedPoint:
 
 
 def fixed_points(system: Map) -> list[FixedPoint]:
-    """The fixed points of all pieces that are written with rational operations and square roots."""
-    return list(_found(system))
+    """The fixed points of all pieces that are written with rational operations and square roots;
+    of a map whose point is named, that alone.
+    """
+    return list(dict.fromkeys(_named(system) if system.point else _found(system)))
+
+
+def _named(system: Map) -> Iterator[FixedPoint]:
+    terms = tuple(map(expression, system.point))
+    point, put = as_point(terms), dict(zip(symbols(system.state), terms))
+    for k, images in enumerate(system.images):
+        gaps = [i.subs(put, simultaneous=True) - t for i, t in zip(images, terms)]
+        if point is not None and all(sympy.cancel(gap) == 0 for gap in gaps):
+            yield FixedPoint(point, k, terms)
 
 
 def _found(system: Map) -> Iterator[FixedPoint]:
     state = symbols(system.state)
-    seen = set()
     for k, images in enumerate(system.images):
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
         try:
@@ -76,11 +81,10 @@ def _found(system: Map) -> Iterator[FixedPoint]:
             continue
         for solution in solutions:
             terms = tuple(sympy.simplify(solution.get(s, s)) for s in state)
-            if any(t.free_symbols & set(state) for t in terms) or terms in seen:
+            if any(t.free_symbols & set(state) for t in terms):
                 continue
             point = as_point(terms)
             if point is not None:
-                seen.add(terms)
                 yield FixedPoint(point, k, terms)
 
 

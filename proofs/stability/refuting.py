@@ -12,7 +12,13 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, expression, holds, symbols
 from juggleproof.proofs.stability.points import as_point
-from juggleproof.proofs.stability.samples import Arrays, Point, after, orbit_ends
+from juggleproof.proofs.stability.samples import (
+    Arrays,
+    Point,
+    after,
+    orbit_ends,
+    with_point_licences,
+)
 from juggleproof.proofs.stability.values import Setting, bounded_below
 
 LONGEST = 6  # period that is looked for
@@ -88,11 +94,12 @@ def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
             roots = dict([*setting.point.roots, *start.roots])
             if len(roots) < len({*setting.point.roots, *start.roots}):
                 continue  # one name for two roots
+            domain = with_point_licences(setting.domain, start)
             yield MapRule(
                 name,
                 (
                     ("map", name.rpartition("/")[0] + "/map"),
-                    ("domain", setting.domain),
+                    ("domain", domain),
                     *(("root", f"{root} = sqrt({under})") for root, under in roots.items()),
                     ("point", ", ".join(setting.point.terms)),
                     ("start", ", ".join(start.terms)),

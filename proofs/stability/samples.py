@@ -125,6 +125,11 @@ def licence(divisor: Expr, facts: str) -> str:
     return f"{written(-divisor)} > 0" if (at < 0).all() else f"{written(divisor)} != 0"
 
 
+def _count(parameters: Mapping[str, Floats]) -> int:
+    """How many samples of the parameters there are: one where there are no parameters."""
+    return len(next(iter(parameters.values()))) if parameters else 1
+
+
 @dataclass(frozen=True)
 class Point:
     """A point that moves with the parameters: terms as text, with the roots in them."""
@@ -135,15 +140,25 @@ class Point:
     def at(self, parameters: Mapping[str, Floats]) -> list[Floats]:
         """The point for arrays of parameters."""
         known: Arrays = self.with_roots(parameters)
-        size = len(next(iter(known.values()))) if known else 1
+        size = _count(parameters)
         return [np.broadcast_to(np.asarray(value(t, known), float), (size,)) for t in self.terms]
 
     def with_roots(self, parameters: Mapping[str, Floats]) -> Arrays:
         """The parameters with the values of the roots."""
         known: Arrays = dict(parameters)
         for name, under in self.roots:
-            known[name] = np.sqrt(np.asarray(value(under, known), float))
+            root = np.sqrt(np.asarray(value(under, known), float))
+            known[name] = np.broadcast_to(root, (_count(parameters),))
         return known
+
+
+def with_point_licences(domain: str, point: Point) -> str:
+    """The domain, with what the point's terms divide by said to be positive."""
+    for text in (*point.terms, *(under for _, under in point.roots)):
+        _, below = sympy.fraction(sympy.together(expression(text)))
+        for divisor, _ in sympy.factor_list(below)[1]:
+            domain = conjunction(domain, licence(divisor, domain))
+    return domain
 
 
 @dataclass(frozen=True)
@@ -174,7 +189,7 @@ def around(system: Map, point: Point, parameters: Arrays, count: int, within: st
     """
     rng = np.random.default_rng(SEED + 1)
     space = within or system.space
-    size = len(next(iter(parameters.values()))) if parameters else 1
+    size = _count(parameters)
     which = np.repeat(np.arange(size), count)
     known = point.with_roots(parameters)
     picked = {name: values[which] for name, values in known.items()}

@@ -37,11 +37,11 @@ from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rule
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
-    Point,
     around,
     licence,
     region,
     with_licences,
+    with_point_licences,
 )
 from juggleproof.proofs.stability.values import (
     Function,
@@ -71,18 +71,21 @@ class Proof:
     rules: list[MapRule] = field(default_factory=list)
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
+    budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
 
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
+        self.open = None
         try:
             statement = checker.read_statements(text)[rule.name]
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proof = self.proof_of(premises[name], efforts, budget)
+                work = budget * self.budget // BUDGET
+                proof = self.proof_of(premises[name], efforts, work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -98,12 +101,17 @@ class Proof:
         self.known[rule.name] = statement
         return ""
 
+    def domain(self) -> str:
+        """For which parameters the last statement holds."""
+        return dict(self.rules[-1].rows)["domain"]
+
     def why(self) -> str:
-        """What Z3 says of the last premise without a proof."""
+        """What Z3 says of the last premise without a proof, and its text."""
         if self.open is None:
             return ""
         kind, name, premise = self.open
-        return why(kind, name, premise, vote_and_model(premise), BUDGET)
+        line = why(kind, name, premise, vote_and_model(premise), self.budget)
+        return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
@@ -119,15 +127,6 @@ class Proof:
             if proof is not None:
                 return proof
         return None
-
-
-def with_point_licences(domain: str, point: Point) -> str:
-    """The domain, with what the point's terms divide by said to be positive."""
-    for text in (*point.terms, *(under for _, under in point.roots)):
-        _, below = sympy.fraction(sympy.together(expression(text)))
-        for divisor, _ in sympy.factor_list(below)[1]:
-            domain = conjunction(domain, licence(divisor, domain))
-    return domain
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
@@ -197,25 +196,29 @@ class Outcome:
     tried: list[str]
 
 
-def search_stability(system: Map, report: Report = lambda text: None) -> Outcome:
-    """What `outcome_of` finds, with the roots in its sentence."""
-    found = outcome_of(system, report)
+def search_stability(
+    system: Map, report: Report = lambda text: None, budget: int = BUDGET
+) -> Outcome:
+    """What `outcome_of` finds, with the roots written out in its sentence."""
+    found = outcome_of(system, report, budget)
     rows = [row for rule in found.proof.rules for row in rule.rows]
-    for root in dict.fromkeys(text for keyword, text in rows if keyword == "root"):
-        if root.partition(" = ")[0] in checker.names_in(found.sentence):
-            found.sentence += f"; {root}"
+    roots = (text.split(" = ", 1) for keyword, text in rows if keyword == "root")
+    found.sentence = renamed(found.sentence, dict(roots))
     return found
 
 
-def outcome_of(system: Map, report: Report) -> Outcome:
+def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
-    given, system = system.domain, with_licences(system)
+    given, guards = system.domain, [guard for guard, _ in system.pieces]
+    system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
-    proof = Proof()
+    proof = Proof(budget=budget)
     if not all(map(len, parameters.values())):
-        return Outcome(proof, "unknown", f"no parameters were found in the domain {given}", [])
+        hint = "; put in what an equation fixes" if " = " in given else ""
+        none = f"no parameters were found in the domain {given}{hint}"
+        return Outcome(proof, "unknown", none, [])
     lines: list[str] = []
 
     def log(text: str) -> None:
@@ -224,14 +227,16 @@ def outcome_of(system: Map, report: Report) -> Outcome:
 
     fault = proof.add(system.rule(f"{system.name}/map"))
     if fault:
-        return Outcome(proof, "unknown", f"the map: {proof.why() or fault}", lines)
-    every = fixed_points(system)
-    if system.point:
-        every = [one for one in every if one.is_at(system.point)]
-    every = [one for one in every if one.exists(system, parameters).any()]
+        line, _, text = (proof.why() or fault).partition("\n")
+        if guards != [guard for guard, _ in system.pieces]:
+            line += "; a piece applies only where it divides by nothing that is 0"
+        return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
+    every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     if not every:
         what = ", ".join(system.point)
-        none = f"{what} is no fixed point" if what else "no fixed point was found in the space"
+        none = f"{what} is no fixed point in the space"
+        if not what:
+            none = "no isolated fixed point in square roots was found in the space"
         return Outcome(proof, "unknown", none, lines)
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
         if not fixed.stable_share(system, parameters):
@@ -246,36 +251,59 @@ def outcome_of(system: Map, report: Report) -> Outcome:
             setting = setting_of(system, fixed, system.domain)
             fault = refuted(proof, setting, log)
             if fault:
-                where = beyond(given, setting.domain, system.parameters)
-                sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
+                where = beyond(given, proof.domain(), system.parameters)
+                at = f"at least where {where}, " if where else ""
+                sentence = f"{at}{name_of(fixed)} {fault}"
                 return Outcome(proof, "refuted", sentence, lines)
     for fixed in every:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
             near = near_by(proof, setting, name_of(fixed), given, log)
             if near:
-                return Outcome(proof, "region", f"{near}; of the others nothing was found", lines)
+                return Outcome(proof, "region", f"{near}; of other states nothing was found", lines)
     return Outcome(proof, "unknown", "", lines)
 
 
 def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
     """What is certified of states close to the point, or nothing."""
     pairs = zip(setting.system.state, setting.point.terms)
-    gaps = {f"{one}_gap": one if e == "0" else f"({one} - ({e}))" for one, e in pairs}
+    gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
     for rule in islice(rules, LOCAL_TRIED):
         if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
-            on = renamed(dict(rule.rows)["on"], gaps)
-            at = f" where {where}" if where else ""
-            return f"{name} is stable{at}, and attracts every state with {on}"
+            on = with_bars(dict(rule.rows)["on"])
+            for one, gap in gaps.items():
+                on = on.replace(f"|{one}|", f"|{gap}|")
+            on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
+            at = f"at least where {where}, " if where else ""
+            return f"{at}{name} is stable, and attracts every state with {on}"
     return ""
 
 
 def name_of(fixed: FixedPoint) -> str:
     """The point as a person reads it."""
-    terms = ", ".join(fixed.point.terms)
-    return f"({terms})" if len(fixed.point.terms) > 1 or " " in terms else terms
+    return in_brackets(", ".join(fixed.point.terms))
+
+
+def in_brackets(text: str) -> str:
+    """The text, in brackets where it is a sum or a list, or has a sign."""
+    return f"({text})" if " " in text or text.startswith("-") else text
+
+
+def with_bars(formula: str) -> str:
+    """The formula with |t| <= r in place of t <= r and -t <= r."""
+    rows = [part.split(" <= ") for part in formula.split(" and ")]
+    if any(len(row) != 2 for row in rows):
+        return formula
+    known = [(expression(left), right) for left, right in rows]
+    lines = []
+    for k, ((left, right), (term, _)) in enumerate(zip(rows, known)):
+        if (-term, right) not in known:
+            lines.append(f"{left} <= {right}")
+        elif (-term, right) not in known[:k]:
+            lines.append(f"|{left}| <= {right}")
+    return " and ".join(lines)
 
 
 def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
@@ -312,9 +340,10 @@ def settled(
     if not split:
         fault = refuted(proof, setting, log, STRAY_ONLY)
         if fault:
+            there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
-            sentence = f"{name} {fault}{where and f' where {where}'}"
-            return "refuted", sentence + (f"; {more}" if more else "")
+            at = f"at least where {there}, " if there else ""
+            return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
     if not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
@@ -327,7 +356,10 @@ def settled(
     fault = refuted(proof, outside, log) if outside.count else ""
     kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
     if fault and sharp(proof, setting, kind, log):
-        return "exactly", f"{name} is stable and attracts every state if and only if {where}"
+        inside = beyond(system.domain, setting.domain, system.parameters)
+        divides = beyond(given, system.domain, system.parameters)
+        of = f", of all parameters with {divides}" if divides else ""
+        return "exactly", f"{name} is stable and attracts every state if and only if {inside}{of}"
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
@@ -371,7 +403,8 @@ def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) ->
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
         if not fault:
-            return f"does not attract ({said['start']}), which is periodic"
+            what = "periodic" if " " in said["word"] else "a fixed point"
+            return f"does not attract {in_brackets(said['start'])}, which is {what}"
     if stray:
         return ""
     for rule in islice(instability_rules(setting, name + "unstable"), 6):
@@ -398,18 +431,27 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
-    if found:  # of the candidate that fits best
-        proof.add(found[0][1], (1,))
-        log(proof.why())
-    return False
+    if not found:
+        log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
+        return False
+    best = found[0][1]
+    fault = proof.add(best, (1,))
+    log(f"{function_of(best)}: {proof.why() or fault}")
+    return not fault
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
     """Tries to certify a candidate."""
     fault = proof.add(rule, efforts, budget)
-    said = dict(rule.rows)
-    report(f"V = {said['value']}, loss {said['loss']}: {fault or 'certified'}")
+    report(f"{function_of(rule)}: {fault or 'certified'}")
     return fault
+
+
+def function_of(rule: MapRule) -> str:
+    """The function of a candidate, and its loss."""
+    values = "; ".join(text for keyword, text in rule.rows if keyword == "value")
+    greatest = f"the greatest of {values}" if "; " in values else values
+    return f"V = {greatest}, loss {dict(rule.rows)['loss']}"
 
 
 def divisors(setting: Setting) -> list[str]:

@@ -48,11 +48,11 @@ CONCLUSIONS = {
     " only if 0 < a < 1",
     "demo/settles": "for 0 < a < 1: e = 0 is stable and attracts every state of the space",
     "flip/lyapunov": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
-    " `on` {0 = 0}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >="
-    " distance for at most V(s)/least integers n >= 0, for every state s of the space in the set"
-    " and every distance > 0, where V(s) = the greatest of x where x >= 0; (a - 3)*x/4 where x < 0;"
-    " least = (1 - a)*distance/8 with level = V(s); |s - e| is the largest of all |s_j - e_j|; all"
-    " states of the space with |s - e| <= 1 are in the set",
+    " `on` of all states, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and"
+    " |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s of the"
+    " space in the set and every distance > 0, where V(s) = the greatest of x where x >= 0;"
+    " (a - 3)*x/4 where x < 0; least = (1 - a)*distance/8 with level = V(s); |s - e| is the"
+    " largest of all |s_j - e_j|; all states of the space with |s - e| <= 1 are in the set",
     "flip/unstable": "for a > 1: e = 0 is not stable: for"
     " 0 < distance <= 1 the state s = distance has |s - e| <= distance, and |f^n(s) - e| > 1 for"
     " some integer n >= 0, where |s - e| is the largest of all |s_j - e_j|",
@@ -60,8 +60,8 @@ CONCLUSIONS = {
     " of the space {x >= 0}",
     "nest/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
     " only if 0 < a < 1",
-    "push/relation": "for 0 <= a < 1: each state x of the space {0 = 0} has a next state, and all"
-    " next states are in it: u*x where u >= -a and u <= a and x > -1; -u*x/2 where u >= -a and"
+    "push/relation": "for 0 <= a < 1: each state x of the space of all states has a next state, and"
+    " all next states are in it: u*x where u >= -a and u <= a and x > -1; -u*x/2 where u >= -a and"
     " u <= a and x < 1; x/6 where x > 5, for all u",
     "push/attracts": "for 0 <= a < 1/2: e = 0 is stable and attracts every state of the space;"
     " f^n(s) is any state that the relation leads to from s in n steps",
@@ -129,7 +129,7 @@ def test_names_of_the_point_in_a_value_are_concluded_with_their_meaning_holds() 
         "demo/lyapunov": TEXTS["demo/lyapunov"].replace("value x\n", "value x_gap\n")
     }
     said = conclusion("lyapunov", "demo/lyapunov", changed)
-    assert "V(s) = x_gap, x_gap = x - x_point, x_point of e; least = (1 - a)*distance with" in said
+    assert "V(s) = x_gap, x_gap = x - e; least = (1 - a)*distance with" in said
 
 
 def test_the_roots_of_a_conclusion_are_defined_below_it_holds() -> None:
@@ -161,7 +161,7 @@ def test_a_false_premise_has_values_at_which_it_is_false_holds(
     line = why(rule.kind, premise, false, (vote, model), 1)
     if premise == "possible":  # Z3 alone says that nothing exists
         assert vote.answer == "fails" and model is None
-        assert "Z3 says that it is false; no certificate was found" in line
+        assert line.endswith(": Z3 says that it is false")
         return
     assert model is not None and ": false at " in line
     point = {name: value for name, value in model.point.items() if isinstance(value, Fraction)}
@@ -260,21 +260,21 @@ def test_a_false_recurrence_has_values_holds() -> None:
     assert re.search(r"false at x = .*, where x_next \+ 2 = x \+ 3\*\(K \+ 1\) comes to ", line)
 
 
+NOT_FOUND = "no certificate was found within the budget: try --budget 700, or a lemma"
+
+
 @pytest.mark.parametrize(
     ("answer", "says"),
     [
-        ("holds", "Z3 says that it holds; no certificate"),
-        ("unknown", "Z3 gives no answer; no certificate"),
-        ("fails", "Z3 says that it is false; no certificate"),
+        ("holds", f"Z3 says that it holds; {NOT_FOUND}"),
+        ("unknown", f"Z3 gives no answer; {NOT_FOUND}"),
+        ("fails", "Z3 says that it is false"),
     ],
 )
 def test_what_z3_says_without_values_holds(answer: str, says: str) -> None:
     premise = checker.premises_of(SUBTRACTING["demo/map"], {})["stays-2"]
     line = why("map", "stays-2", premise, (Vote("z3", answer, ""), None), 70)
-    assert line == (
-        f"stays-2, piece 2 takes the space into itself: {says} was found within the budget: try"
-        " --budget 700, or a lemma"
-    )
+    assert line == f"stays-2, piece 2 takes the space into itself: {says}"
 
 
 # -------------------------------------------------------------------------------------------------
@@ -344,6 +344,15 @@ def test_a_premise_within_no_budget_is_what_z3_says_holds(
         in out
     )
     assert "false at" not in out
+
+
+def test_what_was_open_is_searched_again_holds(tmp_path: Path) -> None:
+    """With more work, and after what it rests on is mended."""
+    overlapping = (*MAP, ("piece", "x >= 1 -> a"))
+    assert certify(file_of(tmp_path), "--budget", "200") == 1
+    assert certify(file_of(tmp_path)) == 0
+    assert certify(file_of(tmp_path, of_map=overlapping)) == 1
+    assert certify(file_of(tmp_path)) == 0
 
 
 def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(

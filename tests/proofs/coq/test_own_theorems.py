@@ -199,7 +199,7 @@ def squares_are_not_negative():
 def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
     own = tmp_path / "own.py"
     own.write_text(INEQUALITY)
-    says = f"{own}: no claim on the orbits of a map; add a MapRule that concludes one"
+    says = f"{own}: no theorem on all orbits of a map; add a MapRule that concludes one"
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq([str(own)], None)
 

@@ -13,11 +13,13 @@ from urllib.parse import unquote
 
 import pytest
 
+from juggleproof.certificates import checker
 from juggleproof.proofs.reports import markup
-from juggleproof.proofs.reports.contents import Contents
+from juggleproof.proofs.reports.contents import Contents, Shown
 from juggleproof.proofs.reports.latex import glyph
 from juggleproof.proofs.reports.opening import PROOF
-from juggleproof.proofs.reports.page import VERDICTS, build
+from juggleproof.proofs.reports.page import KINDS, VERDICTS, build, statement
+from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
 from tests.proofs.reports.browser import Element, NotNested, parts_of, read_html, read_whole
 from tests.proofs.reports.runs import contents, drawn, page
 
@@ -317,6 +319,18 @@ def test_list_without_a_script_says_each_outcome_holds() -> None:
         assert listed == [(shown.name, shown.outcome) for shown in entry.statements]
 
 
+def test_every_line_of_a_rule_is_a_formula_or_a_link_holds() -> None:
+    kinds = set()
+    for text in (SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH):
+        for name, rule in read(text).items():
+            kinds.add(rule.kind)
+            shown = statement(Shown(name, rule.text(), "certified", None, "", "", "", {}))
+            for row in shown.rows:
+                formulas = [part for part in row.parts if part.startswith(("<math", "<code>"))]
+                assert row.links or formulas == list(row.parts) or row.word == "pieces", row
+    assert {*kinds, "iterates"} == checker.orbit_rules().keys() == KINDS.keys()
+
+
 def test_legend_of_verdicts_stands_above_all_else_holds() -> None:
     header = next(static().all("header"))
     meanings = [spaced(one) for one in header.with_class("meaning")]
@@ -411,7 +425,7 @@ def test_each_letter_of_a_statement_has_a_meaning_holds() -> None:
         }
         for shown in entry.statements:
             listed = re.findall(
-                r"^(?:forall|exists|integer|over|state) (.*)$", shown.text, re.MULTILINE
+                r"^(?:forall|exists|integer|over|state|input) (.*)$", shown.text, re.MULTILINE
             )
             wanted = {glyph(name) for names in listed for name in names.split()}
             assert wanted <= meant, (shown.name, wanted - meant)

@@ -31,10 +31,36 @@ SETTLED = {  # name: (text, exit code, first line)
         0,
         f"proved   cobweb: (1/(s + 1)) {STABLE} if and only if 1 - s > 0",
     ),
+    "share": (  # no map at b = 0
+        "over b\ndomain 0 <= b < 2\nstate p\nspace p >= 0\npiece max(0, 1 - p/b)",
+        0,
+        f"proved   share: (b/(b + 1)) {STABLE} if and only if b - 1 > 0, of all parameters with"
+        " b > 0",
+    ),
+    "half-share": (
+        "over b\ndomain 0 <= b < 1\nstate p\nspace p >= 0\npiece max(0, 1 - p/b)",
+        1,
+        f"refuted  half-share: at least where b > 0, (b/(b + 1)) {AWAY} 1, which is periodic",
+    ),
     "at-rest": (  # the identity at a = 0
         "over a\ndomain 0 <= a and a < 1\nstate x\npiece (1 - a)*x",
         0,
         f"proved   at-rest: 0 {STABLE} at least where a > 0",
+    ),
+    "side": (  # the first piece has the point beside its guard
+        "state x\npiece x < 0 -> x/2\npiece x >= 0 -> x/3",
+        0,
+        f"proved   side: 0 {STABLE}",
+    ),
+    "named": (  # of the three, one has no square roots
+        "state x\nspace -1 <= x <= 1\npiece x/2 + (x^3 - x^2)/8\npoint 0",
+        0,
+        f"proved   named: 0 {STABLE}",
+    ),
+    "not-fixed": (
+        "state x\npiece x/2\npoint 1",
+        1,
+        "unknown  not-fixed: 1 is no fixed point in the space",
     ),
     "drift": (  # x + 1 at a = 0
         "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
@@ -44,10 +70,29 @@ SETTLED = {  # name: (text, exit code, first line)
     "two-points": (
         "state x\npiece x <= 1 -> x/2\npiece x > 1 -> x/3 + 4",
         1,
-        f"refuted  two-points: 0 {AWAY} (6), which is periodic; 0 is stable, and attracts every"
-        " state with x <= 1 and -x <= 1",
+        f"refuted  two-points: 0 {AWAY} 6, which is a fixed point; 0 is stable, and attracts every"
+        " state with |x| <= 1",
+    ),
+    "two-cycle": (
+        "over a\ndomain 3 < a and a < 7/2\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)",
+        1,
+        f"refuted  two-cycle: ((a - 1)/a) {AWAY} ((a - sqrt(a^2 - 2*a - 3) + 1)/(2*a)), which is"
+        " periodic",
     ),
     "doubling": ("state x\npiece 2*x", 1, "refuted  doubling: 0 is not stable"),
+    "quotient": (  # its region has sides with both variables
+        "state x y\nspace x > 0 and y > 0\npiece 1 + x/y, x",
+        1,
+        "in part  quotient: (2, 2) is stable, and attracts every state with |(4/5)*(y - 2)| <= 1/8"
+        " and |x - 2| <= 1/8 and |(3/5)*(x - 2) + (-3/5)*(y - 2)| <= 1/8; of other states nothing"
+        " was found",
+    ),
+    "circle": (
+        "over c s\ndomain c^2 + s^2 = 1\nstate x y\npiece c*x - s*y, s*x + c*y",
+        1,
+        "unknown  circle: no parameters were found in the domain c^2 + s^2 = 1; put in what an"
+        " equation fixes",
+    ),
     "identity": ("state x\npiece x", 1, "unknown  identity: "),
     "shift": ("state x\npiece x + 1", 1, "unknown  shift: "),
     "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map: "),
@@ -169,6 +214,114 @@ def every_orbit_settles():
     \"\"\"Every orbit tends to 0.\"\"\"
     return stability(MapRule("linear", (("state", "x"), ("piece", "SLOPE*x"))))
 """
+
+
+SEVERAL = """from juggleproof import MapRule, claim
+
+@claim("two")
+def every_orbit_settles():
+    \"\"\"Every orbit tends to 0.\"\"\"
+    state = ("state", "x")
+    return [MapRule("slow", (state, ("piece", "x/2"))), MapRule("fast", (state, ("piece", "x/9")))]
+"""
+
+
+def test_maps_of_one_claim_are_apart_holds(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(SEVERAL)
+    done = running.run("stability", str(tmp_path / "own.py"), "-o", str(tmp_path / "out"))
+    assert (done.returncode, done.stderr) == (0, "")
+    for name in ("two-slow", "two-fast"):
+        assert f"proved   {name}: 0 {STABLE}\n" in done.stdout
+        assert check(tmp_path / "out" / f"{name.replace('-', '_')}.certificates") == 0
+
+
+MAP = 'MapRule("linear", (("state", "x"), ("piece", "SLOPE*x")))'
+FAULTS = {  # what stands in place of the map, and what is wrong with it
+    'MapRule("linear", (("state", "x"), ("piece", 0.5)))': (
+        "('piece', 0.5) is no line of a rule; write a pair (keyword, text)"
+    ),
+    'MapRule("linear", ("state x", "piece x/2"))': (
+        "'state x' is no line of a rule; write a pair (keyword, text)"
+    ),
+    'MapRule("linear", (("piece", "x/2"), ("state", "x")))': (
+        "the line `state x`: state comes too late; write over, domain, state, space, piece, point"
+    ),
+    'MapRule("linear", (("state", "x"), ("piece", "sin(x)")))': (
+        "the line `piece sin(x)`: sin(..) is no function here; write abs, max or min"
+    ),
+    'MapRule("linear", (("state", "x"), ("piece", "x/2\\npoint 1")))': (
+        "the line `piece x/2 point 1`: unreadable: x/2 point 1; write names, 3/10 or 0.3,"
+        " + - * / ^, abs max min, < <= = != >= >, and or not"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['1/']": (
+        "the line `point 1/`: unreadable: 1/; write names, 3/10 or 0.3, + - * / ^, abs max min,"
+        " < <= = != >= >, and or not"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['0', '0']": (
+        "the line `point 0, 0`: 2 terms for 1 state variables; write a term for each of x"
+    ),
+    f"{MAP.replace('SLOPE', '1/2')}, point=['1']": (
+        "1 is no fixed point in the space; `juggleproof stability` tells what was tried"
+    ),
+    f"{MAP.replace('SLOPE', '1/0')}": (
+        "the line `piece 1/0*x`: 1/0*x divides by 0; mend the divisor"
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_rejects_a_claim_whose_map_is_wrong_in_one_line(fault: str, tmp_path: Path) -> None:
+    file = tmp_path / "own.py"
+    file.write_text(OWN.replace(MAP, fault))
+    line = f"juggleproof: {file}:3: linear: {FAULTS[fault]}\n"
+    for command in (("stability", str(file)), ("certify", str(file), "--jobs", "1")):
+        done = running.run(*command)
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", line)
+
+
+def test_rejects_a_claim_that_fails(tmp_path: Path) -> None:
+    file = tmp_path / "own.py"
+    file.write_text(OWN.replace(MAP, "1/0"))
+    done = running.run("stability", str(file))
+    raised = f"{file}:3: linear raises ZeroDivisionError: division by zero; mend it"
+    assert (done.returncode, done.stderr) == (2, f"juggleproof: {raised}\n")
+
+
+@pytest.mark.parametrize("stem", ["3d", "my_map", "Hénon", "a b (2)", "class", "x.y"])
+def test_what_is_written_of_a_file_with_any_name_is_certified_holds(
+    stem: str, tmp_path: Path
+) -> None:
+    (tmp_path / f"{stem}.map").write_text(SETTLED["halving"][0])
+    done = running.run("stability", str(tmp_path / f"{stem}.map"), "-o", str(tmp_path))
+    assert done.returncode == 0
+    (claims,) = tmp_path.glob("*.py")
+    certified = running.run("certify", str(claims), "--jobs", "1", "--routes", "exact")
+    assert (certified.returncode, certified.stderr) == (0, "")
+
+
+def test_what_is_unknown_says_which_premise_with_its_text_holds(tmp_path: Path) -> None:
+    done = running.run("stability", str(map_file(tmp_path, "overlap")), "-o", str(tmp_path / "out"))
+    assert done.stdout.splitlines() == [
+        "unknown  overlap: the map: apart-2-1, the guards of pieces 1 and 2 do not overlap: false"
+        " at x = 0",
+        "tried",
+        "  statement overlap/map.apart-2-1",
+        "  forall x",
+        "  range 0 < 1",
+        "  given 0 < 1",
+        "  given x >= 0",
+        "  given x <= 0",
+        "  show 0 = 1",
+        "checked  0 statements, 0 bytes of certificates",
+    ]
+    assert not (tmp_path / "out").exists()
+
+
+def test_less_work_leaves_a_premise_open_and_says_so_holds(tmp_path: Path) -> None:
+    path = str(map_file(tmp_path, "halving"))
+    done = running.run("stability", path, "--budget", "10")
+    assert done.returncode == 1 and "try --budget 100\n" in done.stdout
+    assert running.run("stability", path, "--budget", "2000000").returncode == 0
 
 
 def test_a_claim_of_the_map_alone_is_certified_holds(tmp_path: Path) -> None:
