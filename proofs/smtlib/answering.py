@@ -135,6 +135,8 @@ def _searched(name: str, text: str, budget: int) -> Certificate:
         )
     except Exhausted:
         return {"unknown": f"the budget of {budget} units ran out"}
+    except checker.Rejected as reason:
+        return {"unknown": f"beyond the checker's limits: {reason}"}
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise

@@ -148,12 +148,12 @@ def divisions(expression: Expression) -> Iterator[Term]:
 
 def _licence(before: Statement, below: Term) -> list[Line] | None:
     """The `have` line that keeps a divisor from 0, if it needs one; None where none is proved."""
-    unfolding = checker.Unfolding(_read(before), checker.Context())
     try:
+        unfolding = checker.Unfolding(_read(before), checker.Context())
         unfolding.context.reciprocal(checker.parse(str(below)))
         return []
     except checker.Rejected as reason:
-        if reason.kind is checker.Kind.ZERO_DIVISION:  # it vanishes everywhere
+        if reason.kind is not checker.Kind.DIVISION:  # it vanishes everywhere, or is too large
             return None
     for sign in (below > 0, below < 0, different(below, 0)):
         goal = Statement(before.name, before.forall, before.lines, sign)
