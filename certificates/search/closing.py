@@ -23,6 +23,7 @@ from juggleproof.certificates.search.one_variable import (
     dense_poly,
     dense_text,
 )
+from juggleproof.certificates.search.over_box import close_over_box
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -53,6 +54,7 @@ SQUARED = 3  # the effort at which leaves are closed by sums of squares, without
 MOST_FOR_BOTH = 9  # facts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
+FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -216,8 +218,10 @@ class Closing:
         ):
             node = (
                 self.usual(problem, False)
+                or close_over_box(inside, FEW_BOXES, self.budget)
                 or (None if depth else self.forms(inside, False))
                 or self.with_lemmas(inside, problem, depth)
+                or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
