@@ -146,6 +146,15 @@ class Point:
         return known
 
 
+def with_point_licences(domain: str, point: Point) -> str:
+    """The domain, with what the point's terms divide by said to be positive."""
+    for text in (*point.terms, *(under for _, under in point.roots)):
+        _, below = sympy.fraction(sympy.together(expression(text)))
+        for divisor, _ in sympy.factor_list(below)[1]:
+            domain = conjunction(domain, licence(divisor, domain))
+    return domain
+
+
 @dataclass(frozen=True)
 class Samples:
     """States with parameters, roots, the point (NAME_point) and the distances to it (NAME_gap),
