@@ -66,7 +66,12 @@ class Envelope:
     def function(self, state: str) -> Function:
         """V = (s - e)^2/((s - l) (d - b (s - e))), which the involution leaves as it is."""
         other = self.reach if self.upper == "1" else self.upper
-        return Function((f"{state}_gap^2/(({self.lower})*({other}))",))
+        return Function((f"{state}_gap^2/({factor(self.lower)}*{factor(other)})",))
+
+
+def factor(text: str) -> str:
+    """The term as a factor."""
+    return text if text.isidentifier() else f"({text})"
 
 
 def envelopes(setting: Setting) -> Iterator[Envelope]:
@@ -221,18 +226,18 @@ def lyapunov_rules(
     shares = (here - there) / here / (square if closed else 1)
     sizes = here / square
     count, products = setting.count, setting.products
-    order, factor = (4, f"{state}_gap^2*value") if closed else (2, "value")
+    order, size = (4, f"{state}_gap^2*value") if closed else (2, "value")
     near = room(setting, envelope) / 2
-    wide = f"1/(2*({envelope.reach})^2)"  # V (2 + V) >= (s - e)^2/d^2
+    wide = f"1/(2*{factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
     for (_, radius), (_, least), (_, loss) in product(
         bounded_below(near, products, 1),
         bounded_below(samples.least(sizes, count), products, 1) if bounded else [(0.0, wide)],
         bounded_below(samples.least(shares, count), products),
     ):
-        far = f"({loss})*({least})*distance^{order}"
+        far = f"{factor(loss)}*{factor(least)}*distance^{order}"
         rows = [
             ("on", ANYWHERE),
-            ("loss", f"({loss})*{factor}"),
+            ("loss", f"{factor(loss)}*{size}"),
             ("least", far if bounded else f"{far}/(1 + level)"),
             ("upper", steepness(setting, function, radius)),
             ("radius", radius),
@@ -314,7 +319,7 @@ def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
     radii = bounded_below(room(setting, envelope) / 2, setting.products, 1)
     if not radii or not steps:
         return []
-    rank = f"({envelope.lower})*({inverse(steps[0][1])})" if steps[0][1] else "0"
+    rank = f"{factor(envelope.lower)}*{factor(inverse(steps[0][1]))}" if steps[0][1] else "0"
     return [
         MapRule(
             f"{name}/descends",

@@ -30,6 +30,7 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     conjuncts,
     expression,
+    negation,
     symbols,
     value,
     written,
@@ -56,7 +57,7 @@ from juggleproof.proofs.stability.values import (
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
-ENVELOPES = 4  # that are tried
+ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1,), 20_000, 24),
@@ -105,7 +106,7 @@ class Proof:
         kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
         for rule in rules:
             if dict(rule.rows).get("value"):
-                fault = tried(self, rule, efforts, BUDGET, report)
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
             else:
                 fault = self.add(rule, efforts, LOCAL_BUDGET)
             if fault:
@@ -343,7 +344,7 @@ def settled(
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    outer = conjunction(system.domain, f"not ({where})")
+    outer = conjunction(system.domain, negation(where))
     outside = setting_of(system, fixed, outer)
     fault = refuted(proof, outside, log) if outside.count else ""
     kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
