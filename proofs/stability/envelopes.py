@@ -164,9 +164,9 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     name = f"{state}_point"
     known, lines = setting.constants, []
     factors = sympy.factor_list(sympy.numer(sympy.together(system.images[0][0] - state)))[1]
-    for factor, _ in factors:
-        if factor.has(state):
-            term = factor.subs(state, sympy.Symbol(name, real=True))
+    for equation, _ in factors:
+        if equation.has(state):
+            term = equation.subs(state, sympy.Symbol(name, real=True))
             if np.allclose(value(written(term), known), 0):
                 lines.append(f"{written(term)} = 0")
     for bound, strict in atoms(system.space):
