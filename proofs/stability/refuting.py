@@ -86,7 +86,7 @@ def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
 def degree_of(system: Map, piece: int) -> int:
     """The degree of the image of one state variable, numerator or denominator."""
     parts = sympy.fraction(sympy.together(system.images[piece][0]))
-    return max(1, *(int(sympy.degree(part, *symbols(system.state))) for part in parts))
+    return int(max(1, *(sympy.degree(part, *symbols(system.state)) for part in parts)))
 
 
 def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:

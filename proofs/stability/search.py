@@ -424,7 +424,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
-        if not count and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
             return True
     if found:  # of the candidate that fits best
         proof.add(found[0][1], (1,))
