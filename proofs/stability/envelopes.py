@@ -1,5 +1,5 @@
-"""Maps of one variable with one piece that turn at the point: Lyapunov functions whose values are
-the same at a state and at its image under a fractional linear involution, which envelopes the map.
+"""Maps of one variable with one piece: Lyapunov functions whose values are the same at a state and
+at its image under a fractional linear involution, which envelopes the map.
 
 Source: P. Cull, Stability of discrete one-dimensional population models, Bulletin of Mathematical
 Biology 50 (1988).
