@@ -120,6 +120,7 @@ OPERATORS: Mapping[type, Callable[[Value, Value], Value]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
 }
+NEGATED: Mapping[type, str] = {ast.Lt: ">=", ast.LtE: ">", ast.Gt: "<=", ast.GtE: "<"}
 
 
 def value(text: str, point: Point) -> Value:
@@ -228,6 +229,19 @@ def conjunction(*parts: str) -> str:
     kept = list(dict.fromkeys(part for part in parts if part and part != ANYWHERE))
     one = [f"({part})" if " or " in part else part for part in kept]
     return " and ".join(one) or ANYWHERE
+
+
+def negation(text: str) -> str:
+    """The formula's negation: of one inequality, the other one.
+
+    >>> negation("3 - a >= 0"), negation("a > 0 and a < 1")
+    ('3 - a < 0', 'not (a > 0 and a < 1)')
+    """
+    node = checker.parse(text)
+    if isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in NEGATED:
+        (op,), (right,) = node.ops, node.comparators
+        return f"{checker_text(node.left)} {NEGATED[type(op)]} {checker_text(right)}"
+    return f"not ({text})"
 
 
 # -------------------------------------------------------------------------------------------------

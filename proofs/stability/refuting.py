@@ -4,13 +4,14 @@ function that grows near the point.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from math import prod
 
 import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, expression, holds, symbols
+from juggleproof.proofs.stability.given import Map, expression, holds, symbols, value
 from juggleproof.proofs.stability.points import as_point
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -24,6 +25,8 @@ from juggleproof.proofs.stability.values import Setting, bounded_below
 LONGEST = 6  # period that is looked for
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
 MOST_WORDS = 4
+MOST_DEGREE = 16  # along a word, in one variable
+SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
 
 
 def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
@@ -64,12 +67,17 @@ def _word(system: Map, state: Arrays) -> tuple[int, ...]:
 def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
     """The states that come back along a word of pieces, in exact terms."""
     state = symbols(system.state)
+    if len(state) == 1 and prod(degree_of(system, k) for k in word) > MOST_DEGREE:
+        return
     images: list[sympy.Expr] = list(state)
     for k in word:
         values = dict(zip(state, images))
         images = [sympy.together(i.subs(values, simultaneous=True)) for i in system.images[k]]
     try:
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
+        if len(state) == 1:  # those of higher degree are not solved by square roots
+            factors = [one for one, _ in sympy.factor_list(equations[0])[1] if one.has(*state)]
+            equations = [sympy.prod(one for one in factors if sympy.degree(one, state[0]) <= 2)]
         solutions = sympy.solve(equations, state, dict=True)
     except NotImplementedError:
         return
@@ -79,6 +87,12 @@ def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
             point = as_point(terms)
             if point is not None:
                 yield point
+
+
+def degree_of(system: Map, piece: int) -> int:
+    """The degree of the image of one state variable, numerator or denominator."""
+    parts = sympy.fraction(sympy.together(system.images[piece][0]))
+    return int(max(1, *(sympy.degree(part, *symbols(system.state)) for part in parts)))
 
 
 def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
@@ -147,7 +161,7 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
         excess = np.broadcast_to(np.asarray(squared, float) ** 2 - 1, (setting.count,)) / 2
     for side in ("+", "-"):
         for _, more in bounded_below(excess, setting.products):
-            for radius in _radii(setting):
+            for radius in filter(grows(setting, more), _radii(setting, more)):
                 yield MapRule(
                     name,
                     (
@@ -165,5 +179,27 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
                 )
 
 
-def _radii(setting: Setting) -> list[str]:
-    return ["1", "1/4", "1/16", *(text for text, _ in setting.products[1:4])]
+def _radii(setting: Setting, more: str) -> list[str]:
+    return ["1", "1/4", "1/16", *(text for text, _ in setting.products[1:4]), f"({more})/4"]
+
+
+def grows(setting: Setting, more: str) -> Callable[[str], bool]:
+    """Whether the square of the distance grows by more than 1 + more at samples, up to a radius."""
+    system, known = setting.system, setting.constants
+    (state,) = system.state
+    rate = 1 + np.broadcast_to(np.asarray(value(more, known), float), (setting.count,))
+
+    def fits(radius: str) -> bool:
+        reach = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+        for share in SHARES:
+            gap = share * reach
+            points = known | {state: known[f"{state}_point"] + gap}
+            inside = np.broadcast_to(holds(system.space, points), gap.shape)
+            points |= {f"{state}_gap": gap}
+            with np.errstate(all="ignore"):
+                less = after(system, points)[f"{state}_gap"] ** 2 < rate * gap**2
+            if (less & inside).any():
+                return False
+        return True
+
+    return fits

@@ -22,6 +22,7 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Map,
@@ -29,6 +30,7 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     conjuncts,
     expression,
+    negation,
     symbols,
     value,
     written,
@@ -55,6 +57,7 @@ from juggleproof.proofs.stability.values import (
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
+ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1,), 20_000, 24),
@@ -104,6 +107,19 @@ class Proof:
     def domain(self) -> str:
         """For which parameters the last statement holds."""
         return dict(self.rules[-1].rows)["domain"]
+
+    def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
+        """Certifies all of these statements, or none."""
+        kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
+        for rule in rules:
+            if dict(rule.rows).get("value"):
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
+            else:
+                fault = self.add(rule, efforts, LOCAL_BUDGET)
+            if fault:
+                self.rules, self.certificates, self.known = kept
+                return False
+        return True
 
     def why(self) -> str:
         """What Z3 says of the last premise without a proof, and its text."""
@@ -242,6 +258,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if not fixed.stable_share(system, parameters):
             break
         split = narrowed(system, fixed, parameters)
+        closed = narrowed(system, fixed, parameters, closed=True)
+        found = None
+        if closed != split:  # the multiplier is -1 at the end
+            found = settled(proof, system, fixed, closed, given, log, closed=True)
+        if found:
+            return Outcome(proof, *found, lines)
         log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
         found = settled(proof, system, fixed, split, given, log)
         if found:
@@ -328,10 +350,16 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
 
 
 def settled(
-    proof: Proof, system: Map, fixed: FixedPoint, split: Sequence[str], given: str, log: Report
+    proof: Proof,
+    system: Map,
+    fixed: FixedPoint,
+    split: Sequence[str],
+    given: str,
+    log: Report,
+    closed: bool = False,
 ) -> tuple[str, str] | None:
     """Verdict and sentence for one fixed point, where something is certified; `given` is the domain
-    as the user gives it.
+    as the user gives it; `closed`: by envelopes alone, the multiplier being -1 at the end.
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
@@ -344,14 +372,17 @@ def settled(
             more = near_by(proof, setting, name, given, log)
             at = f"at least where {there}, " if there else ""
             return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
-    if not attracted(proof, setting, log):
+    if closed:
+        if not enveloped(proof, setting, log, closed):
+            return None
+    elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
             return None
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    outer = conjunction(system.domain, f"not ({where})")
+    outer = conjunction(system.domain, negation(where))
     outside = setting_of(system, fixed, outer)
     fault = refuted(proof, outside, log) if outside.count else ""
     kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
@@ -380,6 +411,10 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
             ),
         ),
         ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
+    ]
+    if f"{name}/attracts" in proof.known:
+        rows = []
+    rows += [
         ("exactly", (("attraction", f"{name}/attracts"), (kind, f"{name}/{of}"))),
     ]
     for label, lines in rows:
@@ -427,10 +462,12 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
-    for efforts, budget, most in ROUNDS:
+    for count, (efforts, budget, most) in enumerate(ROUNDS):
         for _, rule in found[:most]:
             if not tried(proof, rule, efforts, budget, log):
                 return True
+        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+            return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
         return False
@@ -438,6 +475,14 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     fault = proof.add(best, (1,))
     log(f"{function_of(best)}: {proof.why() or fault}")
     return not fault
+
+
+def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool:
+    """Whether the point of a map of one variable is certified, by an envelope, to be stable and to
+    attract every state; `closed`: with the loss of a multiplier that may be -1.
+    """
+    rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
+    return any(proof.add_all(one, (1, 2), log) for one in rules)
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
