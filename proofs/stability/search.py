@@ -21,6 +21,7 @@ from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
@@ -374,7 +375,9 @@ def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) ->
             return f"does not attract ({said['start']}), which is periodic"
     if stray:
         return ""
-    for rule in islice(instability_rules(setting, name + "unstable"), 6):
+    several = len(setting.system.state) > 1
+    rules = (chetaev_rules if several else instability_rules)(setting, name + "unstable")
+    for rule in islice(rules, 6):
         fault = proof.add(rule)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
