@@ -4,8 +4,7 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -30,11 +29,13 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     conjuncts,
     expression,
+    renamed,
     symbols,
     value,
     written,
 )
 from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
+from juggleproof.proofs.stability.part_metric import part_metric_rules
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
@@ -159,11 +160,6 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
                 worst = float(np.min(at, initial=np.inf))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
     return tuple(dict.fromkeys(renamed(line, names) for line in lines))
-
-
-def renamed(text: str, names: Mapping[str, str]) -> str:
-    """The text with other names in place of some."""
-    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
@@ -395,7 +391,8 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
+    boxes = part_metric_rules(setting, space, name)
+    every = {rule: rank for rank, rule in (*boxes, *candidates(setting, space, name))}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     for efforts, budget, most in ROUNDS:
         for _, rule in found[:most]:
