@@ -230,6 +230,11 @@ def conjunction(*parts: str) -> str:
     return " and ".join(one) or ANYWHERE
 
 
+def renamed(text: str, names: Mapping[str, str]) -> str:
+    """The text with other names in place of some."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
+
+
 # -------------------------------------------------------------------------------------------------
 # Reading.
 

@@ -4,8 +4,7 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -21,6 +20,7 @@ from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
@@ -29,11 +29,13 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     conjuncts,
     expression,
+    renamed,
     symbols,
     value,
     written,
 )
 from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
+from juggleproof.proofs.stability.part_metric import part_metric_rules
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
@@ -156,11 +158,6 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
                 worst = float(np.min(at, initial=np.inf))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
     return tuple(dict.fromkeys(renamed(line, names) for line in lines))
-
-
-def renamed(text: str, names: Mapping[str, str]) -> str:
-    """The text with other names in place of some."""
-    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
@@ -402,7 +399,9 @@ def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) ->
             return f"does not attract {in_brackets(said['start'])}, which is {what}"
     if stray:
         return ""
-    for rule in islice(instability_rules(setting, name + "unstable"), 6):
+    several = len(setting.system.state) > 1
+    rules = (chetaev_rules if several else instability_rules)(setting, name + "unstable")
+    for rule in islice(rules, 6):
         fault = proof.add(rule)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
@@ -420,7 +419,8 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
+    boxes = part_metric_rules(setting, space, name)
+    every = {rule: rank for rank, rule in (*boxes, *candidates(setting, space, name))}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     for efforts, budget, most in ROUNDS:
         for _, rule in found[:most]:
