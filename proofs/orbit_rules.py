@@ -409,11 +409,11 @@ RULES = {
         },
     ),
     "exactly": Rule(
-        "attraction (escape|unstable) ",
+        "attraction (escape |unstable )+",
         _of_sharpness,
         {
-            "covers": "the domains of the two rules make up the map's domain",
-            "same-point": "both rules are about the same point",
+            "covers": "the domains of the rules make up the map's domain",
+            "same-point": "the attraction and refutation {0} are about the same point",
         },
     ),
 }

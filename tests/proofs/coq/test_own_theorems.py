@@ -28,7 +28,7 @@ from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
-LARGE = "falling/all"
+TURNED, LARGE = "turned/exactly", "falling/all"
 
 
 def settles(point: str) -> str:
@@ -42,6 +42,7 @@ CONCLUSIONS = {
     PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
     SHIFTED: f"Descent.domain a -> {settles('LyapunovFunction.point')}.",
     GROWN: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
+    TURNED: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
     LARGE: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
 }
 
@@ -98,6 +99,7 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
         (PLANE, "mixed/down", "stage-1-1", "falls-1"),
         (SHIFTED, "shifted/near", "falls-1-1", "falls-2-2"),
         (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
+        (TURNED, "turned/swings", "bounded-1", "grows-1-1"),
     ],
 )
 def test_rejects_a_forged_certificate(
