@@ -14,10 +14,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
 import numpy as np
-import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, atoms, renamed, symbols, value, written
+from juggleproof.proofs.stability.given import Map, bounds, renamed, value
 from juggleproof.proofs.stability.samples import Floats, Samples, after
 from juggleproof.proofs.stability.values import (
     Function,
@@ -55,22 +54,6 @@ def _over(system: Map, name: str, gap: str, bound: Mapping[str, str]) -> str:
     return f"{renamed(text, {one: f'{one}_point' for one in system.state})}*({gap})/{text}"
 
 
-def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
-    """What is > 0 in the space, for each state variable: its distance to a lower bound, and to an
-    upper one.
-    """
-    low: dict[str, str] = {}
-    high: dict[str, str] = {}
-    for poly, strict in atoms(system.space):
-        named = poly.free_symbols & set(symbols(system.state))
-        if strict and len(named) == 1:
-            (one,) = named
-            slope = sympy.diff(poly, one)
-            if slope.is_Rational:
-                (low if slope > 0 else high).setdefault(str(one), written(poly / abs(slope)))
-    return low, high
-
-
 def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
     """Statements `lyapunov` that samples do not refute, each with a number that is small where it
     is simple and fits well.
@@ -82,7 +65,8 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
             continue
         terms = (t if w == 1 else f"{signed(w)}*{t}" for w, t in zip(weights, texts))
         function = Function(tuple(terms), divisor="*".join(low.values()) if kind else "1")
-        for rank, rows in _rows(setting, function, min(weights)):
+        best = sorted(_rows(setting, function, min(weights)), key=lambda one: one[0])[:2]
+        for rank, rows in best:
             yield (
                 rank + kind + len(set(weights)) / 4,
                 setting.rule(name, function, [("on", on), *rows]),

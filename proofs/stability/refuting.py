@@ -5,6 +5,7 @@ function that grows near the point.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import prod
 
 import numpy as np
 import sympy
@@ -24,6 +25,7 @@ from juggleproof.proofs.stability.values import Setting, bounded_below
 LONGEST = 6  # period that is looked for
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
 MOST_WORDS = 4
+MOST_SOLUTIONS = 9  # of equations in several variables, by Bezout's bound
 
 
 def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
@@ -68,8 +70,11 @@ def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
     for k in word:
         values = dict(zip(state, images))
         images = [sympy.together(i.subs(values, simultaneous=True)) for i in system.images[k]]
-    try:
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
+        degrees = [sympy.Poly(one, *state).total_degree() for one in equations]
+        if len(state) > 1 and prod(degrees) > MOST_SOLUTIONS:
+            return
+    try:
         solutions = sympy.solve(equations, state, dict=True)
     except NotImplementedError:
         return

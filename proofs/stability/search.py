@@ -17,8 +17,9 @@ from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
+from juggleproof.certificates.states import state_of
 from juggleproof.certificates.votes.z3 import vote_and_model
-from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import narrowed
@@ -52,17 +53,20 @@ from juggleproof.proofs.stability.values import (
     lyapunov_functions,
     lyapunov_rules,
     quadratic_templates,
+    sum_of_quotients,
 )
 
+MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the effort of squares
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
-    ((1,), 20_000, 24),
-    ((1, 2), 100_000, 16),
+    ((1, 2), 20_000, 24),
+    (EFFORTS, 100_000, 6),
     (EFFORTS, 400_000, 4),
 )
+MOST_BOXES, BOX_BUDGET = 3, 400_000
 Report = Callable[[str], None]
 
 
@@ -75,6 +79,7 @@ class Proof:
     known: dict[str, checker.Statement] = field(default_factory=dict)
     budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
+    work: int = 0  # that was spent on premises
 
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
@@ -118,16 +123,29 @@ class Proof:
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
     ) -> Premise | None:
         """A proof of one premise, if one is found."""
+        if terms_of_pairs(premise) // 16 > budget:
+            return None  # the first program would be too large
         for effort in efforts:
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
+            part, proof = Budget(budget), None
             try:
-                proof = search_proof(premise, self.known, Budget(budget), effort=effort)
+                proof = search_proof(premise, self.known, part, effort=effort)
             except Exhausted:
-                continue
+                pass
+            self.work += (budget - part.left) * (SQUARES_COST if effort == SQUARED else 1)
             if proof is not None:
                 return proof
         return None
+
+
+def terms_of_pairs(premise: checker.Statement) -> int:
+    """How many terms the products of two facts have that a premise without cases begins with."""
+    unfolding = unfolded(premise)
+    if premise.get("exists"):
+        return 0
+    state = state_of(unfolding).assume(unfolding.goal(False))
+    return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
@@ -419,12 +437,16 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    boxes = part_metric_rules(setting, space, name)
-    every = {rule: rank for rank, rule in (*boxes, *candidates(setting, space, name))}  # each once
+    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
+    for _, rule in boxes[:MOST_BOXES]:
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log):
+            return True
+    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
+    before = proof.work
     for efforts, budget, most in ROUNDS:
         for _, rule in found[:most]:
-            if not tried(proof, rule, efforts, budget, log):
+            if proof.work - before < MOST_WORK and not tried(proof, rule, efforts, budget, log):
                 return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
@@ -470,8 +492,12 @@ def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, Ma
     system, point = setting.system, setting.point
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
     positive = divisors(setting)
-    for kind, template in enumerate(quadratic_templates(system, setting.piece, positive)):
+    templates = [
+        *enumerate(quadratic_templates(system, setting.piece, positive)),
+        *((0.0, template) for template in sum_of_quotients(system)),
+    ]
+    for kind, template in templates:
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)
             for rank, rule in lyapunov_rules(setting, function, on, name):
-                yield rank + kind + len(" ".join(terms)) / 40, rule
+                yield rank + kind + len(" ".join(terms)) / 100, rule

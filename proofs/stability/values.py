@@ -21,6 +21,7 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
+    bounds,
     expression,
     holds,
     symbols,
@@ -124,6 +125,21 @@ def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Ite
         if moving and len(gaps) == 1:
             more = tuple(f"{n}*{b}" for n in system.parameters for b in (*cubic, *quartic))
             yield Template((*squares, *cubic, *quartic, *moving, *more))
+
+
+def sum_of_quotients(system: Map) -> Iterator[Template]:
+    """Quadratic forms in the differences, plus such forms over the distance of each state variable
+    to its lower bound.
+    """
+    low, _ = bounds(system)
+    if not 1 < len(low) <= 2:
+        return
+    under = [text if text.isidentifier() else f"({text})" for text in low.values()]
+    below = "*".join(under)
+    yield Template(
+        tuple(f"{form}*{by}" for form in products_of_gaps(system) for by in (*under, below)),
+        f"({below})",
+    )
 
 
 # -------------------------------------------------------------------------------------------------
