@@ -111,10 +111,27 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
             )
             for t in terms
         )
+    for base, symbol in free.items():
+        terms = tuple(without_root_below(t, symbol, base) for t in terms)
     try:
         return Point(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
     except Exception:  # what SymPy solves by other functions is no term
         return None
+
+
+def without_root_below(term: Expr, root: Expr, under: Expr) -> Expr:
+    """The term with a denominator without the root, whose square is `under`: a divisor is licensed
+    by the domain, which knows no roots.
+    """
+    above, below = sympy.fraction(sympy.together(term))
+    if root not in below.free_symbols:
+        return term
+    above, below = (sympy.rem(part, root**2 - under, root) for part in (above, below))
+    conjugate = below.subs(root, -root)
+    return sympy.cancel(
+        sympy.rem(sympy.expand(above * conjugate), root**2 - under, root)
+        / sympy.rem(sympy.expand(below * conjugate), root**2 - under, root)
+    )
 
 
 def _whole(base: Expr) -> set[Expr]:
