@@ -4,6 +4,7 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
@@ -27,6 +28,7 @@ from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Map,
     atoms,
+    checker_text,
     conjunction,
     conjuncts,
     expression,
@@ -37,10 +39,11 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
 from juggleproof.proofs.stability.part_metric import part_metric_rules
-from juggleproof.proofs.stability.points import FixedPoint, fixed_points
+from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
 from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
     around,
+    divides,
     licence,
     region,
     with_licences,
@@ -57,9 +60,10 @@ from juggleproof.proofs.stability.values import (
 )
 
 MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the effort of squares
-PARAMETERS, STATES = 150, 40  # samples
+STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
+LOCAL_BUDGET, LOCAL_TRIED = 400_000, 4
+MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1, 2), 20_000, 24),
@@ -106,6 +110,11 @@ class Proof:
         self.certificates[rule.name] = found
         self.known[rule.name] = statement
         return ""
+
+    def free_name(self, name: str) -> str:
+        """The name, with a number where a statement has it already."""
+        count = sum(one == name or one.startswith(f"{name}-") for one in self.known)
+        return f"{name}-{count + 1}" if count else name
 
     def domain(self) -> str:
         """For which parameters the last statement holds."""
@@ -247,6 +256,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     if not every:
+        if not system.point and not proof.add(without_fixed_point(system)):
+            return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
         what = ", ".join(system.point)
         none = f"{what} is no fixed point in the space"
         if not what:
@@ -260,14 +271,17 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         found = settled(proof, system, fixed, split, given, log)
         if found:
             return Outcome(proof, *found, lines)
-    for fixed in every:
+    faults = []
+    # of several fixed points it says little that one does not attract another
+    ways = (by_growth, by_orbit) if len(every) > 1 else (by_orbit, by_growth)
+    for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
-            fault = refuted(proof, setting, log)
-            if fault:
-                where = beyond(given, proof.domain(), system.parameters)
-                sentence = f"{name_of(fixed)} {fault}{where and f' where {where}'}"
-                return Outcome(proof, "refuted", sentence, lines)
+            fault = refuted(proof, setting, log, ways)
+            where = fault and beyond(given, proof.domain(), system.parameters)
+            faults += [f"{name_of(fixed)} {fault}{where and f' where {where}'}"] if fault else []
+    if faults:
+        return Outcome(proof, "refuted", "; ".join(faults), lines)
     for fixed in every:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
@@ -277,13 +291,28 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     return Outcome(proof, "unknown", "", lines)
 
 
+def without_fixed_point(system: Map) -> MapRule:
+    """The map with guards that say of each state that its image is another."""
+    pieces = []
+    for guard, images in system.pieces:
+        moved = [
+            f"{image} != {name}"
+            if not divides(image)
+            else f"{written(sympy.numer(sympy.together(expression(f'{image} - {name}'))))} != 0"
+            for image, name in zip(images, system.state)
+        ]
+        pieces.append((conjunction(guard, " or ".join(moved)), images))
+    return replace(system, pieces=tuple(pieces)).rule(f"{system.name}/no-fixed-point")
+
+
 def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
     """What is certified of states close to the point, or nothing."""
     pairs = zip(setting.system.state, setting.point.terms)
     gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
+    before = proof.work
     for rule in islice(rules, LOCAL_TRIED):
-        if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
+        if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
             on = with_bars(dict(rule.rows)["on"])
             for one, gap in gaps.items():
@@ -351,7 +380,7 @@ def settled(
     where = beyond(given, setting.domain, system.parameters)
     name = name_of(fixed)
     if not split:
-        fault = refuted(proof, setting, log, STRAY_ONLY)
+        fault = by_orbit(proof, setting, log)
         if fault:
             there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
@@ -364,21 +393,55 @@ def settled(
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    outer = conjunction(system.domain, f"not ({where})")
-    outside = setting_of(system, fixed, outer)
-    fault = refuted(proof, outside, log) if outside.count else ""
-    kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
-    if fault and sharp(proof, setting, kind, log):
-        return "exactly", f"{name} is stable and attracts every state if and only if {where}"
+    for parts in ([f"not ({where})"], complement(where)):
+        kinds = outside_refuted(proof, system, fixed, parts, log)
+        if kinds and sharp(proof, setting, kinds, log):
+            return "exactly", f"{name} is stable and attracts every state if and only if {where}"
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
-def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
+COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
+
+
+def complement(conditions: str) -> list[str]:
+    """Formulas of which one holds where the conditions do not: for each of them its boundary and
+    its strict outside.
+    """
+    parts = []
+    for condition in conjuncts(conditions):
+        node = checker.parse(condition)
+        if isinstance(node, ast.Compare) and not node.ops[1:] and type(node.ops[0]) in COMPLEMENTS:
+            left, right = checker_text(node.left), checker_text(node.comparators[0])
+            parts += [f"{left} {op} {right}" for op in COMPLEMENTS[type(node.ops[0])].split()]
+        else:
+            parts.append(f"not ({condition})")
+    return parts
+
+
+def outside_refuted(
+    proof: Proof, system: Map, fixed: FixedPoint, parts: Sequence[str], log: Report
+) -> list[tuple[str, str]]:
+    """The lines that name the refutations for all of these parts of the domain that have
+    parameters; nothing where one of them has none.
+    """
+    lines = []
+    for part in parts:
+        setting = setting_of(system, fixed, conjunction(system.domain, part))
+        if setting.count:
+            if not refuted(proof, setting, log):
+                return []
+            name = proof.rules[-1].name
+            lines.append((NAMED[proof.known[name].kind], name))
+    return lines
+
+
+def sharp(
+    proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
+) -> bool:
     """Whether stability and attraction on one part of the domain, and their failure on the rest,
     are put together.
     """
     system, name = setting.system, setting.system.name
-    of = "escapes" if kind == "escape" else kind
     rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
         (
             "descends",
@@ -390,9 +453,11 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
             ),
         ),
         ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
-        ("exactly", (("attraction", f"{name}/attracts"), (kind, f"{name}/{of}"))),
+        ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
     ]
     for label, lines in rows:
+        if f"{name}/{label}" in proof.known:
+            continue
         fault = proof.add(MapRule(f"{name}/{label}", lines))
         if fault:
             log(f"{label}: {fault}")
@@ -400,31 +465,43 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
     return True
 
 
-STRAY_ONLY = True
+NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that name such a rule
 
 
-def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) -> str:
-    """How the point fails to be stable and to attract every state, for all parameters, or nothing;
-    `stray`: by an orbit alone.
-    """
-    name = f"{setting.system.name}/"
-    for rule in escape_rules(setting, name + "escapes"):
+def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """A periodic orbit that the point does not attract, or nothing."""
+    for rule in escape_rules(setting, proof.free_name(f"{setting.system.name}/escapes")):
         fault = proof.add(rule)
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
         if not fault:
             what = "periodic" if " " in said["word"] else "a fixed point"
             return f"does not attract {in_brackets(said['start'])}, which is {what}"
-    if stray:
-        return ""
-    several = len(setting.system.state) > 1
-    rules = (chetaev_rules if several else instability_rules)(setting, name + "unstable")
-    for rule in islice(rules, 6):
-        fault = proof.add(rule)
+    return ""
+
+
+def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
+    """That orbits leave a neighbourhood of the point, or nothing."""
+    rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
+    name = proof.free_name(f"{setting.system.name}/unstable")
+    for rule in islice(rules(setting, name), MOST_RATES):
+        fault = proof.add(rule, EFFORTS, LOCAL_BUDGET)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
             return "is not stable"
     return ""
+
+
+Way = Callable[[Proof, Setting, Report], str]
+
+
+def refuted(
+    proof: Proof, setting: Setting, log: Report, ways: Sequence[Way] = (by_orbit, by_growth)
+) -> str:
+    """How the point fails to be stable and to attract every state, for all parameters, or
+    nothing.
+    """
+    return next(filter(None, (way(proof, setting, log) for way in ways)), "")
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
