@@ -5,7 +5,7 @@ function that grows near the point.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import prod
 
 import numpy as np
@@ -125,19 +125,21 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
         yield [point for point in points if point is not None]
 
 
-def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
-    """Statements `escapes` for the periodic orbits that samples tend to, for other fixed points,
-    and for short periodic orbits.
+def short_words(setting: Setting) -> Iterator[tuple[int, ...]]:
+    """The words of short periodic orbits, stable or not: of affine pieces those of one orbit, and
+    of others all pairs.
     """
     system = setting.system
-    pieces = len(system.pieces)
-    words = itertools.chain(
-        words_of_stray_orbits(setting),
-        ((k,) for k in range(pieces)),
-        affine_words(setting)
-        if is_affine(system)
-        else itertools.combinations_with_replacement(range(pieces), 2),
-    )
+    if is_affine(system):
+        return affine_words(setting)
+    return itertools.combinations_with_replacement(range(len(system.pieces)), 2)
+
+
+def escape_rules(
+    setting: Setting, name: str, words: Iterable[tuple[int, ...]]
+) -> Iterator[MapRule]:
+    """Statements `escapes` for periodic orbits along these words."""
+    system = setting.system
     seen = set()
     for word in itertools.islice(words, MOST_TRIED):
         if word in seen:

@@ -5,7 +5,7 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -40,7 +40,12 @@ from juggleproof.proofs.stability.given import (
 from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
 from juggleproof.proofs.stability.part_metric import part_metric_rules
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
-from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
+from juggleproof.proofs.stability.refuting import (
+    escape_rules,
+    instability_rules,
+    short_words,
+    words_of_stray_orbits,
+)
 from juggleproof.proofs.stability.samples import (
     around,
     divides,
@@ -273,7 +278,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             return Outcome(proof, *found, lines)
     faults = []
     # of several fixed points it says little that one does not attract another
-    ways = (by_growth, by_orbit) if len(every) > 1 else (by_orbit, by_growth)
+    ways = (by_growth, by_orbit) if len(every) > 1 else (by_orbit, by_growth, by_short_orbit)
     for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
@@ -469,8 +474,22 @@ NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that
 
 
 def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
-    """A periodic orbit that the point does not attract, or nothing."""
-    for rule in escape_rules(setting, proof.free_name(f"{setting.system.name}/escapes")):
+    """An orbit that samples tend to, or another fixed point, that the point does not attract, or
+    nothing.
+    """
+    fixed = [(k,) for k in range(len(setting.system.pieces))]
+    return escaped(proof, setting, [*words_of_stray_orbits(setting), *fixed], log)
+
+
+def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """A short periodic orbit, stable or not, or nothing."""
+    return escaped(proof, setting, short_words(setting), log)
+
+
+def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> str:
+    """A periodic orbit along one of these words, or nothing."""
+    name = proof.free_name(f"{setting.system.name}/escapes")
+    for rule in escape_rules(setting, name, words):
         fault = proof.add(rule)
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
@@ -496,7 +515,10 @@ Way = Callable[[Proof, Setting, Report], str]
 
 
 def refuted(
-    proof: Proof, setting: Setting, log: Report, ways: Sequence[Way] = (by_orbit, by_growth)
+    proof: Proof,
+    setting: Setting,
+    log: Report,
+    ways: Sequence[Way] = (by_orbit, by_growth, by_short_orbit),
 ) -> str:
     """How the point fails to be stable and to attract every state, for all parameters, or
     nothing.
