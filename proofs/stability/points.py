@@ -83,7 +83,7 @@ def _found(system: Map) -> Iterator[FixedPoint]:
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
         for every in solutions(equations, state):
             points = ((as_point(terms), terms) for terms in every)
-            found = [FixedPoint(point, k, terms) for point, terms in points if point is not None]
+            found = (FixedPoint(point, k, terms) for point, terms in points if point is not None)
             there = (one for one in found if one.exists(system, parameters).any())
             yield from itertools.islice(there, 1)
 

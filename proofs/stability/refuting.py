@@ -31,6 +31,7 @@ MOST_AFFINE = 300  # words of affine pieces, the shortest first
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
 MOST_WORDS = 4
 MOST_TRIED = 12  # words whose orbits are sought in exact terms
+MOST_TERMS = 60  # of equations in several variables; elimination has no other bound
 SINGULAR = 1e-9
 MOST_SOLUTIONS = 9  # of the equations, by Bezout's bound
 
@@ -118,7 +119,8 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
         equations = [one for one in map(sympy.expand, equations) if one != 0]
         degrees = [sympy.Poly(one, *state).total_degree() for one in equations]
-        if prod(degrees) > MOST_SOLUTIONS:
+        size = sum(len(sympy.Add.make_args(one)) for one in equations)
+        if prod(degrees) > MOST_SOLUTIONS or len(state) > 1 and size > MOST_TERMS:
             return
     for terms in solutions(equations, state):
         points = map(as_point, terms)
@@ -127,12 +129,13 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
 
 def short_words(setting: Setting) -> Iterator[tuple[int, ...]]:
     """The words of short periodic orbits, stable or not: of affine pieces those of one orbit, and
-    of others all pairs.
+    of others in one variable all pairs.
     """
     system = setting.system
     if is_affine(system):
         return affine_words(setting)
-    return itertools.combinations_with_replacement(range(len(system.pieces)), 2)
+    pieces = range(len(system.pieces)) if len(system.state) == 1 else ()
+    return itertools.combinations_with_replacement(pieces, 2)
 
 
 def escape_rules(

@@ -68,6 +68,7 @@ MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the ef
 STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 400_000, 4
+LOCAL_WORK = 2_000_000  # on all of these candidates
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -317,7 +318,7 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
     before = proof.work
     for rule in islice(rules, LOCAL_TRIED):
-        if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
+        if proof.work - before < LOCAL_WORK and not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
             on = with_bars(dict(rule.rows)["on"])
             for one, gap in gaps.items():
@@ -533,8 +534,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+        before = proof.work
         for rule in equation_rules(setting, space, name):
-            if not tried(proof, rule, EFFORTS, BUDGET, log):
+            if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
     boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
     for _, rule in boxes[:MOST_BOXES]:
