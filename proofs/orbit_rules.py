@@ -88,7 +88,10 @@ class Lines:
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
         inner = [
-            root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()
+            root
+            for key, name in self.rows
+            if key in checker.NAMED
+            for root in Lines(name, self.texts).roots()
         ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
@@ -409,11 +412,11 @@ RULES = {
         },
     ),
     "exactly": Rule(
-        "attraction (escape|unstable) ",
+        "attraction (escape |unstable )+",
         _of_sharpness,
         {
-            "covers": "the domains of the two rules make up the map's domain",
-            "same-point": "both rules are about the same point",
+            "covers": "the domains of the rules make up the map's domain",
+            "same-point": "the attraction and refutation {0} are about the same point",
         },
     ),
 }

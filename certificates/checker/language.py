@@ -415,7 +415,7 @@ ORDERS = {
     "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
     "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
-    "exactly": r"attraction (escape|unstable) ",
+    "exactly": r"attraction (escape |unstable )+",
 }
 
 

@@ -217,14 +217,20 @@ class Orbits:
 
 
 def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
-    """What the line with one of these keywords names: an earlier statement, certified, of the kind
-    that the line needs.
+    """What the one line with one of these keywords names."""
+    (one,) = all_earlier(statement, known, *keywords)
+    return one
+
+
+def all_earlier(statement: Statement, known: Known, *keywords: str) -> list[Statement]:
+    """What the lines with these keywords name: earlier statements, certified, each of a kind that
+    its line needs.
     """
-    ((keyword, name),) = (line for line in statement.lines if line[0] in keywords)
-    kinds = NAMED[keyword]
-    fits = name in known and known[name].kind in kinds
-    require(fits, Kind.EARLIER, f"{' or '.join(kinds)} {name}")
-    return known[name]
+    lines = [(NAMED[keyword], name) for keyword, name in statement.lines if keyword in keywords]
+    for kinds, name in lines:
+        fits = name in known and known[name].kind in kinds
+        require(fits, Kind.EARLIER, f"{' or '.join(kinds)} {name}")
+    return [known[name] for _, name in lines]
 
 
 def all_of(parts: Iterable[str], op: str = " and ") -> str:
@@ -502,23 +508,25 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
 
 
 def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
-    """An attraction, and an escape from the same point of the same map, or its instability, on
-    domains that make up the map's.  For all parameters in the map's domain: the point is stable and
-    attracts every state of the space <=> the parameters are in the domain of the attraction's
-    descent.
+    """An attraction; and escapes from the same point of the same map, or its instability, on
+    domains that make up the map's with that of the attraction's descent.  For all parameters in the
+    map's domain: the point is stable and attracts every state of the space <=> the parameters are
+    in the domain of the descent.
     """
     attraction = earlier(statement, known, "attraction")
     f = Orbits(earlier(attraction, known, "descent"), known, work)
     inner = Orbits(around(attraction, known), known, work)
-    other = Orbits(earlier(statement, known, "escape", "unstable"), known, work)
-    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
-    roots = [root for root in inner.fixed if root not in other.fixed]
-    points = zip(inner.terms("point"), other.terms("point"))
-    same = all_of(f"({one}) = ({two})" for one, two in points)
-    return {
-        "covers": Orbits(f.map, known, work).for_all(f"show ({f.domain}) or ({other.domain})"),
-        "same-point": other.for_all(*roots, f"show {same}"),
-    }
+    refuted = all_earlier(statement, known, "escape", "unstable")
+    others = [Orbits(one, known, work) for one in refuted]
+    domains = all_of([f.domain, *(other.domain for other in others)], " or ")
+    premises = {"covers": Orbits(f.map, known, work).for_all(f"show {domains}")}
+    for k, other in enumerate(others):
+        require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+        roots = [root for root in inner.fixed if root not in other.fixed]
+        points = zip(inner.terms("point"), other.terms("point"))
+        same = all_of(f"({one}) = ({two})" for one, two in points)
+        premises[f"same-point-{k + 1}"] = other.for_all(*roots, f"show {same}")
+    return premises
 
 
 ORBIT_RULES = {

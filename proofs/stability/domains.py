@@ -29,16 +29,17 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
     at = dict(zip(state, fixed.terms))
     guard, images = system.pieces[fixed.piece]
     found = [
-        (poly.subs(at, simultaneous=True), strict)
+        (poly.xreplace(at), strict)
         for poly, strict in atoms(conjunction(system.space, guard))
         if poly.free_symbols & set(state)
     ]
     matrix = sympy.Matrix(list(map(expression, images))).jacobian(state)
-    matrix = matrix.subs(at, simultaneous=True)
+    matrix = matrix.xreplace(at).applyfunc(sympy.together)  # of smaller terms than what det makes
     if len(state) == 1:
         found += [(1 - matrix[0, 0], True), (1 + matrix[0, 0], not closed)]
     elif len(state) == 2:
-        trace, determinant = matrix.trace(), matrix.det()
+        trace = matrix[0, 0] + matrix[1, 1]
+        determinant = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
         found += [(1 - determinant, True), (1 - trace + determinant, True)]
         found += [(1 + trace + determinant, True)]
     return found

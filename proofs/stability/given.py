@@ -211,6 +211,22 @@ def _atoms(node: ast.expr) -> Iterable[tuple[Expr, bool]]:
                 yield sympy.expand(left - right), isinstance(op, ast.Gt)
 
 
+def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
+    """What is > 0 in the space, for each state variable: its distance to a lower bound, and to an
+    upper one.
+    """
+    low: dict[str, str] = {}
+    high: dict[str, str] = {}
+    for poly, strict in atoms(system.space):
+        named = poly.free_symbols & set(symbols(system.state))
+        if strict and len(named) == 1:
+            (one,) = named
+            slope = sympy.diff(poly, one)
+            if slope.is_Rational:
+                (low if slope > 0 else high).setdefault(str(one), written(poly / abs(slope)))
+    return low, high
+
+
 def checker_text(node: ast.AST) -> str:
     """The text of a syntax tree."""
     return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
@@ -242,6 +258,11 @@ def negation(text: str) -> str:
         (op,), (right,) = node.ops, node.comparators
         return f"{checker_text(node.left)} {NEGATED[type(op)]} {checker_text(right)}"
     return f"not ({text})"
+
+
+def renamed(text: str, names: Mapping[str, str]) -> str:
+    """The text with other names in place of some."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 # -------------------------------------------------------------------------------------------------

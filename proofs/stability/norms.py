@@ -15,7 +15,7 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, holds, symbols
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.values import Function, Setting, program, signed
+from juggleproof.proofs.stability.values import Function, Setting, derivatives, program, signed
 
 MOST_ROWS = 24
 CORNERS = 24  # parameters at which rows are carried back
@@ -211,15 +211,8 @@ def local_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     the largest number first that samples leave.
     """
     system = setting.system
-    state = symbols(system.state)
-    names = symbols(setting.constants)
-    at = dict(zip(state, symbols([f"{one}_point" for one in system.state])))
-    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
-    entries = list(matrix.subs(at, simultaneous=True))
-    numbers = sympy.lambdify(names, entries, "numpy")(*setting.constants.values())
-    n = len(state)
-    stack = [np.broadcast_to(np.asarray(one, float), (setting.count,)) for one in numbers]
-    matrices = np.stack(stack, axis=1).reshape(setting.count, n, n)
+    n = len(system.state)
+    matrices = derivatives(setting)
     chosen = np.linspace(0, setting.count - 1, min(setting.count, CORNERS)).astype(int)
     rng = np.random.default_rng(SEED)
     which = rng.integers(0, setting.count, 4000)

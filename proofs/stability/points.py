@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,11 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.proofs.stability.given import Expr, Map, expression, holds, symbols, written
-from juggleproof.proofs.stability.samples import Arrays, Floats, Point
+from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region
+
+PARAMETERS = 150  # samples
+VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables that are free
+MOST_VALUES = 100
 
 
 @dataclass(frozen=True)
@@ -73,19 +78,33 @@ def _named(system: Map) -> Iterator[FixedPoint]:
 
 def _found(system: Map) -> Iterator[FixedPoint]:
     state = symbols(system.state)
+    parameters = region(system.domain, system.parameters, PARAMETERS)
     for k, images in enumerate(system.images):
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
-        try:
-            solutions = sympy.solve(equations, state, dict=True)
-        except NotImplementedError:
-            continue
-        for solution in solutions:
-            terms = tuple(sympy.simplify(solution.get(s, s)) for s in state)
-            if any(t.free_symbols & set(state) for t in terms):
-                continue
-            point = as_point(terms)
-            if point is not None:
-                yield FixedPoint(point, k, terms)
+        for every in solutions(equations, state):
+            points = ((as_point(terms), terms) for terms in every)
+            found = (FixedPoint(point, k, terms) for point, terms in points if point is not None)
+            there = (one for one in found if one.exists(system, parameters).any())
+            yield from itertools.islice(there, 1)
+
+
+def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list[tuple[Expr, ...]]]:
+    """The states that solve the equations, each alone in a list; of a continuum, a list of states
+    in which the free variables have rational values.
+    """
+    try:
+        equations = [one for one in map(sympy.expand, equations) if one != 0]
+        found = sympy.solve(equations, state, dict=True) if equations else [{}]
+    except NotImplementedError:
+        return
+    for solution in found:
+        terms = [sympy.simplify(solution.get(s, s)) for s in state]
+        free = [s for s in state if any(s in t.free_symbols for t in terms)]
+        values = itertools.product(map(sympy.Rational, VALUES), repeat=len(free))
+        yield [
+            tuple(sympy.cancel(t.subs(dict(zip(free, chosen)))) if free else t for t in terms)
+            for chosen in itertools.islice(values, MOST_VALUES)
+        ]
 
 
 def as_point(terms: tuple[Expr, ...]) -> Point | None:
@@ -111,10 +130,27 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
             )
             for t in terms
         )
+    for base, symbol in free.items():
+        terms = tuple(without_root_below(t, symbol, base) for t in terms)
     try:
         return Point(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
     except Exception:  # what SymPy solves by other functions is no term
         return None
+
+
+def without_root_below(term: Expr, root: Expr, under: Expr) -> Expr:
+    """The term with a denominator without the root, whose square is `under`: a divisor is licensed
+    by the domain, which knows no roots.
+    """
+    above, below = sympy.fraction(sympy.together(term))
+    if root not in below.free_symbols:
+        return term
+    above, below = (sympy.rem(part, root**2 - under, root) for part in (above, below))
+    conjugate = below.subs(root, -root)
+    return sympy.cancel(
+        sympy.rem(sympy.expand(above * conjugate), root**2 - under, root)
+        / sympy.rem(sympy.expand(below * conjugate), root**2 - under, root)
+    )
 
 
 def _whole(base: Expr) -> set[Expr]:

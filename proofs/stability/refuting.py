@@ -4,7 +4,8 @@ function that grows near the point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import prod
 
 import numpy as np
@@ -12,21 +13,28 @@ import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, expression, holds, symbols, value
-from juggleproof.proofs.stability.points import as_point
+from juggleproof.proofs.stability.norms import is_affine, matrices_of
+from juggleproof.proofs.stability.points import as_point, solutions
 from juggleproof.proofs.stability.samples import (
     Arrays,
+    Floats,
     Point,
     after,
     orbit_ends,
     with_point_licences,
+    without_equations,
 )
 from juggleproof.proofs.stability.values import Setting, bounded_below
 
-LONGEST = 6  # period that is looked for
+LONGEST = 12  # period that is looked for
+MOST_AFFINE = 300  # words of affine pieces, the shortest first
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
 MOST_WORDS = 4
-MOST_DEGREE = 16  # along a word, in one variable
 SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
+MOST_TRIED = 12  # words whose orbits are sought in exact terms
+MOST_TERMS = 60  # of equations in several variables; elimination has no other bound
+SINGULAR = 1e-9
+MOST_SOLUTIONS = 9  # of the equations, by Bezout's bound
 
 
 def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
@@ -64,46 +72,86 @@ def _word(system: Map, state: Arrays) -> tuple[int, ...]:
     return ()
 
 
-def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
-    """The states that come back along a word of pieces, in exact terms."""
-    state = symbols(system.state)
-    if len(state) == 1 and prod(degree_of(system, k) for k in word) > MOST_DEGREE:
-        return
+def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:
+    """The words of affine pieces that have one periodic orbit, stable or not, which at all samples
+    of the parameters is one of the map, the shortest first; each without its rotations.
+    """
+    system, count = setting.system, setting.count
+    pieces, n = range(len(system.pieces)), len(system.state)
+    stacked = matrices_of(system, setting.parameters, count).reshape(len(pieces), count, n, n)
+    known = setting.point.with_roots(setting.parameters)
+    origin = {**known, **{name: np.zeros(count) for name in system.state}}
+    shifts = [
+        np.stack([np.broadcast_to(np.asarray(value(i, origin), float), count) for i in images], 1)
+        for _, images in system.pieces
+    ]
+    for word in itertools.islice(_words(len(pieces)), MOST_AFFINE):
+        matrix, shift = np.broadcast_to(np.eye(n), (count, n, n)), np.zeros((count, n))
+        for k in word:
+            matrix = stacked[k] @ matrix
+            shift = np.einsum("kij,kj->ki", stacked[k], shift) + shifts[k]
+        left = np.eye(n) - matrix
+        if (np.abs(np.linalg.det(left)) > SINGULAR).all():
+            start = np.linalg.solve(left, shift[:, :, None])[:, :, 0]
+            if _stays(setting, list(start.T), known, word):
+                yield word
+
+
+def _words(pieces: int) -> Iterator[tuple[int, ...]]:
+    """The words of which each is before all of its other rotations, in order of length."""
+    for length in range(1, LONGEST + 1):
+        for word in itertools.product(range(pieces), repeat=length):
+            if all(word < word[k:] + word[:k] for k in range(1, length)):
+                yield word
+
+
+def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Point]]:
+    """The states that come back along a word of pieces, in exact terms; where they are a continuum,
+    several of it.
+    """
+    state = symbols(setting.system.state)
+    _, fixed = without_equations(setting.domain, setting.system.parameters)
+    put = {sympy.Symbol(name, real=True): expression(term) for name, term in fixed.items()}
     images: list[sympy.Expr] = list(state)
     for k in word:
         values = dict(zip(state, images))
-        images = [sympy.together(i.subs(values, simultaneous=True)) for i in system.images[k]]
-    try:
+        pieces = [i.subs(put) for i in setting.system.images[k]]
+        images = [sympy.together(i.subs(values, simultaneous=True)) for i in pieces]
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
-        if len(state) == 1:  # those of higher degree are not solved by square roots
-            factors = [one for one, _ in sympy.factor_list(equations[0])[1] if one.has(*state)]
-            equations = [sympy.prod(one for one in factors if sympy.degree(one, state[0]) <= 2)]
-        solutions = sympy.solve(equations, state, dict=True)
-    except NotImplementedError:
-        return
-    for solution in solutions:
-        terms = tuple(sympy.simplify(solution.get(s, s)) for s in state)
-        if not any(t.free_symbols & set(state) for t in terms):
-            point = as_point(terms)
-            if point is not None:
-                yield point
+        equations = [one for one in map(sympy.expand, equations) if one != 0]
+        degrees = [sympy.Poly(one, *state).total_degree() for one in equations]
+        size = sum(len(sympy.Add.make_args(one)) for one in equations)
+        if prod(degrees) > MOST_SOLUTIONS or len(state) > 1 and size > MOST_TERMS:
+            return
+    for terms in solutions(equations, state):
+        points = map(as_point, terms)
+        yield [point for point in points if point is not None]
 
 
-def degree_of(system: Map, piece: int) -> int:
-    """The degree of the image of one state variable, numerator or denominator."""
-    parts = sympy.fraction(sympy.together(system.images[piece][0]))
-    return int(max(1, *(sympy.degree(part, *symbols(system.state)) for part in parts)))
-
-
-def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
-    """Statements `escapes` for the periodic orbits that samples tend to, and for other fixed
-    points.
+def short_words(setting: Setting) -> Iterator[tuple[int, ...]]:
+    """The words of short periodic orbits, stable or not: of affine pieces those of one orbit, and
+    of others in one variable all pairs.
     """
     system = setting.system
-    words = words_of_stray_orbits(setting)
-    for word in [*words, *((k,) for k in range(len(system.pieces)) if (k,) not in words)]:
-        for start in periodic_points(system, word):
-            if start.terms == setting.point.terms or not _stays(setting, start, word):
+    if is_affine(system):
+        return affine_words(setting)
+    pieces = range(len(system.pieces)) if len(system.state) == 1 else ()
+    return itertools.combinations_with_replacement(pieces, 2)
+
+
+def escape_rules(
+    setting: Setting, name: str, words: Iterable[tuple[int, ...]]
+) -> Iterator[MapRule]:
+    """Statements `escapes` for periodic orbits along these words."""
+    system = setting.system
+    seen = set()
+    for word in itertools.islice(words, MOST_TRIED):
+        if word in seen:
+            continue
+        seen.add(word)
+        for every in periodic_points(setting, word):
+            start = next((one for one in every if _is_escape(setting, one, word)), None)
+            if start is None:
                 continue
             roots = dict([*setting.point.roots, *start.roots])
             if len(roots) < len({*setting.point.roots, *start.roots}):
@@ -112,7 +160,7 @@ def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
             yield MapRule(
                 name,
                 (
-                    ("map", name.rpartition("/")[0] + "/map"),
+                    ("map", f"{system.name}/map"),
                     ("domain", domain),
                     *(("root", f"{root} = sqrt({under})") for root, under in roots.items()),
                     ("point", ", ".join(setting.point.terms)),
@@ -122,20 +170,26 @@ def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
             )
 
 
-def _stays(setting: Setting, start: Point, word: Sequence[int]) -> bool:
+def _is_escape(setting: Setting, start: Point, word: Sequence[int]) -> bool:
     """Whether at all samples of the parameters the orbit is one of the map, and not the point."""
+    known = start.with_roots(setting.parameters)
+    with np.errstate(all="ignore"):
+        return _stays(setting, start.at(setting.parameters), known, word)
+
+
+def _stays(setting: Setting, start: list[Floats], known: Arrays, word: Sequence[int]) -> bool:
+    """The same for states in floats, (count,) a variable, and values of parameters and roots."""
     system = setting.system
     with np.errstate(all="ignore"):
-        state = dict(start.with_roots(setting.parameters))
-        values = start.at(setting.parameters)
-        if not all(np.isfinite(v).all() for v in values):
+        if not all(np.isfinite(v).all() for v in start):
             return False
         fixed = setting.point.at(setting.parameters)
-        if not np.any([np.abs(v - e) > 1e-9 for v, e in zip(values, fixed)], axis=0).all():
+        if not np.any([np.abs(v - e) > 1e-9 for v, e in zip(start, fixed)], axis=0).all():
             return False
-        state |= {n: np.broadcast_to(v, (setting.count,)) for n, v in zip(system.state, values)}
+        state = {n: np.broadcast_to(v, (setting.count,)) for n, v in zip(system.state, start)}
+        state = {**known, **state}
         for k in word:
-            guard, images = system.pieces[k]
+            guard, _ = system.pieces[k]
             if not np.all(holds(system.space, state)) or not np.all(holds(guard, state)):
                 return False
             state |= dict(zip(system.state, system.next({n: state[n] for n in system.names})))

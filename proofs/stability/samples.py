@@ -4,6 +4,7 @@ nothing that is proved rests on.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -18,7 +19,9 @@ from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     atoms,
+    checker_text,
     conjunction,
+    conjuncts,
     expression,
     holds,
     symbols,
@@ -69,6 +72,7 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
     point, from which it takes as many as it keeps.
     """
     rng = np.random.default_rng(SEED)
+    formula, fixed = without_equations(formula, names)
     ends = {name: ends_of(formula, name) for name in names}
     kept: list[Arrays] = []
     total = 0
@@ -78,6 +82,8 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
             chosen = rng.integers(0, len(next(iter(given.values()))), count)
             point |= {name: values[chosen] for name, values in given.items()}
         with np.errstate(all="ignore"):
+            for name, term in fixed.items():
+                point[name] = np.broadcast_to(np.asarray(value(term, point), float), (count,))
             inside = np.broadcast_to(holds(formula, point), (count,))
         kept.append({name: values[inside] for name, values in point.items()})
         total += int(inside.sum())
@@ -85,6 +91,24 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
             break
     names_kept = kept[0].keys()
     return {name: np.concatenate([part[name] for part in kept])[:count] for name in names_kept}
+
+
+def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str, str]]:
+    """The formula without an equation that is linear in one of the variables, and that variable
+    with the term for it; without any, where there is no such equation.
+    """
+    parts = conjuncts(formula)
+    for part in parts:
+        node = checker.parse(part)
+        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq) or node.ops[1:]:
+            continue
+        sides = [expression(checker_text(side)) for side in (node.left, *node.comparators)]
+        gap = sympy.numer(sympy.together(sides[0] - sides[1]))
+        for symbol in symbols(names):
+            if gap.is_polynomial(symbol) and sympy.degree(gap, symbol) == 1:
+                term = sympy.cancel(-gap.coeff(symbol, 0) / gap.coeff(symbol, 1))
+                return conjunction(*(p for p in parts if p != part)), {str(symbol): written(term)}
+    return formula, {}
 
 
 # -------------------------------------------------------------------------------------------------
@@ -100,8 +124,8 @@ def with_licences(system: Map) -> Map:
         terms = []
         for image in images:
             above, below = sympy.fraction(sympy.together(expression(image)))
-            constant, divisors = sympy.factor_list(below)
-            terms.append(image if not divisors else written(sympy.factor(above) / below))
+            _, divisors = sympy.factor_list(below)
+            terms.append(written(sympy.factor(above) / below) if divides(image) else image)
             for divisor, _ in divisors:
                 if divisor.free_symbols & set(symbols(system.state)):
                     facts = conjunction(domain, system.space, guard)
@@ -110,6 +134,16 @@ def with_licences(system: Map) -> Map:
                     domain = conjunction(domain, licence(divisor, domain))
         pieces.append((guard, tuple(terms)))
     return replace(system, domain=domain, pieces=tuple(pieces))
+
+
+def divides(term: str) -> bool:
+    """Whether the term divides by more than numbers."""
+    return any(
+        isinstance(node, ast.BinOp)
+        and isinstance(node.op, ast.Div)
+        and checker.names_in(checker_text(node.right))
+        for node in ast.walk(checker.parse(term))
+    )
 
 
 def licence(divisor: Expr, facts: str) -> str:
@@ -147,7 +181,8 @@ class Point:
         """The parameters with the values of the roots."""
         known: Arrays = dict(parameters)
         for name, under in self.roots:
-            root = np.sqrt(np.asarray(value(under, known), float))
+            with np.errstate(all="ignore"):
+                root = np.sqrt(np.asarray(value(under, known), float))
             known[name] = np.broadcast_to(root, (_count(parameters),))
         return known
 

@@ -4,8 +4,8 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import ast
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -18,28 +18,39 @@ from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
+from juggleproof.certificates.states import state_of
 from juggleproof.certificates.votes.z3 import vote_and_model
-from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Map,
     atoms,
+    checker_text,
     conjunction,
     conjuncts,
     expression,
     negation,
+    renamed,
     symbols,
     value,
     written,
 )
 from juggleproof.proofs.stability.norms import is_affine, local_rules, norm_rules
-from juggleproof.proofs.stability.points import FixedPoint, fixed_points
-from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
+from juggleproof.proofs.stability.part_metric import part_metric_rules
+from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
+from juggleproof.proofs.stability.refuting import (
+    escape_rules,
+    instability_rules,
+    short_words,
+    words_of_stray_orbits,
+)
 from juggleproof.proofs.stability.samples import (
     around,
+    divides,
     licence,
     region,
     with_licences,
@@ -52,18 +63,23 @@ from juggleproof.proofs.stability.values import (
     lyapunov_functions,
     lyapunov_rules,
     quadratic_templates,
+    sum_of_quotients,
 )
 
-PARAMETERS, STATES = 150, 40  # samples
+MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the effort of squares
+STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
+LOCAL_BUDGET, LOCAL_TRIED = 400_000, 4
+LOCAL_WORK = 2_000_000  # on all of these candidates
 ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
+MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
-    ((1,), 20_000, 24),
-    ((1, 2), 100_000, 16),
+    ((1, 2), 20_000, 24),
+    (EFFORTS, 100_000, 6),
     (EFFORTS, 400_000, 4),
 )
+MOST_BOXES, BOX_BUDGET = 3, 400_000
 Report = Callable[[str], None]
 
 
@@ -76,6 +92,7 @@ class Proof:
     known: dict[str, checker.Statement] = field(default_factory=dict)
     budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
+    work: int = 0  # that was spent on premises
 
     def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
@@ -103,6 +120,11 @@ class Proof:
         self.certificates[rule.name] = found
         self.known[rule.name] = statement
         return ""
+
+    def free_name(self, name: str) -> str:
+        """The name, with a number where a statement has it already."""
+        count = sum(one == name or one.startswith(f"{name}-") for one in self.known)
+        return f"{name}-{count + 1}" if count else name
 
     def domain(self) -> str:
         """For which parameters the last statement holds."""
@@ -133,16 +155,29 @@ class Proof:
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
     ) -> Premise | None:
         """A proof of one premise, if one is found."""
+        if terms_of_pairs(premise) // 16 > budget:
+            return None  # the first program would be too large
         for effort in efforts:
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
+            part, proof = Budget(budget), None
             try:
-                proof = search_proof(premise, self.known, Budget(budget), effort=effort)
+                proof = search_proof(premise, self.known, part, effort=effort)
             except Exhausted:
-                continue
+                pass
+            self.work += (budget - part.left) * (SQUARES_COST if effort == SQUARED else 1)
             if proof is not None:
                 return proof
         return None
+
+
+def terms_of_pairs(premise: checker.Statement) -> int:
+    """How many terms the products of two facts have that a premise without cases begins with."""
+    unfolding = unfolded(premise)
+    if premise.get("exists"):
+        return 0
+    state = state_of(unfolding).assume(unfolding.goal(False))
+    return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
@@ -173,11 +208,6 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
                 worst = float(np.min(at, initial=np.inf))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
     return tuple(dict.fromkeys(renamed(line, names) for line in lines))
-
-
-def renamed(text: str, names: Mapping[str, str]) -> str:
-    """The text with other names in place of some."""
-    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
@@ -249,6 +279,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     if not every:
+        if not system.point and not proof.add(without_fixed_point(system)):
+            return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
         what = ", ".join(system.point)
         none = f"{what} is no fixed point in the space"
         if not what:
@@ -268,15 +300,19 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         found = settled(proof, system, fixed, split, given, log)
         if found:
             return Outcome(proof, *found, lines)
-    for fixed in every:
+    faults = []
+    # of several fixed points it says little that one does not attract another
+    ways = (by_growth, by_orbit) if len(every) > 1 else (by_orbit, by_growth, by_short_orbit)
+    for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
-            fault = refuted(proof, setting, log)
+            fault = refuted(proof, setting, log, ways)
             if fault:
                 where = beyond(given, proof.domain(), system.parameters)
                 at = f"at least where {where}, " if where else ""
-                sentence = f"{at}{name_of(fixed)} {fault}"
-                return Outcome(proof, "refuted", sentence, lines)
+                faults.append(f"{at}{name_of(fixed)} {fault}")
+    if faults:
+        return Outcome(proof, "refuted", "; ".join(faults), lines)
     for fixed in every:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
@@ -286,13 +322,28 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     return Outcome(proof, "unknown", "", lines)
 
 
+def without_fixed_point(system: Map) -> MapRule:
+    """The map with guards that say of each state that its image is another."""
+    pieces = []
+    for guard, images in system.pieces:
+        moved = [
+            f"{image} != {name}"
+            if not divides(image)
+            else f"{written(sympy.numer(sympy.together(expression(f'{image} - {name}'))))} != 0"
+            for image, name in zip(images, system.state)
+        ]
+        pieces.append((conjunction(guard, " or ".join(moved)), images))
+    return replace(system, pieces=tuple(pieces)).rule(f"{system.name}/no-fixed-point")
+
+
 def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
     """What is certified of states close to the point, or nothing."""
     pairs = zip(setting.system.state, setting.point.terms)
     gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
+    before = proof.work
     for rule in islice(rules, LOCAL_TRIED):
-        if not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
+        if proof.work - before < LOCAL_WORK and not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
             on = with_bars(dict(rule.rows)["on"])
             for one, gap in gaps.items():
@@ -366,7 +417,7 @@ def settled(
     where = beyond(given, setting.domain, system.parameters)
     name = name_of(fixed)
     if not split:
-        fault = refuted(proof, setting, log, STRAY_ONLY)
+        fault = by_orbit(proof, setting, log)
         if fault:
             there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
@@ -382,24 +433,59 @@ def settled(
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    outer = conjunction(system.domain, negation(where))
-    outside = setting_of(system, fixed, outer)
-    fault = refuted(proof, outside, log) if outside.count else ""
-    kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
-    if fault and sharp(proof, setting, kind, log):
-        inside = beyond(system.domain, setting.domain, system.parameters)
-        divides = beyond(given, system.domain, system.parameters)
-        of = f", of all parameters with {divides}" if divides else ""
-        return "exactly", f"{name} is stable and attracts every state if and only if {inside}{of}"
+    for parts in ([negation(where)], complement(where)):
+        kinds = outside_refuted(proof, system, fixed, parts, log)
+        if kinds and sharp(proof, setting, kinds, log):
+            inside = beyond(system.domain, setting.domain, system.parameters)
+            divides = beyond(given, system.domain, system.parameters)
+            of = f", of all parameters with {divides}" if divides else ""
+            sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
+            return "exactly", sentence
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
-def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
+COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
+
+
+def complement(conditions: str) -> list[str]:
+    """Formulas of which one holds where the conditions do not: for each of them its boundary and
+    its strict outside.
+    """
+    parts = []
+    for condition in conjuncts(conditions):
+        node = checker.parse(condition)
+        if isinstance(node, ast.Compare) and not node.ops[1:] and type(node.ops[0]) in COMPLEMENTS:
+            left, right = checker_text(node.left), checker_text(node.comparators[0])
+            parts += [f"{left} {op} {right}" for op in COMPLEMENTS[type(node.ops[0])].split()]
+        else:
+            parts.append(f"not ({condition})")
+    return parts
+
+
+def outside_refuted(
+    proof: Proof, system: Map, fixed: FixedPoint, parts: Sequence[str], log: Report
+) -> list[tuple[str, str]]:
+    """The lines that name the refutations for all of these parts of the domain that have
+    parameters; nothing where one of them has none.
+    """
+    lines = []
+    for part in parts:
+        setting = setting_of(system, fixed, conjunction(system.domain, part))
+        if setting.count:
+            if not refuted(proof, setting, log):
+                return []
+            name = proof.rules[-1].name
+            lines.append((NAMED[proof.known[name].kind], name))
+    return lines
+
+
+def sharp(
+    proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
+) -> bool:
     """Whether stability and attraction on one part of the domain, and their failure on the rest,
     are put together.
     """
     system, name = setting.system, setting.system.name
-    of = "escapes" if kind == "escape" else kind
     rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
         (
             "descends",
@@ -415,9 +501,11 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
     if f"{name}/attracts" in proof.known:
         rows = []
     rows += [
-        ("exactly", (("attraction", f"{name}/attracts"), (kind, f"{name}/{of}"))),
+        ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
     ]
     for label, lines in rows:
+        if f"{name}/{label}" in proof.known:
+            continue
         fault = proof.add(MapRule(f"{name}/{label}", lines))
         if fault:
             log(f"{label}: {fault}")
@@ -425,29 +513,60 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
     return True
 
 
-STRAY_ONLY = True
+NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that name such a rule
 
 
-def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) -> str:
-    """How the point fails to be stable and to attract every state, for all parameters, or nothing;
-    `stray`: by an orbit alone.
+def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """An orbit that samples tend to, or another fixed point, that the point does not attract, or
+    nothing.
     """
-    name = f"{setting.system.name}/"
-    for rule in escape_rules(setting, name + "escapes"):
+    fixed = [(k,) for k in range(len(setting.system.pieces))]
+    return escaped(proof, setting, [*words_of_stray_orbits(setting), *fixed], log)
+
+
+def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """A short periodic orbit, stable or not, or nothing."""
+    return escaped(proof, setting, short_words(setting), log)
+
+
+def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> str:
+    """A periodic orbit along one of these words, or nothing."""
+    name = proof.free_name(f"{setting.system.name}/escapes")
+    for rule in escape_rules(setting, name, words):
         fault = proof.add(rule)
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
         if not fault:
             what = "periodic" if " " in said["word"] else "a fixed point"
             return f"does not attract {in_brackets(said['start'])}, which is {what}"
-    if stray:
-        return ""
-    for rule in islice(instability_rules(setting, name + "unstable"), 6):
-        fault = proof.add(rule)
+    return ""
+
+
+def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
+    """That orbits leave a neighbourhood of the point, or nothing."""
+    rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
+    name = proof.free_name(f"{setting.system.name}/unstable")
+    for rule in islice(rules(setting, name), MOST_RATES):
+        fault = proof.add(rule, EFFORTS, LOCAL_BUDGET)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
             return "is not stable"
     return ""
+
+
+Way = Callable[[Proof, Setting, Report], str]
+
+
+def refuted(
+    proof: Proof,
+    setting: Setting,
+    log: Report,
+    ways: Sequence[Way] = (by_orbit, by_growth, by_short_orbit),
+) -> str:
+    """How the point fails to be stable and to attract every state, for all parameters, or
+    nothing.
+    """
+    return next(filter(None, (way(proof, setting, log) for way in ways)), "")
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -457,14 +576,20 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+        before = proof.work
         for rule in equation_rules(setting, space, name):
-            if not tried(proof, rule, EFFORTS, BUDGET, log):
+            if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
+    for _, rule in boxes[:MOST_BOXES]:
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log):
+            return True
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
+    before = proof.work
     for count, (efforts, budget, most) in enumerate(ROUNDS):
         for _, rule in found[:most]:
-            if not tried(proof, rule, efforts, budget, log):
+            if proof.work - before < MOST_WORK and not tried(proof, rule, efforts, budget, log):
                 return True
         if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
             return True
@@ -522,8 +647,12 @@ def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, Ma
     system, point = setting.system, setting.point
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
     positive = divisors(setting)
-    for kind, template in enumerate(quadratic_templates(system, setting.piece, positive)):
+    templates = [
+        *enumerate(quadratic_templates(system, setting.piece, positive)),
+        *((0.0, template) for template in sum_of_quotients(system)),
+    ]
+    for kind, template in templates:
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)
             for rank, rule in lyapunov_rules(setting, function, on, name):
-                yield rank + kind + len(" ".join(terms)) / 40, rule
+                yield rank + kind + len(" ".join(terms)) / 100, rule

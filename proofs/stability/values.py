@@ -21,6 +21,7 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
+    bounds,
     expression,
     holds,
     symbols,
@@ -91,14 +92,20 @@ def signed(number: Fraction) -> str:
     return f"({number})" if number < 0 or number.denominator > 1 else str(number)
 
 
+def products_of_gaps(system: Map) -> tuple[str, ...]:
+    """The products of two distances to the point."""
+    gaps = [name + "_gap" for name in system.state]
+    pairs = itertools.combinations_with_replacement(gaps, 2)
+    return tuple(f"{a}^2" if a == b else f"{a}*{b}" for a, b in pairs)
+
+
 def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Iterator[Template]:
     """Quadratic forms in the differences, of constant coefficients first, then of coefficients that
     are linear in the parameters, of a part for each piece, and divided by what is positive.  piece:
     the one that the point is in.
     """
     gaps = [name + "_gap" for name in system.state]
-    pairs = list(itertools.combinations_with_replacement(gaps, 2))
-    squares = tuple(f"{a}^2" if a == b else f"{a}*{b}" for a, b in pairs)
+    squares = products_of_gaps(system)
     moving = tuple(f"{name}*{square}" for name in system.parameters for square in squares)
     yield Template(squares)
     for divisor in positive:
@@ -118,6 +125,21 @@ def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Ite
         if moving and len(gaps) == 1:
             more = tuple(f"{n}*{b}" for n in system.parameters for b in (*cubic, *quartic))
             yield Template((*squares, *cubic, *quartic, *moving, *more))
+
+
+def sum_of_quotients(system: Map) -> Iterator[Template]:
+    """Quadratic forms in the differences, plus such forms over the distance of each state variable
+    to its lower bound.
+    """
+    low, _ = bounds(system)
+    if not 1 < len(low) <= 2:
+        return
+    under = [text if text.isidentifier() else f"({text})" for text in low.values()]
+    below = "*".join(under)
+    yield Template(
+        tuple(f"{form}*{by}" for form in products_of_gaps(system) for by in (*under, below)),
+        f"({below})",
+    )
 
 
 # -------------------------------------------------------------------------------------------------
@@ -438,14 +460,26 @@ def lyapunov_rules(
             yield rank + power / 4 + order - 2, setting.rule(name, function, rows)
 
 
-def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
-    """The statement whose V solves the discrete Lyapunov equation A^T P A - P = -D I for the
-    derivative A at the point, in the parameters, with D the common denominator.
+def derivatives(setting: Setting) -> Floats:
+    """The derivative of the point's piece there, for each of the parameters, (count, n, n)."""
+    state, names = symbols(setting.system.state), symbols(setting.constants)
+    at = dict(zip(state, symbols([f"{one}_point" for one in setting.system.state])))
+    matrix = sympy.Matrix(setting.system.images[setting.piece]).jacobian(state)
+    entries = list(matrix.subs(at, simultaneous=True))
+    numbers = sympy.lambdify(names, entries, "numpy")(*setting.constants.values())
+    n = len(state)
+    stack = [np.broadcast_to(np.asarray(one, float), (setting.count,)) for one in numbers]
+    return np.stack(stack, axis=1).reshape(setting.count, n, n)
+
+
+def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
+    """The form V and the term D > 0 with V(A g) - V(g) = -D |g|^2 for the derivative A at the point
+    (the discrete Lyapunov equation), in the parameters; None where there are none.
     """
     system = setting.system
     n = len(system.state)
     if n > 3 or setting.have and len(system.pieces) > 1:
-        return
+        return None
     state, names = symbols(system.state), [f"{one}_point" for one in system.state]
     matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
     at = symbols(names) if setting.have else map(expression, setting.point.terms)
@@ -458,7 +492,7 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
     unknowns = sorted(set(entries.values()), key=str)
     solutions = sympy.solve(equations, unknowns, dict=True)
     if not solutions:
-        return
+        return None
     found = [sympy.together(solutions[0].get(one, 0)) for one in unknowns]
     divisor = sympy.lcm([sympy.fraction(one)[1] for one in found])
     known = setting.constants
@@ -467,7 +501,7 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
     if (signs < 0).all():
         divisor = -divisor
     elif not (signs > 0).all():
-        return
+        return None
     values = dict(zip(unknowns, found))
     gaps = symbols([f"{one}_gap" for one in system.state])
     total = sum(
@@ -475,9 +509,16 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
         for i in range(n)
         for j in range(n)
     )
-    function = Function((written(total),))
-    loss = written(sympy.factor(divisor))
-    squares = " + ".join(squares_of(system))
+    return written(total), written(sympy.factor(divisor))
+
+
+def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
+    """The statements whose V solves the discrete Lyapunov equation at the point."""
+    found = lyapunov_form(setting)
+    if found is None:
+        return
+    function, loss = Function(found[:1]), found[1]
+    squares = " + ".join(squares_of(setting.system))
     for radius, upper in itertools.islice(small_balls(setting, function), 2):
         rows = [
             ("on", on),

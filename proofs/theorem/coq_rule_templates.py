@@ -455,34 +455,33 @@ Theorem $theorem : ${all}Map.domain$a ->
   (Descent.domain$a <-> States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
    States.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
 Proof.
-  intros$a of_map.
-  refine (Rules.exactly (Map.f$a) States.coordinate
-    (fun of_j => States.coordinate of_j ($around.point$a))
-    (fun of_j => States.coordinate of_j (Escape.point$a)) (Map.space$a) $period (Escape.start$a)
-    (Descent.domain$a) (Escape.domain$a) (States.stable (Map.space$a) (Map.f$a) ($around.point$a))
-    (${P}_covers$a of_map) _ _ _ _).
-  { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
-  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
-  { intro of_out. split; [lia|exact (of_periodic$a of_out)]. }
-  { intro of_out. pose proof (${P}_same_point$a of_out) as $each_axis. intros []; [$back]. }
+  intros$a of_map. apply (Rules.exactly _ _ ($domains :: nil)%list).
+  { destruct (${P}_covers$a of_map) as $alternatives; [$covered]. }
+  { intro of_dom. split; [exact (proj1 ($attraction$a of_dom))|].
+    exact ($tends ($attraction$a of_dom)). }
+  $refuted
+  apply Forall_nil.
 Qed.
 """
 
-EXACTLY_OR_UNSTABLE = """\
-(* The point is stable and attracts every state just for the parameters of the descent. *)
-Theorem $theorem : ${all}Map.domain$a ->
-  (Descent.domain$a <-> States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
-   States.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
-Proof.
-  intros$a of_map.
-  refine (Lyapunov.exactly_or_unstable (Map.f$a) States.coordinate
-    (fun of_j => States.coordinate of_j ($around.point$a))
-    (fun of_j => States.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
-    (Descent.domain$a) (ChetaevFunction.domain$a) (${P}_covers$a of_map) _ _ _ _).
-  { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
-  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
-  { intro of_out. exact ($unstable$a of_out). }
-  { intro of_out. pose proof ($at_point$a of_out) as $point.
-    pose proof (${P}_same_point$a$E of_out$H) as $each_axis. intros []; [$back]. }
-Qed.
+# `$within` is the module of the refutation.
+ESCAPE_REFUTES = """\
+apply Forall_cons.
+  { intros of_out [_ of_all]. revert of_all.
+    refine (Rules.escape_refutes (Map.f$a) States.coordinate
+      (fun of_j => States.coordinate of_j ($around.point$a))
+      (fun of_j => States.coordinate of_j ($within.Escape.point$a)) (Map.space$a) $period
+      ($within.Escape.start$a) ltac:(lia) ($within.$refutes$a of_out) _).
+    pose proof (${P}_same_point_$k$a of_out) as $each_axis. intros []; [$back]. }
+"""
+
+INSTABILITY_REFUTES = """\
+apply Forall_cons.
+  { intros of_out [of_all _]. revert of_all.
+    refine (Lyapunov.instability_refutes (Map.f$a) States.coordinate
+      (fun of_j => States.coordinate of_j ($around.point$a))
+      (fun of_j => States.coordinate of_j ($within.ChetaevFunction.point$a)) (Map.space$a)
+      ($within.$refutes$a of_out) _).
+    pose proof ($within.$at_point$a of_out) as $point.
+    pose proof (${P}_same_point_$k$a$E of_out$H) as $each_axis. intros []; [$back]. }
 """

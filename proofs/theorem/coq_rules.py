@@ -78,6 +78,7 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
 
 def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) -> Iterator[str]:
     """What a statement rests on, and the statement."""
+    refuted = _refutations(f.known[name])
     for one in _chain(name, f.known):
         own = f.known[one]
         if own.kind == "into":
@@ -86,9 +87,18 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
             yield "End Inner.\n"
         define, prove = RULES[own.kind]
         yield f"(* {'-' * 60} {one} *)\n"
+        if one in refuted:
+            yield f"Module Refuted_{refuted.index(one) + 1}.\n"
         yield from define(f, own)
         yield "\n" + readings(own, certificates[one], f.known)
         yield from prove(f, own)
+        if one in refuted:
+            yield f"End Refuted_{refuted.index(one) + 1}.\n"
+
+
+def _refutations(own: checker.Statement) -> list[str]:
+    """The escapes and instabilities that a sharp statement names, in order."""
+    return [name for keyword, name in own.lines if keyword in ("escape", "unstable")]
 
 
 def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
@@ -464,30 +474,38 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state just on the domain of the descent."""
-    attraction = f.known[own.get("attraction")[0]]
+    attraction, refuted = f.known[own.get("attraction")[0]], _refutations(own)
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     words = {
         "around": _around(f, attraction),
-        "tends": _tends(attraction),
-        "attraction": theorem_name(attraction.name),
         "each_axis": conjunctive(each),
         "back": "|".join(f"exact (eq_sym {one})" for one in each),
     }
-    if own.get("escape"):
-        (word,) = f.known[own.get("escape")[0]].get("word")
-        yield f.fill(texts.EXACTLY, own, period=len(word), **words)
-        return
-    unstable = f.known[own.get("unstable")[0]]
-    around = Around(f, unstable, CHETAEV).words
+    domains, rows = [], []
+    for k, name in enumerate(refuted, 1):
+        other, within = f.known[name], f"Refuted_{refuted.index(name) + 1}"
+        words.update(k=str(k), within=within, refutes=theorem_name(name))
+        if other.kind == "escapes":
+            domains.append(f.fill(f"{within}.Escape.domain$a", own))
+            (word,) = other.get("word")
+            rows.append(f.fill(texts.ESCAPE_REFUTES, own, period=len(word), **words))
+            continue
+        domains.append(f.fill(f"{within}.{CHETAEV}.domain$a", own))
+        around = Around(f, other, f"{within}.{CHETAEV}").words
+        words.update(E=f.fill(around["E"], own), H=around["H"], point=around["point"])
+        words["at_point"] = reading_name(f"{name}.point")
+        rows.append(f.fill(texts.INSTABILITY_REFUTES, own, **words))
+    first = "apply Exists_cons_hd; exact of_in"
     yield f.fill(
-        texts.EXACTLY_OR_UNSTABLE,
+        texts.EXACTLY,
         own,
-        unstable=theorem_name(unstable.name),
-        at_point=reading_name(f"{unstable.name}.point"),
-        point=around["point"],
-        E=f.fill(around["E"], own),
-        H=around["H"],
-        **words,
+        tends=_tends(attraction),
+        attraction=theorem_name(attraction.name),
+        domains=" :: ".join(domains),
+        alternatives=disjunctive(["of_in"] * (len(refuted) + 1)),
+        covered="|".join(f"{k * 'apply Exists_cons_tl; '}{first}" for k in range(len(refuted) + 1)),
+        refuted="  ".join(rows).rstrip(),
+        around=words["around"],
     )
 
 

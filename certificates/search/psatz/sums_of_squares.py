@@ -14,9 +14,11 @@ from functools import partial
 from itertools import combinations_with_replacement
 from itertools import product as choices
 from math import comb, prod
+from typing import Any
 
 import numpy as np
 from flint import fmpz_mpoly
+from numpy.typing import NDArray
 
 from juggleproof.certificates.algebra.polynomials import Monomial, Ring, total_degree
 from juggleproof.certificates.algebra.semidefinite import (
@@ -362,34 +364,44 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
     """The blocks without squares that nothing can cancel: of a monomial that only squares reach,
     and all with one sign.
     """
+    if not blocks:
+        return []
+    degrees = [b.poly.total_degree() + 2 * max(map(total_degree, b.basis)) for b in blocks]
+    base = 1 + max([*degrees, *(poly.total_degree() for poly in cofactors)])
+    size = len(blocks[0].poly.degrees())
+    kind: type = np.int64 if base**size < 2**62 else object
+    scale = np.array([base**v for v in range(size)], dtype=kind)
+
+    def keys(polys: Sequence[fmpz_mpoly]) -> NDArray[Any]:  # of Python's integers, where large
+        """The monomials as numbers that add as exponents do."""
+        monomials = [tuple(map(int, m)) for poly in polys for m in poly.monoms()]
+        return np.array(monomials, dtype=kind).reshape(-1, size) @ scale
+
+    terms = [keys([block.poly]) for block in blocks]
+    signs = [np.array([int(c) > 0 for c in block.poly.coeffs()]) for block in blocks]
+    roots = [keys(block.basis) for block in blocks]
+    owed = keys(cofactors)
+    alive = [np.ones(len(one), dtype=bool) for one in roots]
     while True:
-        fixed, signs = set[Monomial](), dict[Monomial, set[int]]()
-        owners: dict[Monomial, list[tuple[int, int]]] = {}
-        for poly in cofactors:
-            fixed |= {tuple(map(int, m)) for m in poly.monoms()}
-        for k, block in enumerate(blocks):
-            exponents = [tuple(map(int, b.monoms()[0])) for b in block.basis]
-            terms = [
-                (tuple(map(int, m)), 1 if int(c) > 0 else -1)
-                for m, c in zip(block.poly.monoms(), block.poly.coeffs())
-            ]
-            for i, one in enumerate(exponents):
-                for j in range(i + 1):
-                    for m, sign in terms:
-                        whole = tuple(map(sum, zip(one, exponents[j], m)))
-                        if i != j:
-                            fixed.add(whole)
-                        else:
-                            signs.setdefault(whole, set()).add(sign)
-                            owners.setdefault(whole, []).append((k, i))
-        dead = {
-            place
-            for whole, found in signs.items()
-            if len(found) == 1 and whole not in fixed
-            for place in owners[whole]
-        }
-        if not dead:
-            return blocks
-        for k, block in enumerate(blocks):
-            block.basis = [b for i, b in enumerate(block.basis) if (k, i) not in dead]
-        blocks = [block for block in blocks if block.basis]
+        fixed, squares, positive, owners = [owed], [], [], []
+        for k, (term, sign) in enumerate(zip(terms, signs)):
+            root = roots[k][alive[k]]
+            pairs = np.unique((root[:, None] + root)[np.triu_indices(len(root), 1)])
+            fixed.append(np.unique(pairs[:, None] + term))
+            squares.append((2 * root[:, None] + term).ravel())
+            positive.append(np.tile(sign, len(root)))
+            places = np.flatnonzero(alive[k])
+            owners += [(k, i) for i in places for _ in term]
+        whole, where = np.unique(np.concatenate(squares), return_inverse=True)
+        above = np.zeros(len(whole), dtype=int)
+        np.add.at(above, where, np.concatenate(positive))
+        one_sign = (above == 0) | (above == np.bincount(where, minlength=len(whole)))
+        dead = (one_sign & ~np.isin(whole, np.concatenate(fixed)))[where]
+        if not dead.any():
+            break
+        for place in np.flatnonzero(dead):
+            k, i = owners[place]
+            alive[k][i] = False
+    for block, kept in zip(blocks, alive):
+        block.basis = [b for b, is_kept in zip(block.basis, kept) if is_kept]
+    return [block for block in blocks if block.basis]

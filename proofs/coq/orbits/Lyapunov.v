@@ -10,7 +10,7 @@
              attraction_from_a_set   what attracts a set attracts all that leads into it;
              chetaev_leaves, chetaev_instability   a function that grows from arbitrarily near makes the point unstable;
              same_pieces_agree, into_attraction, into_stability   an attraction on a smaller space is one of the larger;
-             exactly_or_unstable  where one of both holds, the point is stable and attracts exactly where the first does. *)
+             instability_refutes  so the point of an attraction is not stable where it is the unstable point. *)
 
 From Coq Require Import Reals Lra Lia List.
 From Juggleproof Require Import Rules.
@@ -284,13 +284,11 @@ Section Into.
   Qed.
 End Into.
 
-Theorem exactly_or_unstable {State Index : Type} (f : State -> State) (coordinate : Index -> State -> R) (point other : Index -> R)
-    (space : State -> Prop) (inside outside : Prop) :
-  inside \/ outside -> (inside -> stable f coordinate point space) -> (inside -> forall s, space s -> converges f coordinate point s) ->
-  (outside -> ~ stable f coordinate other space) -> (outside -> forall j, other j = point j) ->
-  inside <-> stable f coordinate point space /\ forall s, space s -> converges f coordinate point s.
+Theorem instability_refutes {State Index : Type} (f : State -> State) (coordinate : Index -> State -> R) (point other : Index -> R)
+    (space : State -> Prop) :
+  ~ stable f coordinate other space -> (forall j, other j = point j) -> ~ stable f coordinate point space.
 Proof.
-  intros covers stays attracts escapes same. split; [auto|]. intros [near _]. destruct covers as [yes|out]; [exact yes|exfalso].
-  apply (escapes out). intros epsilon positive. destruct (near epsilon positive) as (delta & some & keeps). exists delta. split; [exact some|].
-  intros s there start n j. rewrite (same out j). apply keeps; [exact there|]. intro i. rewrite <- (same out i). apply start.
+  intros escapes same near. apply escapes. intros epsilon positive. destruct (near epsilon positive) as (delta & some & keeps).
+  exists delta. split; [exact some|]. intros s there start n j. rewrite (same j). apply keeps; [exact there|].
+  intro i. rewrite <- (same i). apply start.
 Qed.

@@ -7,7 +7,8 @@
              weighted_stability, stability   and is Lyapunov stable there, in the weighted and in the plain sup norm;
              approach, convergence           both together: an explicit bound, and the limit of every orbit;
              periodic_orbit_stays_away       a periodic orbit through another point does not converge;
-             exactly      where one of both holds, the point is stable and attracts exactly where the first does;
+             escape_refutes   so the point of an attraction does not attract where an orbit escapes from it;
+             exactly      what is concluded on one domain, and refuted on others that make up the whole with it, holds just on the first;
              closed_form  terms that begin with the state and go on by the map are its iterates;
              pieces_make_a_map   pieces that cover the space, and do not overlap, make one map of it into itself.
    Coordinates are indexed by any type; Lists.v says the same for states that are lists of reals.
@@ -235,17 +236,24 @@ Proof.
   rewrite iterate_periodic in near by exact back. specialize (near ltac:(nia) j). lra.
 Qed.
 
-(* For one value of the parameters: inside the domain of an attraction, or in that of an escape, from the same point. *)
-Theorem exactly {State Index : Type} (f : State -> State) (coordinate : Index -> State -> R) (point other : Index -> R)
-    (space : State -> Prop) (period : nat) (s : State) (inside outside stable : Prop) :
-  inside \/ outside -> (inside -> stable) -> (inside -> forall t, space t -> converges f coordinate point t) ->
-  (outside -> (0 < period)%nat /\ space s /\ iterate f period s = s /\ exists j, coordinate j s <> other j) ->
-  (outside -> forall j, other j = point j) ->
-  inside <-> stable /\ forall t, space t -> converges f coordinate point t.
+(* For one value of the parameters: what refutes that the point attracts, on the domain of an escape. *)
+Theorem escape_refutes {State Index : Type} (f : State -> State) (coordinate : Index -> State -> R) (point other : Index -> R)
+    (space : State -> Prop) (period : nat) (s : State) :
+  (0 < period)%nat -> space s /\ iterate f period s = s /\ (exists j, coordinate j s <> other j) -> (forall j, other j = point j) ->
+  ~ forall t, space t -> converges f coordinate point t.
 Proof.
-  intros covers stays attracts escapes same. split; [auto|]. intros [_ all]. destruct covers as [yes|out]; [exact yes|exfalso].
-  destruct (escapes out) as (positive & there & back & j & apart). rewrite (same out j) in apart.
+  intros positive (there & back & j & apart) same all. rewrite (same j) in apart.
   exact (periodic_orbit_stays_away f coordinate point period s j positive back apart (all s there)).
+Qed.
+
+(* For one value of the parameters: inside the domain of an attraction, or in one of those where something refutes what it concludes. *)
+Theorem exactly (inside concluded : Prop) (outside : list Prop) :
+  Exists (fun domain : Prop => domain) (inside :: outside) -> (inside -> concluded) -> Forall (fun domain : Prop => domain -> ~ concluded) outside ->
+  inside <-> concluded.
+Proof.
+  intros covers concludes refutes. split; [exact concludes|]. intro all. apply Exists_cons in covers.
+  destruct covers as [yes|out]; [exact yes|exfalso]. apply Exists_exists in out. destruct out as (domain & one & there).
+  rewrite Forall_forall in refutes. exact (refutes domain one there all).
 Qed.
 
 Theorem closed_form {State : Type} (f : State -> State) (after : nat -> State -> State) :

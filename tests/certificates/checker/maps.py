@@ -320,6 +320,67 @@ radius 1
 upper 1
 """
 
+# A state is multiplied by a: to 0 exactly for -1 < a < 1, refuted elsewhere in three ways.
+SCALE = """
+statement scale/map
+over a
+domain 0 = 0
+state x
+space 0 = 0
+piece 0 = 0 -> a*x
+
+statement scale/descends
+map scale/map
+domain a > -1 and a < 1
+rank 0
+stage 0 = 0
+
+statement scale/lyapunov
+map scale/map
+domain a^2 < 1
+on 0 = 0
+point 0
+value x^2
+loss (1 - a^2)*value
+least (1 - a^2)*distance^2
+upper 1
+radius 1
+
+statement scale/attracts
+descent scale/descends
+lyapunov scale/lyapunov
+
+statement scale/unstable
+map scale/map
+domain a^2 > 1
+point 0
+direction distance
+value x^2
+rate a^2
+radius 1
+upper 1
+
+statement scale/stays
+map scale/map
+domain a = 1
+point 0
+start 1
+word 1
+
+statement scale/flips
+map scale/map
+domain a = -1
+point a - a
+start 1
+word 1 1
+
+statement scale/exactly
+attraction scale/attracts
+escape scale/flips
+unstable scale/unstable
+escape scale/stays
+"""
+
 
 def read(text: str) -> dict[str, checker.Statement]:
     """The statements of a text."""
@@ -512,6 +573,11 @@ word 2 1
 
 statement asked/exactly
 attraction asked/attracts
+escape asked/escapes
+
+statement asked/exactly-twice
+attraction asked/attracts
+unstable asked/unstable
 escape asked/escapes
 
 statement asked/powers

@@ -22,6 +22,7 @@ from tests.certificates.checker.maps import (
     FLIP,
     NEST,
     PUSH,
+    SCALE,
     SUBTRACT,
     SWITCH,
     TURN,
@@ -134,7 +135,7 @@ JOINS = [
     ("contracts", "on x < 1", "on x < 3/4", "attracts", "enters"),
     ("lyapunov", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "settles", "inside"),
     ("lyapunov", "on x < 1", "on x < 3/4", "settles", "enters"),
-    ("escapes", "point 0", "point 1/3", "exactly", "same-point"),
+    ("escapes", "point 0", "point 1/3", "exactly", "same-point-1"),
     ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "exactly", "covers"),
 ]
 JOINS_INTO = [
@@ -143,11 +144,17 @@ JOINS_INTO = [
     ("inner", "space x >= 0 and x <= 1", "space x >= 0 and x <= 1/2", "into", "surrounds"),
     ("descends", "stage x <= 1", "stage x <= 3/2", "into", "enters"),
     ("descends-first", "stage x <= 4", "stage x <= 6", "into-twice", "enters"),
-    ("escapes", "point 0", "point 1/3", "exactly", "same-point"),
+    ("escapes", "point 0", "point 1/3", "exactly", "same-point-1"),
+]
+JOINS_OF_SEVERAL = [
+    ("unstable", "domain a^2 > 1", "domain a > 1", "exactly", "covers"),
+    ("descends", "domain a > -1", "domain a > 0", "exactly", "covers"),
+    ("flips", "point a - a", "point a + 3", "exactly", "same-point-1"),
+    ("stays", "point 0", "point a + 1", "exactly", "same-point-3"),
 ]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE])
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
@@ -199,7 +206,11 @@ def test_a_rule_fails_without_its_premise(
 
 @pytest.mark.parametrize(
     ("whole", "kind", "old", "new", "joined", "premise"),
-    [*((SUBTRACT, *row) for row in JOINS), *((NEST, *row) for row in JOINS_INTO)],
+    [
+        *((SUBTRACT, *row) for row in JOINS),
+        *((NEST, *row) for row in JOINS_INTO),
+        *((SCALE, *row) for row in JOINS_OF_SEVERAL),
+    ],
 )
 def test_joined_statements_fail_without_what_joins_them(
     whole: str, kind: str, old: str, new: str, joined: str, premise: str
@@ -233,6 +244,21 @@ def test_rejects_a_contraction_of_another_map_of_the_same_text() -> None:
     outcome, reason = results["demo/attracts"]
     assert outcome == "rejected"
     assert refused(reason, (Kind.OTHER_MAP, "demo/attracts"))
+
+
+def test_rejects_a_refutation_that_is_named_and_not_certified() -> None:
+    for left_out in ("unstable", "stays", "flips"):
+        found = {k: one for k, one in searched(SCALE).items() if k != f"scale/{left_out}"}
+        outcome, reason = checked(SCALE, found)["scale/exactly"]
+        assert outcome == "rejected" and reason is not None and reason.kind is Kind.EARLIER
+
+
+@pytest.mark.parametrize("line", ["escape scale/flips", "escape scale/stays"])
+def test_rejects_a_domain_on_which_nothing_is_refuted(line: str) -> None:
+    text = edited(SCALE, "exactly", f"{line}\n" if "flips" in line else f"\n{line}", "")
+    name = "scale/exactly"
+    assert searched(text)[name] == {"unknown": "no proof of the premise covers was found"}
+    assert checked(text, searched(SCALE))[name][0] == "rejected"
 
 
 def test_rejects_an_escape_of_another_map_of_the_same_text() -> None:

@@ -461,19 +461,20 @@ def of_escape(statement: Statement, statements: Mapping[str, Statement]) -> Prem
 def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     attraction = statements[statement.one("attraction")]
     descent = Setting(statements[attraction.one("descent")], statements)
-    other = around(attraction, statements)
-    word = statement.lines[1].word
-    escape_statement = statements[statement.one(word)]
-    escape = Setting(escape_statement, statements)
-    require(descent.map.name == escape.map.name, "another map")
-    whole = Setting(escape.map, statements)
-    lines = [*whole.params(), Line("show", ("or", descent.domain, escape.domain))]
-    points = equal(other.one("point"), escape_statement.one("point"))
-    roots = other_roots(escape, Setting(other, statements))[0]
-    same = [*escape.params(), *roots, Line("show", points)]
+    inner = around(attraction, statements)
+    points = Setting(inner, statements)
+    others = [statements[line.says] for line in statement.lines[1:]]
+    whole = Setting(statements[descent.map.name], statements)
+    domains = [descent.domain, *(one.one("domain") for one in others)]
+    premises = {"covers": [*whole.params(), Line("show", disjunction(domains))]}
+    for k, one in enumerate(others, 1):
+        other = Setting(one, statements)
+        require(descent.map.name == other.map.name, "another map")
+        show = Line("show", equal(inner.one("point"), one.one("point")))
+        premises[f"same-point-{k}"] = [*other.params(), *other_roots(other, points)[0], show]
     return {
         name: Statement(f"{statement.name}.{name}", "universal", tuple(some))
-        for name, some in (("covers", lines), ("same-point", same))
+        for name, some in premises.items()
     }
 
 

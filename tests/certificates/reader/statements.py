@@ -34,7 +34,7 @@ ORDERS = {
     "attracts": "descent (contraction|lyapunov) ",
     "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
-    "exactly": "attraction (escape|unstable) ",
+    "exactly": "attraction (escape |unstable )+",
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")

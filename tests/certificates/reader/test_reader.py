@@ -27,6 +27,7 @@ from tests.certificates.checker.maps import (
     FLIP,
     NEST,
     PUSH,
+    SCALE,
     SUBTRACT,
     SWITCH,
     TURN,
@@ -168,7 +169,7 @@ def until(text: str) -> Iterator[str]:
     return ("\n\n".join(blocks[:k]) + "\n" for k in range(1, len(blocks) + 1))
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE])
 def test_changes_of_orbit_rules_have_the_checkers_outcome_hold(text: str) -> None:
     certificates = searched(text)
     assert by_reader(text, certificates) == "certified"

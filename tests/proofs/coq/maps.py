@@ -87,6 +87,38 @@ def zero_is_stable_just_below_1() -> list[MapRule]:
     ]
 
 
+@claim("turned")
+def zero_attracts_just_between_minus_1_and_1() -> list[MapRule]:
+    """x -> a x for all x and a: 0 is stable and attracts every state just for -1 < a < 1."""
+    line = "x^2 >= 0"
+    over = (("over", "a"), ("domain", "0 = 0"), ("state", "x"), ("space", line))
+    map_, point, start = ("map", "turned/map"), ("point", "0"), ("start", "1")
+    of = (map_, ("domain", "-1 < a and a < 1"))
+    falls = (("loss", "(1 - a^2)*value"), ("least", "(1 - a^2)*distance^2"))
+    ends = (("radius", "1"), ("upper", "1"))
+    grows = (("direction", "distance"), ("value", "x^2"), ("rate", "a^2"), *ends)
+    return [
+        MapRule("map", (*over, ("piece", line + " -> a*x"))),
+        MapRule("near", (*of, ("on", line), point, ("value", "x^2"), *falls, *ends[::-1])),
+        MapRule("down", (*of, ("rank", "0"), ("stage", line))),
+        MapRule("all", (("descent", "turned/down"), ("lyapunov", "turned/near"))),
+        MapRule("grows", (map_, ("domain", "a > 1"), point, *grows)),
+        MapRule("swings", (map_, ("domain", "a < -1"), point, *grows)),
+        MapRule("stays", (map_, ("domain", "a = 1"), point, start, ("word", "1"))),
+        MapRule("flips", (map_, ("domain", "a = -1"), point, start, ("word", "1 1"))),
+        MapRule(
+            "exactly",
+            (
+                ("attraction", "turned/all"),
+                ("unstable", "turned/grows"),
+                ("escape", "turned/stays"),
+                ("escape", "turned/flips"),
+                ("unstable", "turned/swings"),
+            ),
+        ),
+    ]
+
+
 @claim("falling")
 def zero_attracts_from_above() -> list[MapRule]:
     """x -> a x for x <= 1, x - 1 above: what attracts [0, 1] attracts all x >= 0."""

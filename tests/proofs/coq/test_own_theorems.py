@@ -27,7 +27,8 @@ from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
-LARGE, CYCLE, INPUT, EITHER = "falling/all", "cycle/away", "pushed/all", "switched/all"
+TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
+INPUT, EITHER = "pushed/all", "switched/all"
 
 
 def settles(point: str, words: str = "(Map.space a) (Map.f a)") -> str:
@@ -41,6 +42,7 @@ CONCLUSIONS = {
     PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
     SHIFTED: f"Descent.domain a -> {settles('LyapunovFunction.point')}.",
     GROWN: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
+    TURNED: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
     LARGE: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
     CYCLE: "Escape.domain a -> Map.space a (Escape.start a) /\\"
     " Rules.iterate (Map.f a) 2 (Escape.start a) = Escape.start a /\\ Escape.start a <>"
@@ -103,6 +105,7 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
         (SHIFTED, "shifted/near", "falls-1-1", "falls-2-2"),
         (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
         (EITHER, "switched/near", "falls-1-2", "falls-2-1"),
+        (TURNED, "turned/swings", "bounded-1", "grows-1-1"),
     ],
 )
 def test_rejects_a_forged_certificate(

@@ -45,7 +45,7 @@ SETTLED = {  # name: (text, exit code, first line)
     "at-rest": (  # the identity at a = 0
         "over a\ndomain 0 <= a and a < 1\nstate x\npiece (1 - a)*x",
         0,
-        f"proved   at-rest: 0 {STABLE} at least where a > 0",
+        f"proved   at-rest: 0 {STABLE} if and only if a > 0",
     ),
     "side": (  # the first piece has the point beside its guard
         "state x\npiece x < 0 -> x/2\npiece x >= 0 -> x/3",
@@ -93,8 +93,12 @@ SETTLED = {  # name: (text, exit code, first line)
         "unknown  circle: no parameters were found in the domain c^2 + s^2 = 1; put in what an"
         " equation fixes",
     ),
-    "identity": ("state x\npiece x", 1, "unknown  identity: "),
-    "shift": ("state x\npiece x + 1", 1, "unknown  shift: "),
+    "identity": (
+        "state x\npiece x",
+        1,
+        f"refuted  identity: 0 {AWAY} 1/2, which is a fixed point",
+    ),
+    "shift": ("state x\npiece x + 1", 1, "refuted  shift: no state of the space is a fixed point"),
     "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map: "),
     "overlap": (
         "state x\npiece x <= 0 -> x/2\npiece x >= 0 -> x/3",

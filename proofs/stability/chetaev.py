@@ -1,0 +1,171 @@
+"""Instability in two variables or more: quadratic Chetaev functions, W > 0 in a cone that ends at
+the point, where W grows by a rate until the orbit is farther than a radius (LaSalle 1976, theorem
+5.5).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.given import holds, value
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
+from juggleproof.proofs.stability.values import (
+    Function,
+    Setting,
+    Template,
+    best_weights,
+    bounded_below,
+    derivatives,
+    lyapunov_form,
+    products_of_gaps,
+    rounded,
+    signed,
+)
+
+EACH = 60  # states at each of the parameters
+SMALL = 1e-4  # distance at which the higher terms do not count
+HALVINGS = 12  # of the radius, from 1
+GRID = 3  # directions have coordinates that are multiples of 1/GRID
+SHARE = 0.5  # of the growth that samples leave
+
+
+def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
+    """Statements `unstable` for a point that has a multiplier outside the unit circle at all
+    samples of the parameters: W of constant coefficients, then linear in the parameters, then the
+    solution of a discrete Lyapunov equation.
+    """
+    multipliers = np.abs(np.linalg.eigvals(derivatives(setting))).max(axis=1)
+    if multipliers.min() <= 1:
+        return
+    for function in functions(setting):
+        yield from _rules(setting, function, name)
+
+
+def functions(setting: Setting) -> Iterator[Function]:
+    """Quadratic forms W with W(f(s)) > W(s) at samples close to the point."""
+    forms = products_of_gaps(setting.system)
+    moving = tuple(f"{name}*{one}" for name in setting.system.parameters for one in forms)
+    near = states(setting, np.full(setting.count, SMALL))
+    for basis in (forms, (*forms, *moving)) if moving else (forms,):
+        template = Template(basis)
+        with np.errstate(all="ignore"):
+            grown = template.columns(after(setting.system, near)) - template.columns(near)
+        rows = grown[np.isfinite(grown).all(axis=1)] / SMALL**2
+        weights = best_weights(rows[:: 1 + len(rows) // 3000]) if len(rows) else None
+        if weights is not None:
+            yield from (
+                Function(tuple(template.terms(numbers)))
+                for numbers in itertools.islice(rounded(weights, rows), 2)
+            )
+    form = lyapunov_form(setting)
+    if form is not None:
+        yield Function((f"-({form[0]})",))
+
+
+def states(setting: Setting, radius: Floats) -> Arrays:
+    """States of the space within the radius, (count,), of the point, for each parameter."""
+    system = setting.system
+    rng = np.random.default_rng(SEED + 2)
+    which = np.repeat(np.arange(setting.count), EACH)
+    direction = rng.uniform(-1, 1, (len(system.state), len(which)))
+    reach = np.where(rng.random(len(which)) < 0.5, 1.0, rng.uniform(0.1, 1, len(which)))
+    direction *= reach / np.abs(direction).max(axis=0)
+    points = {name: values[which] for name, values in setting.constants.items()}
+    for name, part in zip(system.state, direction):
+        points[f"{name}_gap"] = radius[which] * part
+        points[name] = points[f"{name}_point"] + points[f"{name}_gap"]
+    points["which"] = which.astype(float)
+    with np.errstate(all="ignore"):
+        inside = np.broadcast_to(holds(system.space, points), (len(which),))
+    return {name: values[inside] for name, values in points.items()}
+
+
+def _growth(setting: Setting, function: Function, radius: Floats) -> Floats:
+    """The least W(f(s))/W(s) over states within the radius with W(s) > 0, for each parameter."""
+    points = states(setting, radius)
+    size = len(points["which"])
+    with np.errstate(all="ignore"):
+        here = function.at(points, size)
+        there = function.at(after(setting.system, points), size)
+        share = np.where(here > 0, there / here, np.inf)
+    found = np.full(setting.count, np.inf)
+    np.minimum.at(found, points["which"].astype(int), np.nan_to_num(share, nan=-np.inf))
+    return found
+
+
+def _along(setting: Setting, direction: Sequence[Fraction], radius: Floats) -> Arrays:
+    """The states at the radius in a direction."""
+    points = dict(setting.constants)
+    for name, part in zip(setting.system.state, direction):
+        points[f"{name}_gap"] = float(part) * radius
+        points[name] = points[f"{name}_point"] + points[f"{name}_gap"]
+    return points
+
+
+def _inside(setting: Setting, direction: Sequence[Fraction], radius: Floats) -> NDArray[np.bool_]:
+    """For which parameters the state at the radius in the direction is in the space."""
+    points = _along(setting, direction, radius)
+    with np.errstate(all="ignore"):
+        return np.broadcast_to(holds(setting.system.space, points), (setting.count,))
+
+
+def _direction(setting: Setting, function: Function) -> tuple[Fraction, ...] | None:
+    """The direction, of size 1, in which W is greatest for the parameters where it is least."""
+    small = np.full(setting.count, SMALL)
+    steps = [Fraction(k, GRID) for k in range(-GRID, GRID + 1)]
+    best, most = None, 0.0
+    for direction in itertools.product(steps, repeat=len(setting.system.state)):
+        if max(map(abs, direction)) == 1 and _inside(setting, direction, small).all():
+            least = function.at(_along(setting, direction, small), setting.count).min()
+            if least > most * (1 + 1e-6):
+                best, most = direction, least
+    return best
+
+
+def _rules(setting: Setting, function: Function, name: str) -> Iterator[MapRule]:
+    """The statements for one function: a direction, a radius and a rate that samples allow."""
+    growth = _growth(setting, function, np.full(setting.count, SMALL))
+    excess = np.minimum(growth - 1, 4.0) * SHARE
+    direction = _direction(setting, function)
+    if direction is None:
+        return
+    for _, more in bounded_below(excess, setting.products, 1):
+        rate = 1 + np.broadcast_to(value(more, setting.constants), (setting.count,))
+        largest = np.zeros(setting.count)
+        for power in range(HALVINGS):
+            radius = np.full(setting.count, 0.5**power)
+            fits = (_growth(setting, function, radius) >= rate) & _inside(
+                setting, direction, radius
+            )
+            largest = np.where(fits & (largest == 0), radius, largest)
+        for _, radius_text in bounded_below(largest, setting.products, 2):
+            curve = [
+                f"{one}_point + {signed(c)}*distance" if c else f"{one}_point"
+                for one, c in zip(setting.system.state, direction)
+            ]
+            size = np.broadcast_to(value(radius_text, setting.constants), (setting.count,))
+            most = max(
+                function.at(_along(setting, corner, size), setting.count).max() / (size**2).min()
+                for corner in itertools.product(*[(Fraction(-1), Fraction(1))] * len(curve))
+            )
+            yield MapRule(
+                name,
+                (
+                    ("map", name.rpartition("/")[0] + "/map"),
+                    ("domain", setting.domain),
+                    *(("root", f"{r} = sqrt({under})") for r, under in setting.point.roots),
+                    ("point", ", ".join(setting.point.terms)),
+                    ("direction", ", ".join(curve)),
+                    *(("have", line) for line in setting.have),
+                    *function.lines(),
+                    ("rate", f"1 + {more}"),
+                    ("radius", radius_text),
+                    ("upper", str(int(4 * most) + 1)),
+                ),
+            )

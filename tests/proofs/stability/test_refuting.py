@@ -1,0 +1,78 @@
+"""Refutations, each with a map that has not the hypothesis, of which nothing like it is said; and
+divisors whose sign follows from bounds.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.proofs.command import running
+
+STABLE = "is stable and attracts every state"
+NO_FIXED_POINT = "no state of the space is a fixed point"
+CYCLE = "over a\ndomain {}\nstate i\npiece i <= 0 -> i + 1\npiece i > 0 -> 1 - a*i"
+BALL = "over r\ndomain 0 < r and r < 1\nstate v t\nspace v >= 0 and t >= 0\npiece r*v, {}"
+TENT = "over m\ndomain 0 < m and m < {}\nstate x\nspace 0 <= x and x <= 1\npiece m*min(x, 1 - x)"
+PHASE = "state x\npiece x < 0 -> x + {}\npiece x >= 0 -> x - 1/3"
+SLOPE = "over b\ndomain 1/2 <= b and b <= 1\nstate x\n" + "\n".join(
+    [
+        "piece x <= -1/4 -> {0}*x + b",
+        "piece -1/4 < x and x < 1/4 -> {0}*x",
+        "piece x >= 1/4 -> {0}*x - b",
+    ]
+)
+SETTLED = {  # name: (text, first line)
+    "unstable-cycle": (
+        CYCLE.format("0 < a and a < 2"),
+        f"proved   unstable-cycle: (1/(a + 1)) {STABLE} if and only if 1 - a > 0",
+    ),
+    "no-cycle": (CYCLE.format("0 < a and a < 1"), f"proved   no-cycle: (1/(a + 1)) {STABLE}"),
+    "line": (
+        BALL.format("t + v"),
+        "refuted  line: (0, 0) does not attract (0, 1/2), which is a fixed point",
+    ),
+    "no-line": (BALL.format("t/2 + v"), f"proved   no-line: (0, 0) {STABLE}"),
+    "rotation": (
+        "state x y\npiece 1 - y + abs(x), x",
+        "refuted  rotation: (1, 1) does not attract (0, 0), which is periodic",
+    ),
+    "spiral": ("state x y\npiece (x - y)/2, x/2", f"proved   spiral: (0, 0) {STABLE}"),
+    "period-nine": (
+        "state x y\npiece abs(x) - y, x",
+        "refuted  period-nine: (0, 0) does not attract (-1/2, 1/4), which is periodic",
+    ),
+    "boundary": (TENT.format("2"), f"proved   boundary: 0 {STABLE} if and only if 1 - m > 0"),
+    "no-boundary": (TENT.format("1"), f"proved   no-boundary: 0 {STABLE}"),
+    "nowhere": (PHASE.format("1/2"), f"refuted  nowhere: {NO_FIXED_POINT}"),
+    "nowhere-in-quotients": (
+        "state x\nspace x > 0\npiece x + 1/x",
+        f"refuted  nowhere-in-quotients: {NO_FIXED_POINT}",
+    ),
+    "somewhere": (
+        PHASE.format("0"),
+        "refuted  somewhere: (-1/2) does not attract (-1), which is a fixed point",
+    ),
+    "each-unstable": (
+        SLOPE.format("2"),
+        "refuted  each-unstable: (-b) is not stable; 0 is not stable; b is not stable",
+    ),
+    "bound": (
+        "state v\nspace 1 <= v and v <= 2\npiece v/2 + max(0, 1 - v)/v + 1/2",
+        f"proved   bound: 1 {STABLE}",
+    ),
+    "root-below": (  # the point is 2/(1 + sqrt(5)), as SymPy has it
+        "state x\nspace x > 0\npiece 1/(1 + x)",
+        f"proved   root-below: ((sqrt(5) - 1)/2) {STABLE}",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SETTLED)
+def test_a_map_is_refuted_where_it_has_the_hypothesis_holds(name: str, tmp_path: Path) -> None:
+    text, line = SETTLED[name]
+    path = tmp_path / f"{name}.map"
+    path.write_text(text + "\n")
+    done = running.run("stability", str(path))
+    assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
