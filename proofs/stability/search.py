@@ -135,9 +135,9 @@ class Proof:
 
 def terms_of_pairs(premise: checker.Statement) -> int:
     """How many terms the products of two facts have that a premise without cases begins with."""
-    unfolding = unfolded(premise)
     if premise.get("exists"):
         return 0
+    unfolding = unfolded(premise)
     state = state_of(unfolding).assume(unfolding.goal(False))
     return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
 
