@@ -71,7 +71,7 @@ def _found(system: Map) -> Iterator[FixedPoint]:
     for k, images in enumerate(system.images):
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
         try:
-            solutions = sympy.solve(equations, state, dict=True, simplify=False)
+            solutions = sympy.solve(equations, state, dict=True)
         except NotImplementedError:
             continue
         for solution in solutions:

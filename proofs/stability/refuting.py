@@ -69,7 +69,7 @@ def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
         if len(state) > 1 and prod(degrees) > MOST_SOLUTIONS:
             return
     try:
-        solutions = sympy.solve(equations, state, dict=True, simplify=False)
+        solutions = sympy.solve(equations, state, dict=True)
     except NotImplementedError:
         return
     for solution in solutions:

@@ -56,7 +56,7 @@ from juggleproof.proofs.stability.values import (
     sum_of_quotients,
 )
 
-MOST_WORK, SQUARES_COST = 5_000_000, 8  # on the candidates of a map; of a unit on squares
+MOST_WORK, SQUARES_COST = 4_000_000, 8  # on the candidates of a map; of a unit on squares
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
