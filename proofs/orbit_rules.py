@@ -85,7 +85,10 @@ class Lines:
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
         inner = [
-            root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()
+            root
+            for key, name in self.rows
+            if key in checker.NAMED
+            for root in Lines(name, self.texts).roots()
         ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
@@ -113,13 +116,22 @@ def _factor(text: str) -> str:
 
 
 def _steps(descent: Lines) -> str:
-    """From which number of steps on the orbit of s is in the trap."""
+    """The numbers N of steps after which the orbit of s is in the trap."""
+    if len(_terms(descent.all("rank")[0].rpartition(" -> ")[2])) > 1:
+        return "N that is large enough for s"
     more = len(descent.all("stage")) - 1
-    return "rank(s)" + (f" + {more}" if more else "")
+    return "N >= rank(s)" + (f" + {more}" if more else "")
 
 
 def _rank(descent: Lines) -> str:
-    return f"where rank = {descent.one('rank')}"
+    return f"where rank = {_greatest(descent.all('rank'))}"
+
+
+def _greatest(rows: Sequence[str]) -> str:
+    """The greatest of the terms of lines, some with a guard."""
+    each = [row.rpartition(" -> ")[::2] for row in rows]
+    terms = [_vector(term) + (f" where {guard}" if guard else "") for guard, term in each]
+    return f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
 
 
 def _power(contraction: Lines, exponent: str) -> str:
@@ -176,7 +188,7 @@ def _of_descent(f: Lines) -> str:
     trap = _set("the last stage", f.all("stage")[-1])
     return (
         f"{f.for_domain()}f^N(s) is in {trap} for every state s of the space and every integer"
-        f" N >= {_steps(f)}, {_rank(f)}"
+        f" {_steps(f)}, {_rank(f)}"
     )
 
 
@@ -190,17 +202,14 @@ def _of_contraction(f: Lines) -> str:
     )
 
 
-def _greatest(f: Lines) -> str:
+def _value_of(f: Lines) -> str:
     """The greatest of the terms `value`, and what their names of the point mean."""
-    each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
-    terms = [term + (f" where {guard}" if guard else "") for guard, term in each]
     names = [
         f"{name}_gap = {name} - {name}_point, {name}_point of e"
         for name in f.of_map().one("state").split()
-        if {f"{name}_gap", f"{name}_point"} & checker.names_in(*terms)
+        if {f"{name}_gap", f"{name}_point"} & checker.names_in(*f.all("value"))
     ]
-    greatest = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
-    return ", ".join([greatest, *names])
+    return ", ".join([_greatest(f.all("value")), *names])
 
 
 def _of_lyapunov(f: Lines) -> str:
@@ -209,7 +218,7 @@ def _of_lyapunov(f: Lines) -> str:
         f" {_set('the set `on`', f.one('on'))}, which f takes into itself:"
         f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least"
         f" integers n >= 0, for every state s of the space in the set and every distance > 0,"
-        f" where V(s) = {_greatest(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
+        f" where V(s) = {_value_of(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
         f" all states of the space with |s - e| <= {f.one('radius')} are in the set"
     )
 
@@ -233,7 +242,7 @@ def _of_attraction(f: Lines) -> str:
         return f"{start} of the space"
     return (
         f"{start} s of the space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers"
-        f" k >= 0 and N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
+        f" k >= 0 and {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
     )
 
 
@@ -311,7 +320,7 @@ RULES = {
         },
     ),
     "descends": Rule(
-        "(map|relation) domain (root )*rank (stage )+",
+        "(map|relation) domain (root )*(rank )+(stage )+",
         _of_descent,
         {
             **OF_DOMAIN,

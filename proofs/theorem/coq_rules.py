@@ -206,7 +206,10 @@ def descent_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Rank and stages."""
     yield "Module Descent.\nImport States Map."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
-    yield f.define(own, "rank", "R", *own.get("rank"))
+    (guards, terms), *more = own.get("rank")
+    if guards or more or len(terms) > 1:
+        raise NotWritten(f"{own.name} has a rank of several terms, which is not written for Coq")
+    yield f.define(own, "rank", "R", *terms)
     stages = own.get("stage")
     for k, stage in enumerate(stages, 1):
         yield f.define(own, f"stage_{k}", "Prop", stage)

@@ -18,7 +18,18 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
-from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, PUSH, SUBTRACT, edited, read
+from tests.certificates.checker.maps import (
+    ASKED,
+    COUNT,
+    DOUBLE,
+    FLIP,
+    NEST,
+    PUSH,
+    SCALE,
+    SUBTRACT,
+    edited,
+    read,
+)
 from tests.certificates.checker.test_map_rules import (
     FAILING,
     FAILING_IN_A_SPACE,
@@ -26,7 +37,7 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_WITH_GUARDS,
 )
 
-STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, ASKED)]
+STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, ASKED)]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
 SUBTRACTING = STATEMENTS_OF[0]
@@ -65,6 +76,12 @@ CONCLUSIONS = {
     " u <= a and x < 1; x/6 where x > 5, for all u",
     "push/attracts": "for 0 <= a < 1/2: e = 0 is stable and attracts every state of the space;"
     " f^n(s) is any state that the relation leads to from s in n steps",
+    "count/descends": "for a >= 0: f^N(s) is in the last stage {x < 1} for every state s of the"
+    " space and every integer N that is large enough for s, where rank = (2*x, y)",
+    "count/side": "f^N(s) is in the last stage {x >= -1 and x <= 1} for every state s of the"
+    " space and every integer N >= rank(s), where rank = the greatest of x; -x where x <= 1",
+    "scale/exactly": "for all a with 0 = 0: e = 0 is stable and attracts every state of the space"
+    " if and only if -1 < a < 1",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",

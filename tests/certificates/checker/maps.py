@@ -381,6 +381,47 @@ unstable scale/unstable
 escape scale/stays
 """
 
+# The second of two numbers runs down; then the first is halved, and the second put back by as much
+# as parameter and first say. And a state that steps to 0 from both sides: its distance is the rank.
+COUNT = """
+statement count/map
+over a
+domain a >= 0
+state x y
+space x >= 0 and y >= 0
+piece y >= 1 -> x, y - 1
+piece y < 1 -> x/2, a*x^2
+
+statement count/descends
+map count/map
+domain a >= 0
+rank 2*x, y
+stage x < 1
+
+statement count/sides
+over
+domain 0 = 0
+state x
+space 0 = 0
+piece x > 0 -> x - 1
+piece x <= 0 -> x + 1
+
+statement count/side
+map count/sides
+domain 0 = 0
+rank x
+rank x <= 1 -> -x
+stage x >= -1 and x <= 1
+
+statement count/both
+map count/sides
+domain 0 = 0
+rank x > 2 -> 1, x
+rank x < -2 -> 1, -x
+rank x >= -2 and x <= 2 -> 0, 0
+stage x >= -2 and x <= 2
+"""
+
 
 def read(text: str) -> dict[str, checker.Statement]:
     """The statements of a text."""
@@ -562,6 +603,14 @@ relation asked/relation
 domain a > 7
 root d = sqrt(x)
 rank d
+stage x < 1
+
+statement asked/descends-by-several
+map asked/map
+domain a > 8
+root d = sqrt(x)
+rank x > 2 -> d, y, a
+rank x, y^2, b
 stage x < 1
 
 statement asked/escapes

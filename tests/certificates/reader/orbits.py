@@ -197,15 +197,39 @@ def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Pr
 
 def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
-    rank, stages = statement.one("rank"), statement.all("stage")
+    lines_of_rank, stages = statement.all("rank"), statement.all("stage")
     require(not any(names_in(stage) & {*setting.inputs} for stage in stages), "an input")
     premises = {**setting.own_domain(), **setting.inside()}
-    lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
+    size = len(lines_of_rank[0][1])
+    more = tuple(f"rank_{c}" for c in range(1, size + 1))
+    rank: list[Tree] = [("name", name) for name in more]
+    known: list[Tree] = []
+    for guards, terms in lines_of_rank:
+        require(len(terms) == size, "as many terms on each line")
+        used = [names_in(tree) for tree in (*guards, *terms)]
+        require(not any(names & {*more} for names in used), "a rank that names what it is below")
+        below = conjunction(("<=", term, one) for term, one in zip(terms, rank))
+        known.append(disjunction([*(("not", guard) for guard in guards), below]))
+    if len(lines_of_rank) == 1 and not lines_of_rank[0][0]:
+        rank, known, more = [*lines_of_rank[0][1]], [], ()
+    lines = [*setting.at_state(*more), *(Line("given", one) for one in known)]
+    lines.append(Line("show", conjunction((">=", one, ZERO) for one in rank)))
     premises |= [setting.premise("bounded", lines)]
+
+    def smaller(c: int, guards: tuple[Tree, ...], terms: tuple[Tree, ...]) -> Tree:
+        """Component c falls on this line and none before it grows, where the guard holds."""
+        next_ = [*map(setting.moved, terms)]
+        parts: list[Tree] = [("<=", after, one) for after, one in zip(next_[:c], rank)]
+        parts.append(("<=", next_[c], ("-", rank[c], ONE)))
+        return disjunction([*(("not", setting.moved(one)) for one in guards), conjunction(parts)])
+
+    falls = disjunction(
+        conjunction(smaller(c, guards, terms) for guards, terms in lines_of_rank)
+        for c in range(size)
+    )
     for k in range(len(setting.pieces)):
         outside = ("not", disjunction(stages))
-        falls = ("<=", setting.moved(rank), ("-", rank, ONE))
-        lines = [*setting.step(k, outside), Line("show", falls)]
+        lines = [*setting.step(k, outside, *known, more=more), Line("show", falls)]
         premises |= [setting.premise(f"falls-{k + 1}", lines)]
     for i, stage in enumerate(stages):
         following = stages[min(i + 1, len(stages) - 1)]

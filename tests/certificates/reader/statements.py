@@ -27,7 +27,7 @@ ORDERS = {
     "iterates": "forall integer (let )*iterates after ",
     "map": "over domain state space (piece )+",
     "relation": "over domain state input space (piece )+",
-    "descends": "(map|relation) domain (root )*rank (stage )+",
+    "descends": "(map|relation) domain (root )*(rank )+(stage )+",
     "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
     "unstable": "map domain (root )*point direction (have )*(value )+rate radius upper ",
@@ -38,7 +38,7 @@ ORDERS = {
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
-TERMS = ("rank", "rate", "radius", "size", "loss", "least", "upper")
+TERMS = ("rate", "radius", "size", "loss", "least", "upper")
 TUPLES = ("point", "weights", "start", "direction")
 OTHERS = {  # the kinds of statements that a line may name
     "map": ("map",),
@@ -172,6 +172,9 @@ class Scope:
             *guard, term = self._arrow(text) if " -> " in text else [text]
             tree = require_term(self._tree(term))
             return tuple(require_formula(self._tree(one)) for one in guard), tree
+        if word == "rank":
+            *guard, terms = self._arrow(text) if " -> " in text else [text]
+            return tuple(require_formula(self._tree(one)) for one in guard), self._parts(terms)
         if word == "let":
             name, term = self._equation(text)
             tree = require_term(self._tree(term))
