@@ -313,7 +313,7 @@ def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premi
     for c in range(len(rank)):
         parts = []
         for guards, terms in ranks:
-            less = [f"({f.next(term)}) <= {one}" for term, one in zip(terms[: c + 1], rank)]
+            less = [f"({f.next(term)}) <= {one}" for term, one in zip(terms, rank)]
             work.spend(PER_LETTER * sum(map(len, less)))
             parts.append(where(map(f.next, guards), [*less[:c], f"{less[c]} - 1"]))
         falls.append(" and ".join(parts))
