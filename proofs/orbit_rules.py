@@ -452,7 +452,7 @@ def read_rule(rule: MapRule) -> checker.Statement:
     Raises ClaimError, which names the line and what is wanted, where it cannot.
     """
     try:
-        keywords = [keyword for keyword, _ in rule.rows]
+        keywords = [keyword for keyword, _ in rule.lines]
     except (TypeError, ValueError):
         raise ClaimError(f"{rule.name}: each line of a rule is a pair (keyword, text)") from None
     fault = _fault(keywords)
@@ -463,7 +463,7 @@ def read_rule(rule: MapRule) -> checker.Statement:
     except checker.Rejected as reason:
         count = re.search(r"line (\d+)$", reason.place)
         at = int(count[1]) - 2 if count else len(keywords)  # the first line is `statement`
-        row = f"the line `{' '.join(rule.rows[at])}`: " if at < len(keywords) else ""
+        row = f"the line `{' '.join(rule.lines[at])}`: " if at < len(keywords) else ""
         raise ClaimError(
             f"{rule.name}: {row}{checker.Rejected(reason.kind, reason.offender)}"
         ) from None

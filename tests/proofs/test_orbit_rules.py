@@ -4,6 +4,7 @@ values at which it is false, any other with what Z3 says; a fault in a rule is o
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Sequence
 from fractions import Fraction
@@ -448,6 +449,19 @@ FAULTS: dict[str, tuple[Rows, str]] = {
         put(NEAR, "rate", "1/(2*a - 1)"),
         "premise constants: division by what may vanish",
     ),
+    "a lemma for none": (
+        (*NEAR, ("lemma", "closer-2: x <= 1")),
+        "the line `lemma closer-2: ..` names no premise that is proved; name one of inside,",
+    ),
+    "a lemma for values": ((*NEAR, ("lemma", "possible: x <= 1")), "`lemma possible: ..` names no"),
+    "a lemma with or": (
+        (*NEAR, ("lemma", "closer-1: x < 1 or x = 1")),
+        "premise closer-1: not a formula: x < 1 or x = 1, as a lemma without `or`",
+    ),
+    "a lemma of other names": (
+        (*NEAR, ("lemma", "closer-1: q < 1")),
+        "premise closer-1: an undeclared name: q",
+    ),
     "two terms": (put(NEAR, "point", "0, 0"), "one term in the parameters for each state"),
 }
 
@@ -462,6 +476,26 @@ def test_rejects_lines_that_make_no_rule(
     done = capsys.readouterr()
     assert f"{path}:9: mine/near: " in done.err and reason in done.err
     assert len(done.err.splitlines()) == 1 and not done.out
+
+
+@pytest.mark.parametrize("lemma", ["x_next <= a", "x_next = a*x and a*x <= a", "x + 1 != 0"])
+def test_a_lemma_is_proved_first_and_used_holds(lemma: str, tmp_path: Path) -> None:
+    path = file_of(tmp_path, (*NEAR, ("lemma", f"closer-1: {lemma}")))
+    assert certify(path) == 0
+    folder = path.with_suffix(".certificates")
+    assert "lemma" not in (folder / STATEMENTS).read_text()
+    rows = map(json.loads, (folder / CERTIFICATES).read_text().splitlines())
+    proof = dict(rows)["mine/near"]["certified"]["closer-1"]
+    assert proof[0] == "proof" and proof[2][0] == "sign"
+
+
+@pytest.mark.parametrize("lemma", ["x_next <= a*distance/2", "x = 0", "x != 0", "a < 0", "0 > x"])
+def test_a_false_lemma_proves_no_false_premise_holds(
+    lemma: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = (*put(NEAR, "rate", "a/2"), ("lemma", f"closer-1: {lemma}"))
+    assert certify(file_of(tmp_path, rows)) == 1
+    assert "closer-1, on the set, piece 1 multiplies" in capsys.readouterr().out
 
 
 def test_rejects_the_name_of_another_kind_of_rule(
