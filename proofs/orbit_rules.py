@@ -58,7 +58,8 @@ class Lines:
         """For which parameters a conclusion holds; nothing where there are none."""
         names = self.of_map().one("over").split()
         every = self.intervals() or f"all {', '.join(names)} with {self.one('domain')}"
-        return f"for {every}: " if names else ""
+        whole = [name for line in self.of_map().all("integer") for name in line.split()]
+        return f"for {every}{''.join(f', {n} an integer' for n in whole)}: " if names else ""
 
     def of_map(self) -> Lines:
         """The map or relation that the statement is about, or is."""
@@ -301,7 +302,7 @@ RULES = {
         },
     ),
     "map": Rule(
-        "over domain state space (piece )+",
+        "over (integer )?domain state space (piece )+",
         _of_map,
         {
             "possible": OF_DOMAIN["possible"],
@@ -311,7 +312,7 @@ RULES = {
         },
     ),
     "relation": Rule(
-        "over domain state input space (piece )+",
+        "over (integer )?domain state input space (piece )+",
         _of_relation,
         {
             "possible": OF_DOMAIN["possible"],
@@ -506,8 +507,8 @@ def _fault(keywords: Sequence[str]) -> str:
         return ""
 
     def parts(kind: str) -> list[tuple[list[str], str]]:
-        """The keywords of which one stands at each place, and how often: once, or * or +."""
-        found = re.findall(r"\(([a-z| ]+)\) ?([*+]?)|([a-z]+) ", RULES[kind].lines)
+        """The keywords of which one stands at each place, and how often: once, or *, + or ?."""
+        found = re.findall(r"\(([a-z| ]+)\) ?([*+?]?)|([a-z]+) ", RULES[kind].lines)
         return [
             ((group or word).replace(" ", "").split("|"), often) for group, often, word in found
         ]
@@ -516,7 +517,7 @@ def _fault(keywords: Sequence[str]) -> str:
         return [
             f"`{'` or `'.join(words)}`"
             for words, often in parts(kind)
-            if often != "*" and not {*words} & {*keywords}
+            if often not in ("*", "?") and not {*words} & {*keywords}
         ]
 
     def foreign(kind: str) -> list[str]:
@@ -533,9 +534,9 @@ def _fault(keywords: Sequence[str]) -> str:
     for before, after, one, other in zip(places, places[1:], keywords, keywords[1:]):
         if 0 <= after < before:
             faults.append(f"`{other}` after `{one}`")
-        elif after == before >= 0 and not parts(kind)[after][1]:
+        elif after == before >= 0 and parts(kind)[after][1] in ("", "?"):
             faults.append(f"`{other}` twice")
-    often = {"": "", "*": " (any number)", "+": " (at least one)"}
+    often = {"": "", "*": " (any number)", "+": " (at least one)", "?": " (at most one)"}
     order = ", ".join(" or ".join(words) + often[count] for words, count in parts(kind))
     return f"{', '.join(faults)}; the lines of `{kind}` are, in this order: {order}"
 

@@ -404,8 +404,8 @@ ORDERS = {
     ),
     "sharp": r"sharp over domain (number )*holds ",
     "iterates": r"forall integer (let )*iterates after ",
-    "map": r"over domain state space (piece )+",
-    "relation": r"over domain state input space (piece )+",
+    "map": r"over (integer )?domain state space (piece )+",
+    "relation": r"over (integer )?domain state input space (piece )+",
     "descends": r"(map|relation) domain (root )*(rank )+(stage )+",
     "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": (

@@ -66,6 +66,10 @@ class Orbits:
             self.map = earlier(statement, known, "map", "relation")
         (self.parameters,) = self.map.get("over")
         (self.state,) = self.map.get("state")
+        integers = self.map.rows("integer")
+        # the next state of a state that is an integer may be none
+        require(names_in(*integers) <= set(self.parameters), Kind.NO_VARIABLE, self.map.name)
+        self.integers = [f"integer {line}" for line in integers]
         self.inputs = [name for line in self.map.get("input") for name in line]
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
@@ -101,11 +105,15 @@ class Orbits:
         points with what the lines `have` say.
         """
         named = self.point if self.have else []
-        forall = "forall " + " ".join([*self.parameters, *named, *extra])
-        known = [*self.fixed, *(self.have or self.let_point())]
+        known = self.have or self.let_point()
         # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
-        return [forall, f"range {self.domain}", *known, *rows]
+        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, *known, self.domain, *rows])))
+        return [*self.head(*named, *extra), *known, *rows]
+
+    def head(self, *more: str) -> list[str]:
+        """For all parameters in the domain, and more variables, with the roots of parameters."""
+        forall = "forall " + " ".join([*self.parameters, *more])
+        return [forall, *self.integers, f"range {self.domain}", *self.fixed]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
@@ -155,9 +163,7 @@ class Orbits:
     def at_the_point(self) -> list[str]:
         """The point, which has its terms, is in the space, and what the lines `have` say is so."""
         shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
-        forall = "forall " + " ".join(self.parameters)
-        lets = [*self.fixed, *self.let_point()]
-        return [forall, f"range {self.domain}", *lets, "show " + all_of(shown)]
+        return [*self.head(), *self.let_point(), "show " + all_of(shown)]
 
     def within_gaps(self, distance: str, after: str = "") -> str:
         """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
@@ -217,11 +223,10 @@ class Orbits:
         of the map's domain.
         """
         some = "exists " + " ".join([*self.parameters, *self.state])
-        possible = [some, f"with {self.domain}", f"show {self.space}"]
+        possible = [*self.integers, some, f"with {self.domain}", f"show {self.space}"]
         inside = {}
         if self.own is not self.map:
-            (whole,) = self.map.rows("domain")
-            inside = {"inside": self.for_all("show " + whole)}
+            inside = {"inside": self.for_all("show " + self.map.rows("domain")[0])}
         return {"possible": possible, **inside, **premises}
 
 
@@ -242,12 +247,10 @@ def all_earlier(statement: Statement, known: Known, *keywords: str) -> list[Stat
     return [known[name] for _, name in lines]
 
 
-def where(guards: Iterable[str], parts: Iterable[str]) -> str:
+def where(guards: Sequence[str], parts: Iterable[str]) -> str:
     """All of the parts hold, where the guards do."""
     text = " and ".join(parts)
-    for guard in guards:
-        text = f"(not ({guard}) or {text})"
-    return text
+    return f"implies({all_of(guards)}, {text})" if guards else text
 
 
 def all_of(parts: Iterable[str], op: str = " and ") -> str:
@@ -257,7 +260,8 @@ def all_of(parts: Iterable[str], op: str = " and ") -> str:
 def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """A map f of the space into itself: for all parameters in the domain, each state of the space
     has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
-    space.
+    space.  The parameters in the domain are those for which it holds, and of which those that a
+    line `integer` names are integers, here and in all that is said of the map.
     """
     f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]
@@ -315,7 +319,7 @@ def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premi
         for guards, terms in ranks:
             less = [f"({f.next(term)}) <= {one}" for term, one in zip(terms, rank)]
             work.spend(PER_LETTER * sum(map(len, less)))
-            parts.append(where(map(f.next, guards), [*less[:c], f"{less[c]} - 1"]))
+            parts.append(where([*map(f.next, guards)], [*less[:c], f"{less[c]} - 1"]))
         falls.append(" and ".join(parts))
     show = " or ".join(falls)
     positive = " and ".join(f"{one} >= 0" for one in rank)
@@ -411,7 +415,7 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
         for i, (guards, (term,)) in enumerate(values):
-            show = where(map(f.next, guards), [f"({f.next(term)}) <= value - ({loss})"])
+            show = where([*map(f.next, guards)], [f"({f.next(term)}) <= value - ({loss})"])
             premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
     return f.with_domain(premises)
 
@@ -455,7 +459,7 @@ def premises_of_attraction_into(statement: Statement, known: Known, work: Work) 
     attraction = earlier(statement, known, "attraction")
     g = Orbits(earlier(attraction, known, "descent"), known, work)
     other = Orbits(around(attraction, known), known, work)
-    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
+    same = all(f.map.get(key) == g.map.get(key) for key in ("over", "integer", "state", "piece"))
     require(same, Kind.OTHER_MAP, statement.name)
     (radius,), point = statement.get("radius"), other.terms("point")
     roots = [root for root in other.fixed if root not in f.fixed]

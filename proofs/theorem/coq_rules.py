@@ -158,6 +158,10 @@ def states(f: Frame) -> Iterator[str]:
 
 def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Domain and space, and the map by its pieces."""
+    if own.get("integer"):
+        raise NotWritten(
+            f"{own.name} has parameters that are integers, which is not written for Coq"
+        )
     yield "Module Map.\nImport States."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "space", "Prop", *own.get("space"))

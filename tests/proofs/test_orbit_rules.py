@@ -28,6 +28,7 @@ from tests.certificates.checker.maps import (
     PUSH,
     SCALE,
     SUBTRACT,
+    WHOLE,
     edited,
     read,
 )
@@ -38,7 +39,9 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_WITH_GUARDS,
 )
 
-STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, ASKED)]
+STATEMENTS_OF = [
+    read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, ASKED)
+]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
 SUBTRACTING = STATEMENTS_OF[0]
@@ -81,6 +84,8 @@ CONCLUSIONS = {
     " space and every integer N that is large enough for s, where rank = (2*x, y)",
     "count/side": "f^N(s) is in the last stage {x >= -1 and x <= 1} for every state s of the"
     " space and every integer N >= rank(s), where rank = the greatest of x; -x where x <= 1",
+    "whole/exactly": "for all n with n != 0, n an integer: e = 0 is stable and attracts every state"
+    " of the space if and only if n != 0 and n^2 > 1",
     "scale/exactly": "for all a with 0 = 0: e = 0 is stable and attracts every state of the space"
     " if and only if -1 < a < 1",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
@@ -425,6 +430,7 @@ FAULTS: dict[str, tuple[Rows, str]] = {
         f"`on` after `point`{ORDER}",
     ),
     "twice": ((*NEAR[:2], *NEAR[1:]), f"`domain` twice{ORDER}"),
+    "a line of maps": ((*NEAR, ("integer", "a")), f"`integer` left over{ORDER}"),
     "left over": ((*NEAR, ("ranks", "x")), f"`ranks` left over{ORDER}"),
     "no rule": ((("forall", "x"), ("show", "x = x")), "`show` left over; the lines of"),
     "no pair": ((*NEAR[:7], "size"), "each line of a rule is a pair (keyword, text)"),

@@ -27,6 +27,7 @@ from tests.certificates.checker.maps import (
     SUBTRACT,
     SWITCH,
     TURN,
+    WHOLE,
     checked,
     edited,
     read,
@@ -144,6 +145,11 @@ FAILING_WITH_RANKS = [
     ("both", "-> 0, 0", "-> 1, 9", "falls-1"),
     ("both", "-> 0, 0", "-> 2, 0", "falls-1"),
 ]
+FAILING_OF_INTEGERS = [
+    ("map", "domain n != 0", "domain n != 0 and 0 < n and n < 1", "possible"),
+    ("subtracts-descends", "rank x", "rank x/2", "falls-1"),
+    ("contracts", "radius 1/2", "radius 1", "surrounds"),
+]
 FAILING_INTO = [("into", "radius 1", "radius 0", "constants")]
 # What joins two statements fails through the one or the other: (statement changed, from, to,
 # statement that fails, premise)
@@ -154,6 +160,9 @@ JOINS = [
     ("lyapunov", "on x < 1", "on x < 3/4", "settles", "enters"),
     ("escapes", "point 0", "point 1/3", "exactly", "same-point-1"),
     ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "exactly", "covers"),
+]
+JOINS_OF_INTEGERS = [
+    ("map", "integer n\n", "", "exactly", "covers"),
 ]
 JOINS_INTO = [
     ("at-once", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "into", "inside"),
@@ -171,7 +180,9 @@ JOINS_OF_SEVERAL = [
 ]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT])
+@pytest.mark.parametrize(
+    "text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE]
+)
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
@@ -210,6 +221,7 @@ def named(text: str, kind: str) -> str:
         *((SWITCH, *row) for row in FAILING_WITHOUT_INPUTS),
         *((NEST, *row) for row in FAILING_INTO),
         *((COUNT, *row) for row in FAILING_WITH_RANKS),
+        *((WHOLE, *row) for row in FAILING_OF_INTEGERS),
     ],
 )
 def test_a_rule_fails_without_its_premise(
@@ -228,6 +240,7 @@ def test_a_rule_fails_without_its_premise(
         *((SUBTRACT, *row) for row in JOINS),
         *((NEST, *row) for row in JOINS_INTO),
         *((SCALE, *row) for row in JOINS_OF_SEVERAL),
+        *((WHOLE, *row) for row in JOINS_OF_INTEGERS),
     ],
 )
 def test_joined_statements_fail_without_what_joins_them(
@@ -277,6 +290,35 @@ def test_rejects_a_domain_on_which_nothing_is_refuted(line: str) -> None:
     name = "scale/exactly"
     assert searched(text)[name] == {"unknown": "no proof of the premise covers was found"}
     assert checked(text, searched(SCALE))[name][0] == "rejected"
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [("subtracts", "whole/subtracts-descends"), ("relation", "whole/related")]
+)
+def test_rejects_a_descent_for_integers_where_there_are_others(kind: str, name: str) -> None:
+    text = edited(WHOLE, kind, "integer n\n", "")
+    assert searched(text)[name] == {"unknown": "no proof of the premise falls-1 was found"}
+    assert checked(text, {**searched(WHOLE), **searched(text)})[name][0] != "certified"
+    proofs = searched(WHOLE)[name]["certified"]
+    statements = read(text)
+    falls = checker.premises_of(statements[name], statements)["falls-1"]
+    with pytest.raises(checker.Rejected) as info:
+        prove(falls, proofs["falls-1"], {})
+    assert info.value.kind is Kind.INTEGRAL
+
+
+def test_rejects_an_integer_that_is_an_input() -> None:
+    text = edited(PUSH, "relation", "over a", "over a\ninteger u")
+    _, reason = checked(text, searched(PUSH))["push/relation"]
+    assert refused(reason, (Kind.NO_VARIABLE, "push/relation"))
+
+
+@pytest.mark.parametrize("kind", ["inner", "middle"])
+def test_rejects_an_attraction_of_a_map_for_integers_alone(kind: str) -> None:
+    statements = read(edited(NEST, kind, "over a", "over a\ninteger a"))
+    with pytest.raises(checker.Rejected) as info:
+        checker.premises_of(statements["nest/into"], statements)
+    assert refused(info.value, (Kind.OTHER_MAP, "nest/into"))
 
 
 def test_rejects_an_escape_of_another_map_of_the_same_text() -> None:
@@ -626,6 +668,10 @@ MALFORMED = [
         (Kind.EARLIER, "lyapunov "),
     ),
     ("map", "state x", "state x iff", Kind.PIECE),
+    ("map", "over a", "over a\ninteger x", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger z", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger a x", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger iff", (Kind.NO_VARIABLE, "demo/map.possible")),
     ("map", "over a", "over a implies", (Kind.NAME, "implies", "premise possible of demo/map")),
     ("escapes", "word 2", "word", (Kind.WORD, "demo/escapes")),
     ("escapes", "word 2", "word 3", Kind.INDEX),

@@ -25,8 +25,8 @@ ORDERS = {
     "(exists ((with|let) )*)?show ",
     "sharp": "sharp over domain (number )*holds ",
     "iterates": "forall integer (let )*iterates after ",
-    "map": "over domain state space (piece )+",
-    "relation": "over domain state input space (piece )+",
+    "map": "over (integer )?domain state space (piece )+",
+    "relation": "over (integer )?domain state input space (piece )+",
     "descends": "(map|relation) domain (root )*(rank )+(stage )+",
     "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
@@ -130,7 +130,7 @@ def read_statement(
     scope = Scope(known, earlier, around=kinds[0] in ("lyapunov", "unstable"))
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
     statement = Statement(name, kinds[0], lines)
-    variables = {*statement.names("forall"), *statement.names("exists")}
+    variables = {name for word in ("forall", "exists", "over") for name in statement.names(word)}
     require(set(statement.names("integer")) <= variables, f"{name}: an integer is no variable")
     return statement
 
