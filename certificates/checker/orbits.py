@@ -260,8 +260,8 @@ def all_of(parts: Iterable[str], op: str = " and ") -> str:
 def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """A map f of the space into itself: for all parameters in the domain, each state of the space
     has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
-    space.  The parameters in the domain are those for which it holds, and of which those that a
-    line `integer` names are integers, here and in all that is said of the map.
+    space.  Parameters that a line `integer` names are integers, here and in all that is said of the
+    map.
     """
     f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]

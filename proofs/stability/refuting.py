@@ -4,12 +4,13 @@ function that grows near the point.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 
 import numpy as np
 import sympy
 
-from juggleproof.certificates.language import MapRule
+from juggleproof.certificates.language import MapRule, bounds_of
 from juggleproof.proofs.stability.given import Map, expression, holds, symbols
 from juggleproof.proofs.stability.points import as_point
 from juggleproof.proofs.stability.samples import Arrays, Point, after, orbit_ends
@@ -55,24 +56,29 @@ def _word(system: Map, state: Arrays) -> tuple[int, ...]:
     return ()
 
 
-def periodic_points(system: Map, word: Sequence[int]) -> Iterator[Point]:
-    """The states that come back along a word of pieces, in exact terms."""
+def periodic_points(
+    system: Map, word: Sequence[int], known: Mapping[str, Fraction]
+) -> Iterator[Point]:
+    """The states that come back along a word of pieces, in exact terms, where some parameters are
+    known; of those that are free one is 1.
+    """
+    numbers = [*zip(symbols([*known]), map(sympy.Rational, known.values()))]
     state = symbols(system.state)
     images: list[sympy.Expr] = list(state)
     for k in word:
         values = dict(zip(state, images))
         images = [sympy.together(i.subs(values, simultaneous=True)) for i in system.images[k]]
+    images = [sympy.together(image.subs(numbers)) for image in images]
     try:
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
-        solutions = sympy.solve(equations, state, dict=True)
+        solutions = sympy.solve(equations, state, dict=True) if any(equations) else [{}]
     except NotImplementedError:
         return
     for solution in solutions:
-        terms = tuple(sympy.simplify(solution.get(s, s)) for s in state)
-        if not any(t.free_symbols & set(state) for t in terms):
-            point = as_point(terms)
-            if point is not None:
-                yield point
+        free = dict.fromkeys(state, 1)
+        point = as_point(tuple(sympy.simplify(solution.get(s, s)).subs(free) for s in state))
+        if point is not None:
+            yield point
 
 
 def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
@@ -81,8 +87,12 @@ def escape_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     """
     system = setting.system
     words = words_of_stray_orbits(setting)
+    ends = {name: bounds_of(setting.domain, name) or (None, None) for name in system.parameters}
+    known = {
+        name: Fraction(low[0]) for name, (low, high) in ends.items() if low and high and low == high
+    }
     for word in [*words, *((k,) for k in range(len(system.pieces)) if (k,) not in words)]:
-        for start in periodic_points(system, word):
+        for start in periodic_points(system, word, known):
             if start.terms == setting.point.terms or not _stays(setting, start, word):
                 continue
             roots = dict([*setting.point.roots, *start.roots])

@@ -322,21 +322,50 @@ def settled(
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    outer = conjunction(system.domain, f"not ({where})")
-    outside = setting_of(system, fixed, outer)
-    fault = refuted(proof, outside, log) if outside.count else ""
-    kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
-    if fault and sharp(proof, setting, kind, log):
+    refutations = refuted_beyond(proof, system, fixed, where, log)
+    if refutations and sharp(proof, setting, refutations, log):
         return "exactly", f"{name} is stable and attracts every state if and only if {where}"
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
-def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
+def refuted_beyond(
+    proof: Proof, system: Map, fixed: FixedPoint, where: str, log: Report
+) -> list[tuple[str, str]]:
+    """The lines of `exactly` on how the point fails where the parameters do not meet the condition:
+    at once, or for each way in which a part of the condition fails; none if one is open.
+    """
+    parts, ways = conjuncts(where), []
+    for part in parts:
+        term = part.removesuffix(" > 0")
+        ways += [f"not ({part})"] if term == part else [f"{term} < 0", f"{term} = 0"]
+    for outer in ([f"not ({where})"], ways):
+        lines: list[tuple[str, str]] = []
+        for k, way in enumerate(outer, 1):
+            outside = setting_of(system, fixed, conjunction(system.domain, way))
+            end = f"-{k}" if outer is ways else ""
+            # one function for several parts, each of which may fail, would be a rare one
+            stray = outer is not ways and len(parts) > 1
+            if not outside.count:
+                continue
+            if not refuted(proof, outside, log, stray, end):
+                break
+            kinds = {
+                "escape": f"{system.name}/escapes{end}",
+                "unstable": f"{system.name}/unstable{end}",
+            }
+            lines += [(kind, name) for kind, name in kinds.items() if name in proof.known]
+        else:
+            return lines
+    return []
+
+
+def sharp(
+    proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
+) -> bool:
     """Whether stability and attraction on one part of the domain, and their failure on the rest,
     are put together.
     """
     system, name = setting.system, setting.system.name
-    of = "escapes" if kind == "escape" else kind
     rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
         (
             "descends",
@@ -348,7 +377,7 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
             ),
         ),
         ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
-        ("exactly", (("attraction", f"{name}/attracts"), (kind, f"{name}/{of}"))),
+        ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
     ]
     for label, lines in rows:
         fault = proof.add(MapRule(f"{name}/{label}", lines))
@@ -361,12 +390,12 @@ def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
 STRAY_ONLY = True
 
 
-def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) -> str:
+def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False, end: str = "") -> str:
     """How the point fails to be stable and to attract every state, for all parameters, or nothing;
-    `stray`: by an orbit alone.
+    `stray`: by an orbit alone; `end`: of the names of statements.
     """
     name = f"{setting.system.name}/"
-    for rule in escape_rules(setting, name + "escapes"):
+    for rule in escape_rules(setting, f"{name}escapes{end}"):
         fault = proof.add(rule)
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
@@ -374,7 +403,7 @@ def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) ->
             return f"does not attract ({said['start']}), which is periodic"
     if stray:
         return ""
-    for rule in islice(instability_rules(setting, name + "unstable"), 6):
+    for rule in islice(instability_rules(setting, f"{name}unstable{end}"), 6):
         fault = proof.add(rule)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:

@@ -34,7 +34,12 @@ SETTLED = {  # name: (text, exit code, first line)
     "at-rest": (  # the identity at a = 0
         "over a\ndomain 0 <= a and a < 1\nstate x\npiece (1 - a)*x",
         0,
-        f"proved   at-rest: 0 {STABLE} at least where a > 0",
+        f"proved   at-rest: 0 {STABLE} if and only if a > 0",
+    ),
+    "scaling": (  # one refutation for each of a > 1, a = 1, a = -1, a < -1
+        "over a\ndomain -3 < a and a < 3\nstate x\npiece a*x",
+        0,
+        f"proved   scaling: 0 {STABLE} if and only if 1 - a > 0 and a + 1 > 0",
     ),
     "drift": (  # x + 1 at a = 0
         "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
