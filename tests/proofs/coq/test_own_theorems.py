@@ -22,6 +22,7 @@ from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from tests.certificates.checker.maps import COUNT, WHOLE, searched
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import coqc
 from tests.proofs.coq.test_development import REALS
@@ -131,6 +132,18 @@ def test_rejects_a_certificate_of_another_shape() -> None:
         written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
 
 
+@pytest.mark.parametrize(
+    ("text", "name", "says"),
+    [
+        (COUNT, "count/descends", "count/descends has a rank of several terms"),
+        (WHOLE, "whole/exactly", "whole/map has parameters that are integers"),
+    ],
+)
+def test_rejects_a_rule_that_is_not_written(text: str, name: str, says: str) -> None:
+    with pytest.raises(NotWritten, match=f"{says}, which is not written for Coq"):
+        theorem(name, checker.read_statements(text), searched(text))
+
+
 def test_rejects_another_map_with_the_certificates_of_one(tmp_path: Path) -> None:
     coqc()
     texts = {**judged()[0]}
@@ -164,10 +177,11 @@ def test_rejects_what_cannot_be_written_in_one_line(
     monkeypatch.delitem(coq_rules.RULES, "escapes")
     assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
     names = {path.name for path in (tmp_path / "coq").iterdir()}
-    assert "S_scaled_exactly.v" not in names and len(names) == len(CONCLUSIONS) - 1
-    assert capsys.readouterr().err == (
-        f"juggleproof: {own}: scaled/exactly: scaled/away is of a rule that is not written for Coq;"
-        " claim it by another\n"
+    assert not names & {"S_scaled_exactly.v", "S_turned_exactly.v"}
+    assert len(names) == len(CONCLUSIONS) - 2
+    assert capsys.readouterr().err == "".join(
+        f"juggleproof: {own}: {name} is of a rule that is not written for Coq; claim it by another\n"
+        for name in ("scaled/exactly: scaled/away", "turned/exactly: turned/stays")
     )
     text = MAPS.read_text().replace('rate="1/2"', 'rate="1/9"')
     own.write_text(text)
