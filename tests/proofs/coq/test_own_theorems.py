@@ -179,8 +179,9 @@ def test_rejects_what_cannot_be_written_in_one_line(
     names = {path.name for path in (tmp_path / "coq").iterdir()}
     assert not names & {"S_scaled_exactly.v", "S_turned_exactly.v"}
     assert len(names) == len(CONCLUSIONS) - 2
+    says = "is of a rule that is not written for Coq; claim it by another"
     assert capsys.readouterr().err == "".join(
-        f"juggleproof: {own}: {name} is of a rule that is not written for Coq; claim it by another\n"
+        f"juggleproof: {own}: {name} {says}\n"
         for name in ("scaled/exactly: scaled/away", "turned/exactly: turned/stays")
     )
     text = MAPS.read_text().replace('rate="1/2"', 'rate="1/9"')
