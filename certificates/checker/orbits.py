@@ -250,7 +250,7 @@ def all_earlier(statement: Statement, known: Known, *keywords: str) -> list[Stat
 def where(guards: Sequence[str], parts: Iterable[str]) -> str:
     """All of the parts hold, where the guards do."""
     text = " and ".join(parts)
-    return f"implies({all_of(guards)}, {text})" if guards else text
+    return f"(not ({all_of(guards)}) or {text})" if guards else text
 
 
 def all_of(parts: Iterable[str], op: str = " and ") -> str:
