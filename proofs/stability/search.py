@@ -21,6 +21,7 @@ from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.by_sign import proof_by_signs
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
@@ -43,6 +44,7 @@ from juggleproof.proofs.stability.samples import (
     region,
     with_licences,
 )
+from juggleproof.proofs.stability.saturated import saturated_rules
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
@@ -73,8 +75,16 @@ class Proof:
     known: dict[str, checker.Statement] = field(default_factory=dict)
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
 
-    def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
-        """Certifies one more statement; the premise that is open, or nothing."""
+    def add(
+        self,
+        rule: MapRule,
+        efforts: Sequence[int] = EFFORTS,
+        budget: int = BUDGET,
+        signs: Mapping[str, Sequence[str]] = {},
+    ) -> str:
+        """Certifies one more statement; the premise that is open, or nothing.  signs: for some
+        premises, polynomials whose signs are the cases of a proof.
+        """
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
         try:
@@ -82,7 +92,10 @@ class Proof:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proof = self.proof_of(premises[name], efforts, budget)
+                proof = None
+                if name in signs:
+                    proof = proof_by_signs(premises[name], self.known, signs[name])
+                proof = proof or self.proof_of(premises[name], efforts, budget)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -389,6 +402,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+        for rule, signs in saturated_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), LOCAL_BUDGET, log, signs):
+                return True
         for rule in equation_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
@@ -404,9 +420,16 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     return False
 
 
-def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
+def tried(
+    proof: Proof,
+    rule: MapRule,
+    efforts: Sequence[int],
+    budget: int,
+    report: Report,
+    signs: Mapping[str, Sequence[str]] = {},
+) -> str:
     """Tries to certify a candidate."""
-    fault = proof.add(rule, efforts, budget)
+    fault = proof.add(rule, efforts, budget, signs)
     said = dict(rule.rows)
     report(f"V = {said['value']}, loss {said['loss']}: {fault or 'certified'}")
     return fault
