@@ -1,5 +1,5 @@
-"""A proof by the signs of polynomials that a search of functions suggests: a lemma on the side where
-it fails, and its use on the others.
+"""A proof by the signs of polynomials that a search of functions suggests: a lemma on the side
+where it fails, and its use on the others.
 """
 
 from __future__ import annotations
@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.nodes import Node, Proof
 from juggleproof.certificates.algebra.polynomials import total_degree
+from juggleproof.certificates.nodes import Node, Proof
 from juggleproof.certificates.search.closing import SQUARED, Closing, search_closing, sign_node
 from juggleproof.certificates.search.psatz.lifting import lift
 from juggleproof.certificates.search.psatz.sums_of_squares import ProductsOfFacts, SquaresProgram

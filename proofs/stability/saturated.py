@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-import highspy
 import numpy as np
 import sympy
 
@@ -29,7 +28,15 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
-from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Samples, after, around, region
+from juggleproof.proofs.stability.samples import (
+    SEED,
+    Arrays,
+    Floats,
+    Samples,
+    after,
+    around,
+    region,
+)
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
@@ -126,9 +133,7 @@ class QuadraticForms:
             one = [system.pieces[k][0] for k in pieces]
             guards.append(one[0] if len(one) == 1 else " or ".join(f"({g})" for g in one))
         place = {k: n for n, pieces in enumerate(cells.values()) for k in pieces}
-        return cls(
-            tuple(guards), tuple(bases), tuple(place[k] for k in range(len(system.pieces)))
-        )
+        return cls(tuple(guards), tuple(bases), tuple(place[k] for k in range(len(system.pieces))))
 
     def columns(self, point: Arrays) -> Floats:
         """The basis at each state, (states, unknowns)."""
@@ -165,7 +170,8 @@ def margins(forms: QuadraticForms, system: Map, points: Arrays) -> Floats:
         size = np.sum([points[f"{one}_gap"] ** 2 for one in system.state], axis=0)
         falls = (here - there) / np.minimum(1, size)[:, None]
         rows = np.concatenate([falls, here / (size / (1 + np.sqrt(size)))[:, None]])
-    return rows[np.isfinite(rows).all(axis=1) & np.tile(size > 1e-10, 2)]
+    found: Floats = rows[np.isfinite(rows).all(axis=1) & np.tile(size > 1e-10, 2)]
+    return found
 
 
 def greatest_margin(rows: Floats, low: Floats, high: Floats) -> tuple[Floats, float] | None:
@@ -222,9 +228,7 @@ def simple_weights(rows: Floats) -> list[Fraction] | None:
         if not place:
             choices = [Fraction(1 if weights[j] > 0 else -1)]
         else:
-            choices = list(
-                dict.fromkeys(Fraction(round(weights[j] * d), d) for d in SIMPLE)
-            )
+            choices = list(dict.fromkeys(Fraction(round(weights[j] * d), d) for d in SIMPLE))
         for number in choices:
             before = low[j], high[j]
             low[j] = high[j] = float(number)
@@ -324,8 +328,9 @@ def rules_of(
     if not lowest or ball is None:
         return
     steepness = lowest[0][1]
+    products = setting.products[:1] if function.guards else setting.products
     for _, drop in bounded_below(
-        samples.least(shares, setting.count) / 2, setting.products, LOSSES
+        samples.least(shares, setting.count) / 2, products, LOSSES
     ):
         constant = written(expression(drop) * expression(steepness) / 2)
         below = f"{constant_start(constant)}distance^2/(1 + level)"
@@ -348,7 +353,9 @@ FAR_SIZE = "distance"
 
 def constant_start(constant: str) -> str:
     """A constant as a factor that stands first."""
-    return "" if constant == "1" else f"{constant}*" if constant.isidentifier() else f"({constant})*"
+    return (
+        "" if constant == "1" else f"{constant}*" if constant.isidentifier() else f"({constant})*"
+    )
 
 
 def numerator(setting: Setting, term: Expr) -> str:
@@ -401,6 +408,6 @@ def falls_signs(
             more = here - there - drop * (here if reach[i, k] else 1)
             signs = [more]
             if function.guards and reach[i, k]:
-                signs.append(symbols(["value"])[0] * (1 - drop) - there)
+                signs.insert(0, symbols(["value"])[0] * (1 - drop) - there)
             found[f"falls-{i + 1}-{k + 1}"] = [numerator(setting, one) for one in signs]
     return found
