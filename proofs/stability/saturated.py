@@ -42,7 +42,7 @@ def saturated_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[MapR
     rows, _ = margins(template, system, setting.states.points)
     every, _ = margins(template, system, tests)
     weights = best_weights(rows) if len(rows) and len(every) else None
-    if weights is None:
+    if weights is None or len(system.pieces) == 1:
         return
     for numbers in itertools.islice(rounded(weights, every), FUNCTIONS):
         yield from rules_of(setting, template.terms(numbers)[0], on, name)
