@@ -5,7 +5,7 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -22,6 +22,7 @@ from juggleproof.certificates.states import state_of
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.by_sign import proof_by_signs
 from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import middle_of, narrowed
 from juggleproof.proofs.stability.envelopes import envelope_rules
@@ -56,6 +57,7 @@ from juggleproof.proofs.stability.samples import (
     with_licences,
     with_point_licences,
 )
+from juggleproof.proofs.stability.saturated import saturated_rules
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
@@ -70,6 +72,7 @@ MOST_WORK, SQUARES_COST = 4_000_000, 8  # on all candidates; of a unit at the ef
 STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
+SATURATED_BUDGET = 1_000_000
 ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
@@ -94,8 +97,16 @@ class Proof:
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
     work: int = 0  # that was spent on premises
 
-    def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
-        """Certifies one more statement; the premise that is open, or nothing."""
+    def add(
+        self,
+        rule: MapRule,
+        efforts: Sequence[int] = EFFORTS,
+        budget: int = BUDGET,
+        signs: Mapping[str, Sequence[str]] | None = None,
+    ) -> str:
+        """Certifies one more statement; the premise that is open, or nothing.  signs: for some
+        premises, polynomials whose signs are the cases of a proof.
+        """
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
         self.open = None
@@ -104,8 +115,11 @@ class Proof:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
+                proof = None
+                if signs and name in signs:
+                    proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
-                proof = self.proof_of(premises[name], efforts, work)
+                proof = proof or self.proof_of(premises[name], efforts, work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -586,6 +600,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+        for rule, signs in saturated_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), SATURATED_BUDGET, log, signs):
+                return True
         before = proof.work
         for rule in equation_rules(setting, space, name):
             if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
@@ -625,9 +642,16 @@ def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
     return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
 
 
-def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
+def tried(
+    proof: Proof,
+    rule: MapRule,
+    efforts: Sequence[int],
+    budget: int,
+    report: Report,
+    signs: Mapping[str, Sequence[str]] | None = None,
+) -> str:
     """Tries to certify a candidate."""
-    fault = proof.add(rule, efforts, budget)
+    fault = proof.add(rule, efforts, budget, signs)
     report(f"{function_of(rule)}: {fault or 'certified'}")
     return fault
 

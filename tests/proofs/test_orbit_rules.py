@@ -86,7 +86,7 @@ CONCLUSIONS = {
     " space and every integer N >= rank(s), where rank = the greatest of x; -x where x <= 1",
     "whole/exactly": "for all n with n != 0, n an integer: e = 0 is stable and attracts every state"
     " of the space if and only if n != 0 and n^2 > 1",
-    "scale/exactly": "for all a with 0 = 0: e = 0 is stable and attracts every state of the space"
+    "scale/exactly": "for all a: e = 0 is stable and attracts every state of the space"
     " if and only if -1 < a < 1",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"

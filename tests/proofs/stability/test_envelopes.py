@@ -30,7 +30,7 @@ PROVED = {  # name: (text, first line, a hypothesis, a weaker one)
     ),
     "hassell": (
         "over r\ndomain r > 1\nstate x\nspace x > 0\npiece r*x/(1 + x)^2\n",
-        "(root_1 - 1) is stable and attracts every state; root_1 = sqrt(r)",
+        "(sqrt(r) - 1) is stable and attracts every state",
         "domain r > 1 and r > 0",
         "domain r > 1/2 and r > 0",
     ),

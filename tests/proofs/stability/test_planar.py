@@ -25,7 +25,7 @@ SETTLED = {  # name: (text, exit code, first line)
     "spirals": (
         "over b\ndomain 0 < b and b < 2\nstate x y\npiece x - b*y, x",
         0,
-        f"proved   spirals: (0, 0) {STABLE} at least where 1 - b > 0",
+        f"proved   spirals: (0, 0) {STABLE} if and only if 1 - b > 0",
     ),
     "saddle": (
         "over a\ndomain 3/2 < a\nstate x y z\npiece y/2, z - x/2, a*z",

@@ -1,0 +1,135 @@
+"""Quadratic Lyapunov functions for maps with saturation, a maximum or an absolute value of linear
+terms, with the loss c V/(1 + V): far from the point such maps may move by no more than a constant.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
+from juggleproof.proofs.stability.samples import after, around, region
+from juggleproof.proofs.stability.values import (
+    Function,
+    Setting,
+    best_weights,
+    bounded_below,
+    margins,
+    quadratic_templates,
+    rounded,
+    small_balls,
+)
+
+LOSSES = 2  # candidates for the constant of a loss
+FUNCTIONS = 2
+CLOSE = 1e-3  # of V, where a piece is taken to reach the point
+
+Signs = dict[str, list[str]]  # for a premise, polynomials whose signs are its cases
+
+
+def saturated_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[MapRule, Signs]]:
+    """The statements `lyapunov` of quadratic forms that fall at samples, with a loss c V/(1 + V),
+    each with the cases that its premises are to be proved by.
+    """
+    system = setting.system
+    template = next(quadratic_templates(system, setting.piece, ()))
+    parameters = region(setting.domain, system.parameters, 500)
+    tests = around(system, setting.point, parameters, 20, on).points
+    rows, _ = margins(template, system, setting.states.points)
+    every, _ = margins(template, system, tests)
+    weights = best_weights(rows) if len(rows) and len(every) else None
+    if weights is None or len(system.pieces) == 1:
+        return
+    for numbers in itertools.islice(rounded(weights, every), FUNCTIONS):
+        yield from rules_of(setting, template.terms(numbers)[0], on, name)
+
+
+def rules_of(setting: Setting, term: str, on: str, name: str) -> Iterator[tuple[MapRule, Signs]]:
+    """The statements for one function.
+
+    Where V falls by c V in the pieces that reach the point and by c in the others, it falls by
+    c V/(1 + V) in all.
+    """
+    system, samples, function = setting.system, setting.states, Function((term,))
+    count = len(samples.which)
+    with np.errstate(all="ignore"):
+        here = function.at(samples.points, count)
+        there = function.at(after(system, samples.points), count)
+    size = np.sum([samples.points[f"{one}_gap"] ** 2 for one in system.state], axis=0)
+    fits = np.isfinite(here) & np.isfinite(there) & (size > 1e-10)
+    shares, reach = np.full(count, np.inf), []
+    for guard, _ in system.pieces:
+        inside = np.broadcast_to(holds(guard, samples.points), (count,)) & fits
+        reach.append(bool((here[inside] < CLOSE).any()))
+        shares[inside] = (here - there)[inside] / (here[inside] if reach[-1] else 1)
+    floor = samples.least(np.where(fits, here / np.where(fits, size, 1), np.inf), setting.count)
+    lowest = bounded_below(floor, setting.products, 1)
+    ball = next(small_balls(setting, function), None)
+    if not lowest or ball is None:
+        return
+    least = samples.least(shares, setting.count) / 2
+    for _, drop in bounded_below(least, setting.products, LOSSES):
+        constant = written(expression(drop) * expression(lowest[0][1]) / 2)
+        rows = [
+            ("on", on),
+            ("loss", f"({drop})*value/(1 + value)"),
+            ("least", f"({constant})*distance^2/(1 + level)"),
+            ("upper", ball[1]),
+            ("radius", ball[0]),
+        ]
+        signs = {
+            "least": least_signs(setting, term, expression(lowest[0][1])),
+            **falls_signs(setting, term, reach, expression(drop)),
+        }
+        yield setting.rule(name, function, rows), signs
+
+
+# -------------------------------------------------------------------------------------------------
+# The polynomials whose signs prove it.
+
+
+def numerator(setting: Setting, term: Expr) -> str:
+    """The term times its denominator, and without factors that are positive."""
+    above = sympy.numer(sympy.together(sympy.expand(term)))
+    constant, factors = sympy.factor_list(above)
+    rest = [sympy.Integer(1 if constant > 0 else -1)]
+    for factor, power in factors:
+        names = {str(symbol) for symbol in factor.free_symbols}
+        if names <= setting.constants.keys():
+            at = np.asarray(value(written(factor), setting.constants), float)
+            if (at > 0).all() or (at < 0).all():
+                rest += [] if (at > 0).all() or power % 2 == 0 else [sympy.Integer(-1)]
+                continue
+        rest.append(factor**power)
+    return written(sympy.expand(sympy.prod(rest)))
+
+
+def least_signs(setting: Setting, term: str, steepness: Expr) -> list[str]:
+    """V less a lower bound that is < 0 at the point, and V less one in the distance."""
+    distance, level = symbols(["distance", "value"])
+    squares = sum(gap**2 for gap in symbols([f"{one}_gap" for one in setting.system.state]))
+    bounds = [
+        expression(term) - steepness * (squares - distance**2 / 4),
+        level - steepness * distance**2 / 2,
+    ]
+    return [numerator(setting, bound) for bound in bounds]
+
+
+def falls_signs(setting: Setting, term: str, reach: Sequence[bool], drop: Expr) -> Signs:
+    """By how much more V falls in each piece than it has to."""
+    system = setting.system
+    names = [f"{one}_point" for one in system.state]
+    point = symbols(names) if setting.have else list(map(expression, setting.point.terms))
+    gaps = symbols([f"{one}_gap" for one in system.state])
+    put = {s: e + gap for s, e, gap in zip(symbols(system.state), point, gaps)}
+    found, here = {}, expression(term)
+    for k, images in enumerate(system.images):
+        nexts = [(image - e).subs(put, simultaneous=True) for image, e in zip(images, point)]
+        there = here.subs(dict(zip(gaps, nexts)), simultaneous=True)
+        more = here - there - drop * (here if reach[k] else 1)
+        found[f"falls-{k + 1}-1"] = [numerator(setting, more)]
+    return found
