@@ -67,8 +67,8 @@ from juggleproof.proofs.stability.values import (
 MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the effort of squares
 STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, LOCAL_TRIED = 400_000, 4
-LOCAL_WORK = 2_000_000  # on all of these candidates
+LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
+LOCAL_WORK = 6_000_000  # on all of these candidates
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -551,7 +551,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
-    elif proof.add(found[0][1], (1,)):  # the candidate that fits best
+    elif proof.add(found[0][1], *ROUNDS[0][:2]):  # the candidate that fits best
         log(f"{function_of(found[0][1])}: {proof.why()}")
     return False
 
