@@ -479,7 +479,7 @@ def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
     nothing.
     """
     fixed = [(k,) for k in range(len(setting.system.pieces))]
-    return escaped(proof, setting, [*words_of_stray_orbits(setting), *fixed], log)
+    return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
 
 
 def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
