@@ -22,8 +22,8 @@ lint: $(VENV)/tools
 coq:
 	@command -v coqc >/dev/null || { echo "coqc is needed: Debian's package is called coq"; exit 1; }
 	@coqc --version | head -n 1
-	@rm -rf build/coq && mkdir -p build/coq && cp proofs/coq/*.v build/coq
-	@cd build/coq && for file in $$(grep '\.v$$' ../../proofs/coq/_CoqProject); do echo "coqc $$file"; coqc -q -Q . Juggleproof $$file || exit 1; done
+	@rm -rf build/coq && mkdir -p build && cp -r proofs/coq build
+	@cd build/coq && for file in $$(grep '\.v$$' _CoqProject); do echo "coqc $$file"; coqc -q $$(grep '^-Q' _CoqProject) $$file || exit 1; done
 
 # The stored statements as Coq lemmas, each proved by its certificate: all of them, or with SHARE=12 one in 12.
 coq-store: $(VENV)/installed

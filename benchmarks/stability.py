@@ -75,7 +75,7 @@ def outcome_of(printed: str) -> str:
 
 
 def settled(path: Path) -> Settled:
-    """The example settled, its certificates read by the bare checker, its theorem compiled."""
+    """The example settled, its certificates read by the bare checker, its theorems compiled."""
     ours = (sys.executable, "-m", "juggleproof.proofs.command.main")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -85,12 +85,14 @@ def settled(path: Path) -> Settled:
         size = (store / "certificates.jsonl").stat().st_size
         checked, _ = ran(sys.executable, "-I", "-S", ROOT / "certificates/checker", store)
         compiled = None
-        if shutil.which("coqc") and printed.startswith("proved"):
+        if shutil.which("coqc") and not printed.startswith("unknown"):
             ran(*ours, "export", "coq", claims, "-o", folder)
-            (theorem,) = folder.glob("S_*.v")
-            compiled, axioms = ran("coqc", "-q", theorem.name, cwd=folder)
-            if not theorem.with_suffix(".vo").exists():
-                raise RuntimeError(f"coqc does not take the theorem of {path.name}: {axioms}")
+            compiled = 0.0
+            for theorem in sorted(folder.glob("S_*.v")):
+                spent, axioms = ran("coqc", "-q", theorem.name, cwd=folder)
+                compiled += spent
+                if not theorem.with_suffix(".vo").exists():
+                    raise RuntimeError(f"coqc does not take the theorem of {path.name}: {axioms}")
     return Settled(outcome_of(printed), seconds, size, checked, compiled)
 
 

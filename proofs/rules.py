@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping
 
 from juggleproof.certificates import checker
@@ -32,15 +33,18 @@ def range_of_rule(
 
     The parameter is the first of the roles, else the first that the map is over.  The text
     is empty where the domain does not name it, and the domain itself where its conditions on it are
-    not linear.
+    not linear, or where it asks more of the other parameters than the map's domain.
     """
     domain, refutes = rule_domain(name, texts)
     is_sharp = refutes and is_conclusion
-    parameter = roles.parameter or _first_over(name, texts)
+    rows = _map_of(name, texts)
+    parameter = roles.parameter or rows.get("over", "").partition(" ")[0]
     if parameter not in checker.names_in(domain):
         return ""
     ends = bounds_of(domain, parameter)
-    if not ends:
+    more = _conditions(domain) - _conditions(rows.get("domain", domain))
+    others = {*rows.get("over", "").split()} - {parameter}
+    if not ends or any(others & checker.names_in(one) for one in more):
         return ("" if is_sharp else "at least ") + domain
     whole = _ends(roles)
     low, high = ends[0] or whole[0], ends[1] or whole[1]
@@ -49,13 +53,22 @@ def range_of_rule(
     return ("" if sure else "at least ") + interval_text(parameter, low, high)
 
 
-def _first_over(name: str, texts: Mapping[str, str]) -> str:
-    """The first parameter of the map that a rule is about."""
+def _map_of(name: str, texts: Mapping[str, str]) -> Mapping[str, str]:
+    """The lines of the map that a rule is about, by keyword."""
     rows = dict(row.partition(" ")[::2] for row in texts.get(name, "").splitlines())
     if "over" in rows:
-        return rows["over"].partition(" ")[0]
-    inner = next((rows[key] for key in ("map", "attraction", "descent") if key in rows), "")
-    return _first_over(inner, texts) if inner else ""
+        return rows
+    inner = next(
+        (rows[key] for key in ("map", "relation", "attraction", "descent") if key in rows), ""
+    )
+    return _map_of(inner, texts) if inner else {}
+
+
+def _conditions(domain: str) -> set[str]:
+    """What a domain joins by `and`."""
+    tree = checker.parse(domain)
+    parts = tree.values if isinstance(tree, ast.BoolOp) and isinstance(tree.op, ast.And) else [tree]
+    return set(map(ast.unparse, parts))
 
 
 def _ends(roles: Roles) -> tuple[End | None, End | None]:

@@ -1,13 +1,15 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
 the suite ignores it; no property fails because the machine is busy; tests that share what is costly
-run in one process.
+run in one process, and no process compiles a module that another has compiled.
 """
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,9 @@ os.environ["JUGGLEPROOF_CACHE"] = "off"
 os.environ.setdefault(
     "NUMBA_CACHE_DIR", str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "machine-code")
 )
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+gc.set_threshold(50_000)  # as the command has it
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 settings.register_profile("suite", deadline=None, suppress_health_check=[HealthCheck.too_slow])

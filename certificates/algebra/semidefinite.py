@@ -32,6 +32,8 @@ Floats = NDArray[np.float64]
 DUAL_STEPS = 60
 ENOUGH = 1e-6  # what equations may miss
 SMALL = 1e-13  # an eigenvalue of equations that depend on others
+LARGE = 1e9  # a solution that floats do not find
+HARDLY = 1e-6  # a cost of the trace below which rounding drives the dual value
 
 
 def feasible(
@@ -83,7 +85,10 @@ def feasible(
         if moved is None:
             return best
         primal, dual, y = moved
-        if max(float(np.abs(x).max()) for x in primal) > 1e9:
+        # by weak duality, `trace` times the trace of every solution is no less than right y
+        if float(right @ y) > LARGE * max(trace, HARDLY):
+            return best
+        if max(float(np.abs(x).max()) for x in primal) > LARGE:
             return best
     return best
 

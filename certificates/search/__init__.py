@@ -5,6 +5,8 @@ The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
 - `boxes`: lower bounds of polynomials on boxes; rule `boxes`
+- `one_variable`: states over one variable, all of them
+- `over_box`: one fact over the box of the others; rule `boxes`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns

@@ -18,6 +18,12 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
+from juggleproof.certificates.search.one_variable import (
+    close_in_one_variable,
+    dense_poly,
+    dense_text,
+)
+from juggleproof.certificates.search.over_box import close_over_box
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -48,6 +54,7 @@ SQUARED = 3  # the effort at which leaves are closed by sums of squares, without
 MOST_FOR_BOTH = 9  # facts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
+FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -80,7 +87,10 @@ def search_closing(
     ('psatz', [('1', ((0, 1),), '1'), ('1', ((1, 1),), '1'), ('1', ((0, 2),), '1')], [])
     """
     uses, inside = with_uses(state, known, hints.uses if hints else ())
-    node: Node | None = Closing(known, budget, effort).close(inside)
+    node: Node | None = None
+    if effort and len(inside.context.index) == 1:  # complete, but longer than what is close at hand
+        node = Closing(known, budget, 0).close(inside) or close_in_one_variable(inside, budget)
+    node = node or Closing(known, budget, effort).close(inside)
     for name, terms in reversed(uses):
         node = None if node is None else ("use", name, terms, {}, node)
     return node if node is None or not confirm or state.is_closed_by(node, known) else None
@@ -210,8 +220,10 @@ class Closing:
         ):
             node = (
                 self.usual(problem, False)
+                or close_over_box(inside, FEW_BOXES, self.budget)
                 or (None if depth else self.forms(inside, False))
                 or self.with_lemmas(inside, problem, depth)
+                or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
@@ -468,13 +480,6 @@ def wrapped(rounded: list[int], node: Node | None) -> Node | None:
 # arithmetic modulo its polynomial.
 
 
-def dense_text(poly: fmpq_poly, name: str) -> str:
-    """A rational polynomial in one name as text of the statement language."""
-    numerator, denominator = [int(c) for c in poly.numer().coeffs()], int(poly.denom())
-    text = polynomial_text(numerator, name)
-    return text if denominator == 1 else f"({text})/{denominator}"
-
-
 class AdjoinedNumber:
     """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial
     rises through the root.
@@ -538,7 +543,7 @@ def close_at_number(state: State, adjoined: AdjoinedNumber) -> Node | None:
 
 def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node | None:
     poly, relation = state.facts[index]
-    dense, modulus = _dense(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
+    dense, modulus = dense_poly(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
     if {">": sign > 0, ">=": sign >= 0, "=": sign == 0, "!=": sign != 0}[relation]:
         return None
@@ -559,11 +564,6 @@ def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node |
     return None if tree is None else ("boxes", index, [(low, high)], tree)
 
 
-def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
-    """A polynomial in one variable; the checker refuses any other."""
-    return fmpq_poly([int(c) for c in checker.univariate(context, poly, name)]) / poly.den
-
-
 def _own_facts(state: State, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
     """The numbers of the facts low <= number, number <= high and p(number) = 0."""
     shift = checker.BITS * state.context.index[adjoined.name]
@@ -577,6 +577,6 @@ def _own_facts(state: State, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
             if poly.terms[one] < 0 and end == adjoined.high:
                 found.setdefault("high", index)
         if relation == "=" and checker.variables_of(state.context, poly) == {adjoined.name}:
-            if _dense(state.context, poly, adjoined.name) == fmpq_poly(adjoined.poly):
+            if dense_poly(state.context, poly, adjoined.name) == fmpq_poly(adjoined.poly):
                 found.setdefault("equation", index)
     return found["low"], found["high"], found["equation"]

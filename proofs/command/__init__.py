@@ -2,7 +2,8 @@
 
 main              what each command takes, and one line for what goes wrong
 outputs           files that commands write, and progress
-certify           `certify`: claims, and problems of SMT-LIB
+certify           `certify`: claims
+problems          `certify`: problems of SMT-LIB
 check             `check`
 show              `list`, `errata` and `export`
 explain           `explain ID`

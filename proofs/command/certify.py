@@ -1,15 +1,11 @@
-"""`juggleproof certify`: claims of the paper or of files, and problems of SMT-LIB."""
+"""`juggleproof certify`: claims of the paper, or of files."""
 
 from __future__ import annotations
 
 import argparse
-import gc
-import os
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from multiprocessing import get_context
 from pathlib import Path
 from time import monotonic
 
@@ -18,20 +14,18 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsed
 from rich.progress import Progress as Bar
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, canonical, write_file
-from juggleproof.proofs.checked import as_child
+from juggleproof.certificates.store import DEFAULT, write_file
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.command.outputs import asked_of, refuse_unwritable
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
-from juggleproof.proofs.reports import pages, problems
+from juggleproof.proofs.reports import pages
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, failing, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, contents_of
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, Progress, claims_of_files, run, stop, store_of
-from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
+from juggleproof.proofs.run import Options, Progress, claims_of_files, run, store_of
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof certify`: judge every claim, store what was found, let the checker read the whole
@@ -59,17 +53,15 @@ class CertifyOptions(argparse.Namespace):
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Judges claims, or answers scripts of SMT-LIB; returns the exit code."""
-    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
-    options = CertifyOptions(**vars(parsed))
-    return certify_problems(options) if are_scripts(options.files) else certify(options)
+    """Judges claims; returns the exit code."""
+    return certify(CertifyOptions(**vars(parsed)))
 
 
 def certify(options: CertifyOptions, register: Path = PATH) -> int:
     """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
     every claim holds), else 1.
     """
-    refuse_unwritable(options)
+    refuse_unwritable(options.files, asked_of(options))
     _refuse_reports(options)
     before = None if options.files else load_register(register)
     console = Console(highlight=False)
@@ -188,34 +180,10 @@ def _accept(
 # The files that it writes beside the store: refused before the run where they could not be written
 # after it.
 
-OUTPUTS = ("json", "junit", "markdown", "timings")
-
-
-def refuse_unwritable(options: CertifyOptions) -> None:
-    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
-    be written, or would overwrite another.
-    """
-    taken = {path.resolve(): f"the claims of {path}" for path in options.files}
-    for option, path in _asked(options).items():
-        fault = fault_of(path) or (
-            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
-        )
-        if fault:
-            raise ClaimError(f"--{option} {path}: {fault}; name another file")
-        taken[path.resolve()] = f"what --{option} writes"
-
-
-def _asked(options: CertifyOptions) -> dict[str, Path]:
-    return {
-        option: getattr(options, option)
-        for option in OUTPUTS
-        if getattr(options, option) is not None
-    }
-
 
 def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:
     """Writes each file that was asked for."""
-    for option, path in _asked(options).items():
+    for option, path in asked_of(options).items():
         write_file(path, _content(option, results, seconds if options.timings else {}))
 
 
@@ -227,69 +195,3 @@ def _content(option: str, results: Results, seconds: Mapping[str, float]) -> byt
     if option == "markdown":
         return markdown(results).encode()
     return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
-
-
-# -------------------------------------------------------------------------------------------------
-# `juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
-# each.
-
-SUFFIX = ".smt2"
-NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings", "report", "output")
-
-
-def are_scripts(files: Sequence[Path]) -> bool:
-    """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are
-    not.
-    """
-    scripts = [path for path in files if path.suffix == SUFFIX]
-    if scripts and len(scripts) < len(files):
-        other = next(path for path in files if path.suffix != SUFFIX)
-        raise ClaimError(f"{other}: beside scripts of SMT-LIB; certify files of one kind at a time")
-    return bool(scripts)
-
-
-def certify_problems(options: CertifyOptions) -> int:
-    """Answers the problems; 0 where all are answered, and as the scripts state, else 1.  Raises
-    ClaimError for an option that goes with claims only.
-    """
-    for option in NOT_FOR_SCRIPTS:
-        if getattr(options, option):
-            raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")
-    refuse_unwritable(options)
-    answered = _answered(options)
-    problems.draw(answered, Console(highlight=False))
-    for one in answered:
-        if one.contradicts:
-            print(
-                f"CONTRADICTS {one.problem.place}: the script states"
-                f" {one.problem.status}, but it is {one.answer.word}, by what the checker accepted"
-            )
-        if one.rejected:
-            print(f"rejected by the checker: {one.answer.name}: {one.rejected}")
-    print(problems.summary(answered))
-    if options.json is not None:
-        write_file(
-            options.json, canonical({one.answer.name: problems.data(one) for one in answered})
-        )
-    return int(not all(one.settled for one in answered))
-
-
-def _answered(options: CertifyOptions) -> list[Answered]:
-    jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
-    budget = options.budget or BUDGET
-    if jobs == 1:
-        return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh)
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
-        try:
-            return answer_files(
-                options.files,
-                budget=budget,
-                store=options.store,
-                fresh=options.fresh,
-                executor=pool,
-            )
-        except ClaimError:
-            raise
-        except BaseException:
-            stop(pool)
-            raise

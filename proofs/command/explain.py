@@ -30,7 +30,7 @@ OF_THEOREM = (
     "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
     " prints them"
 )
-OF_RULES = "docs/theorem.md says why each rule concludes so; for any map, proofs/coq/Rules.v"
+OF_RULES = "docs/theorem.md says why each rule concludes so; for any map, proofs/coq/orbits"
 NO_RANGE = "none: the claim has no range of alpha to settle"
 
 

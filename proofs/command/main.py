@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import os
 import re
 import sys
@@ -28,6 +29,8 @@ MODULES = {
     "simulate": "juggleproof.proofs.command.simulate",
     "bench": "juggleproof.proofs.command.bound",
 }
+PROBLEMS = "juggleproof.proofs.command.problems"  # what `certify` is for scripts of SMT-LIB
+SUFFIX = ".smt2"
 FORMATS = "html, latex, pdf, markdown, json, badge or figures"
 
 
@@ -316,6 +319,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     ):
         given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
     parsed = build_parser().parse_args(given)
+    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
     try:
         code = _dispatch(parsed)
         print(end="", flush=True)  # there may be no standard output to flush
@@ -355,11 +359,24 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command in ("bound", "stability"):
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if parsed.command == "certify" and are_scripts(parsed.files):
+        return int(import_module(PROBLEMS).command(parsed))
     if parsed.command == "certify":  # to load what makes reports takes a second
         report = import_module(MODULES["report"]) if parsed.report else None
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     code: int = import_module(MODULES[parsed.command]).command(parsed)
     return code
+
+
+def are_scripts(files: Sequence[Path]) -> bool:
+    """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are
+    not.
+    """
+    scripts = [path for path in files if path.suffix == SUFFIX]
+    if scripts and len(scripts) < len(files):
+        other = next(path for path in files if path.suffix != SUFFIX)
+        raise ClaimError(f"{other}: beside scripts of SMT-LIB; certify files of one kind at a time")
+    return bool(scripts)
 
 
 if __name__ == "__main__":

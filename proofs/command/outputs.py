@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import pydoc
 import shutil
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -34,6 +35,32 @@ def fault_of(path: Path) -> str:
             return ""
     except (OSError, ValueError) as error:
         return f"cannot be written ({getattr(error, 'strerror', None) or error})"
+
+
+OUTPUTS = ("json", "junit", "markdown", "timings")
+
+
+def asked_of(options: argparse.Namespace) -> dict[str, Path]:
+    """The files that `certify` is to write beside the store, by their options."""
+    return {
+        option: getattr(options, option)
+        for option in OUTPUTS
+        if getattr(options, option) is not None
+    }
+
+
+def refuse_unwritable(files: Sequence[Path], asked: Mapping[str, Path]) -> None:
+    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
+    be written, or would overwrite another.
+    """
+    taken = {path.resolve(): f"the claims of {path}" for path in files}
+    for option, path in asked.items():
+        fault = fault_of(path) or (
+            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
+        )
+        if fault:
+            raise ClaimError(f"--{option} {path}: {fault}; name another file")
+        taken[path.resolve()] = f"what --{option} writes"
 
 
 @contextmanager

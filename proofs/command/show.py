@@ -32,6 +32,9 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 def command(parsed: argparse.Namespace) -> int:
     """Runs one of these commands; returns its exit code."""
     if parsed.command == "export":
+        own = [one for one in parsed.ids if one.endswith(".py")]
+        if own and parsed.format != "coq":
+            raise ClaimError(f"{own[0]}: claims of your own are exported to coq only")
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
         return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
@@ -170,7 +173,7 @@ def export_theorems(files: Sequence[Path], folder: Path | None) -> int:
     names, where = theorems_in(statements), " ".join(map(str, files))
     if not names:
         raise ClaimError(
-            f"{where}: no claim on the orbits of a map; add a MapRule that concludes one"
+            f"{where}: no theorem on all orbits of a map; add a MapRule that concludes one"
         )
     if len(names) > 1 and not folder:
         raise ClaimError(f"{where}: several theorems, {', '.join(names)}; give -o DIR")

@@ -1,8 +1,9 @@
 """Problems written as SMT-LIB 2 scripts: read as statements, answered with certificates and exact
 models.  In reading order:
 
-    sexpr      S-expressions: words and lists, each with its line
-    terms      terms of the theory of reals in our language
-    script     commands, and the problem that each `check-sat` asks
-    answering  a problem as a statement, its answer, and the certificates kept beside its script
+    sexpr       S-expressions: words and lists, each with its line
+    terms       terms of the theory of reals in our language
+    script      commands, and the problem that each `check-sat` asks
+    statements  the statement of a problem, where it divides too
+    answering   its answer, and the certificates kept beside its script
 """

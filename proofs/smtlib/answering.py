@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -19,119 +19,17 @@ from typing import cast
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
     ClaimError,
-    Formula,
-    Line,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    names_in,
 )
 from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.certificate import (
     SQUARES_FIRST,
     search_certificate,
-    search_proof,
 )
 from juggleproof.certificates.store import Store, write_store
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.run import one_at_a_time, spread
 from juggleproof.proofs.smtlib.script import Problem, problems_of_file
-
-# -------------------------------------------------------------------------------------------------
-# Statements: for all reals, not all of the assertions hold.
-#
-# Where the script divides, what keeps a divisor from 0 has to come first: the assertions without
-# divisions are then givens, and a divisor that none of them licenses gets a `have` line, which the
-# certificate proves.  SMT-LIB lets x/0 be anything, so a divisor that may vanish is refused.
-
-SIDE_BUDGET = 100_000
-
-
-def statement_of(problem: Problem, name: str) -> Statement:
-    """The statement that no point meets the assertions.
-
-    >>> from .script import read_problems
-    >>> text = "(declare-const x Real)(assert (> x 0))(assert (< (/ 1 x) 0))(check-sat)"
-    >>> print(statement_of(read_problems(text, "f")[0], "f/check-1").text())
-    statement f/check-1
-    forall x
-    given x > 0
-    show not 1/x < 0
-
-    Raises ClaimError, one line, for a division by what may vanish.
-    """
-    parts = [
-        (line, part)
-        for line, formula in problem.assertions
-        for part in (formula.parts if formula.op == "and" else (formula,))
-    ]
-    divided = [(line, part) for line, part in parts if next(divisors(part), None) is not None]
-    whole = [part for _, part in parts if next(divisors(part), None) is None]
-    if not divided:
-        return denial(problem, name, whole)
-    lines: list[Line] = [("given", part) for part in whole]
-    forall = used(problem, [part for _, part in parts])
-    for line, part in divided:
-        for below in divisors(part):
-            lines += _licence(problem, line, Statement(name, forall, tuple(lines)), below)
-    return Statement(
-        name, forall, tuple(lines), Formula("not", conjunction(part for _, part in divided))
-    )
-
-
-def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statement:
-    """The statement that some formulas do not hold at once, without givens."""
-    return Statement(name, used(problem, formulas), (), Formula("not", conjunction(formulas)))
-
-
-def givens(statement: Statement) -> list[Formula]:
-    """What the statement assumes."""
-    return [
-        formula
-        for keyword, formula in statement.lines
-        if keyword == "given" and isinstance(formula, Formula)
-    ]
-
-
-def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
-    """The variables that occur, in the order of the script."""
-    occurring = {name for formula in formulas for name in names_in(formula)}
-    return tuple(variable.name for variable in problem.variables if variable.name in occurring)
-
-
-def divisors(expression: Term | Formula) -> Iterator[Term]:
-    """The divisors in a term or formula, inner ones first; not numbers other than 0."""
-    for part in expression.args:
-        if isinstance(part, (Term, Formula)):
-            yield from divisors(part)
-    if isinstance(expression, Term) and expression.op == "/":
-        _, below = expression.operands
-        if below.op != "num" or below.value == 0:
-            yield below
-
-
-def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:
-    """The `have` line that keeps a divisor from 0, if it needs one."""
-    unfolding = checker.Unfolding(_read(before), checker.Context())
-    try:
-        unfolding.context.reciprocal(checker.parse(str(below)))
-        return []
-    except checker.Rejected:
-        pass
-    for sign in (below > 0, below < 0, different(below, 0)):
-        goal = Statement(before.name, before.forall, before.lines, sign)
-        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), effort=1) is not None:
-            return [("have", sign)]
-    raise ClaimError(
-        f"{problem.file}:{line}: division by {below}, which may vanish; assert before it that this"
-        " is not 0, or multiply it out"
-    )
-
-
-def _read(statement: Statement) -> checker.Statement:
-    return checker.read_statements(statement.text())[statement.name]
-
+from juggleproof.proofs.smtlib.statements import denial, givens, statement_of
 
 # -------------------------------------------------------------------------------------------------
 # Answers.  A question and its answer are plain text and data, so that they pass between processes
@@ -190,10 +88,7 @@ class Answer:
 def question(
     problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
 ) -> Question:
-    """The question whether a problem has a solution, about a statement of that name.
-
-    Raises ClaimError, one line, for a division by what may vanish.
-    """
+    """The question whether a problem has a solution, about a statement of that name."""
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
@@ -240,6 +135,8 @@ def _searched(name: str, text: str, budget: int) -> Certificate:
         )
     except Exhausted:
         return {"unknown": f"the budget of {budget} units ran out"}
+    except checker.Rejected as reason:
+        return {"unknown": f"beyond the checker's limits: {reason}"}
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise

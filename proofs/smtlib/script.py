@@ -4,7 +4,8 @@
 gives the next problem its `:name` and `:status`, and those that follow their `:source`.
 
 Formula: the assertions F1, .., Fn have no solution <=> for all reals: not (F1 and .. and Fn), which
-is the statement of the problem. Source: SMT-LIB 2.6, section 4.2, logics QF_NRA and QF_LRA.
+is the statement of the problem. Source: SMT-LIB 2.6, section 4.2.  The logic that a script names is
+not looked at: what is read are real arithmetic without quantifiers, and Bools.
 """
 
 from __future__ import annotations
@@ -28,7 +29,6 @@ from juggleproof.proofs.smtlib.terms import (
     plain,
 )
 
-LOGICS = ("QF_NRA", "QF_LRA")
 # they ask for what is shown, and change nothing
 IDLE = frozenset(
     {
@@ -134,6 +134,12 @@ class Session:
         self.script, self.reader = script, Reader(script)
         self.frames, self.problems = [Frame()], list[Problem]()
         self.status, self.name, self.source, self.ended = "", "", "", False
+        self.lasting = False  # declarations outlive their (pop)
+
+    @property
+    def declared(self) -> Frame:
+        """Where declarations and definitions go."""
+        return self.frames[0 if self.lasting else -1]
 
     @property
     def scope(self) -> Scope:
@@ -169,15 +175,14 @@ class Session:
                 )
             handler(command, *command.items[1:])
             if name in KEPT:
-                self.frames[-1].commands.append(command)
+                frame = self.frames[-1] if name == "assert" else self.declared
+                frame.commands.append(command)
 
     # ------------------------------------------------------------ settings
 
     def _set_logic(self, command: Node, logic: Expression) -> None:
-        if str(logic) not in LOGICS:
-            self.script.fail(
-                command, f"the logic {logic} is not taken on", f"use {' or '.join(LOGICS)}"
-            )
+        if not isinstance(logic, Word) or logic.kind != "symbol":
+            self.script.fail(logic, f"{brief(logic)} names no logic", "write (set-logic QF_NRA)")
 
     def _set_info(
         self, command: Node, keyword: Expression, value: Expression | None = None
@@ -196,12 +201,10 @@ class Session:
     def _set_option(
         self, command: Node, keyword: Expression, value: Expression | None = None
     ) -> None:
-        if str(keyword) == ":global-declarations" and str(value) != "false":
-            self.script.fail(
-                command,
-                "declarations that outlive their (pop) are not taken on",
-                "declare before (push)",
-            )
+        if str(keyword) == ":global-declarations":
+            if str(value) not in ("true", "false"):
+                self.script.fail(command, f"{keyword} is true or false", "mend the option")
+            self.lasting = str(value) == "true"
 
     def _exit(self, command: Node) -> None:
         self.ended = True
@@ -228,8 +231,8 @@ class Session:
         variable = Variable(
             symbol := self._symbol(word), our_name(symbol, self.names()), self._sort(sort)
         )
-        self.frames[-1].variables.append(variable)
-        self.frames[-1].scope[symbol] = (
+        self.declared.variables.append(variable)
+        self.declared.scope[symbol] = (
             plain(real(variable.name)) if variable.sort == "Real" else real(variable.name) > 0
         )
 
@@ -273,7 +276,7 @@ class Session:
             for name, own in function.parameters
         }
         value = self._of_sort(sort_name, body, {**function.scope, **inner})
-        self.frames[-1].scope[symbol] = function if function.parameters else value
+        self.declared.scope[symbol] = function if function.parameters else value
 
     def _of_sort(self, sort: str, body: Expression, scope: Scope) -> Value:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
@@ -287,6 +290,17 @@ class Session:
 
     def _assert(self, command: Node, body: Expression) -> None:
         self.frames[-1].assertions.append((command.line, self.reader.formula(body, self.scope)))
+
+    def _check_sat_assuming(self, command: Node, literals: Expression) -> None:
+        if not isinstance(literals, Node):
+            self.script.fail(
+                command, f"{brief(literals)} is no list", "write (check-sat-assuming (a (not b)))"
+            )
+        self._push(command)
+        for literal in literals.items:
+            self.execute(Node((Word("assert", "symbol", command.line), literal), command.line))
+        self._check_sat(command)
+        self._pop(command)
 
     def _check_sat(self, command: Node) -> None:
         variables = tuple(variable for frame in self.frames for variable in frame.variables)
@@ -325,10 +339,14 @@ class Session:
         return 1 if count is None else int(str(count))
 
     def _reset(self, command: Node) -> None:
-        self.frames, self.status, self.name, self.source = [Frame()], "", "", ""
+        self.frames, self.lasting = [Frame()], False
+        self.status, self.name, self.source = "", "", ""
 
     def _reset_assertions(self, command: Node) -> None:
-        self.frames = [Frame()]
+        kept = self.frames[0] if self.lasting else Frame()
+        kept.assertions = []
+        kept.commands = [one for one in kept.commands if str(one.items[0]) != "assert"]
+        self.frames = [kept]
 
 
 COMMANDS = {
@@ -342,6 +360,7 @@ COMMANDS = {
     "define-const": (3, 3),
     "assert": (1, 1),
     "check-sat": (0, 0),
+    "check-sat-assuming": (1, 1),
     "push": (0, 1),
     "pop": (0, 1),
     "reset": (0, 0),
@@ -359,7 +378,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
     >>> [one.assertions for one in read_problems(text, "f")]
     [((1, Formula('x*x < 0')),)]
 
-    Raises ClaimError, one line with file and line, for what is no script of QF_NRA, or holds no
+    Raises ClaimError, one line with file and line, for what is no such script, or holds no
     check-sat.
     """
     session = Session(Script(text, file))

@@ -8,6 +8,7 @@ Reals.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -169,6 +170,7 @@ class Sizes:
 # Reading terms.
 
 LARGEST_POWER, LONGEST_NUMBER = 100, 1000
+NOT_POLYNOMIAL = frozenset({"sin", "cos", "tan", "arctan", "exp", "log", "ln", "sqrt", "pow"})
 SORTS = ("Real", "Bool")
 CONNECTIVES = {"not": 1, "and": 1, "or": 1, "=>": 2, "xor": 2}
 RELATIONS: Mapping[str, Callable[[Term, Term], Formula]] = {
@@ -279,6 +281,8 @@ class Reader:
             )
         if word.text in ("true", "false"):
             return conjunction([]) if word.text == "true" else disjunction([])
+        if word.text not in scope and re.fullmatch(r"-[0-9.]+", word.text):
+            self.script.fail(word, f"{word.text} is a symbol", f"write (- {word.text[1:]})")
         if word.text not in scope:
             self.script.fail(
                 word,
@@ -313,7 +317,7 @@ class Reader:
             self.script.fail(
                 node,
                 f"{head.text}: quantifiers are not taken on",
-                "free variables are sought, as in QF_NRA",
+                "free variables are sought",
             )
         if head.text == "ite":
             return self._ite(node, rest, scope)
@@ -324,6 +328,10 @@ class Reader:
         ):
             if head.text in table:
                 return read(node, head.text, rest, scope)
+        if head.text in NOT_POLYNOMIAL:
+            self.script.fail(
+                node, f"{head.text} is not polynomial", "assert polynomial bounds of it instead"
+            )
         self.script.fail(
             node,
             f"{head.text}: an unknown function",

@@ -21,9 +21,9 @@ from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.samples import Arrays
 
 
-def conditions(system: Map, fixed: FixedPoint) -> list[tuple[Expr, bool]]:
+def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tuple[Expr, bool]]:
     """Terms in the parameters that are > 0, or >= 0 where not strict, where the fixed point exists
-    and its multipliers are below 1 in size.
+    and its multipliers are below 1 in size; `closed`: that of one variable may be -1.
     """
     state = symbols(system.state)
     at = dict(zip(state, fixed.terms))
@@ -36,7 +36,7 @@ def conditions(system: Map, fixed: FixedPoint) -> list[tuple[Expr, bool]]:
     matrix = sympy.Matrix(list(map(expression, images))).jacobian(state)
     matrix = matrix.xreplace(at).applyfunc(sympy.together)  # of smaller terms than what det makes
     if len(state) == 1:
-        found += [(1 - matrix[0, 0], True), (1 + matrix[0, 0], True)]
+        found += [(1 - matrix[0, 0], True), (1 + matrix[0, 0], not closed)]
     elif len(state) == 2:
         trace = matrix[0, 0] + matrix[1, 1]
         determinant = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
@@ -45,12 +45,12 @@ def conditions(system: Map, fixed: FixedPoint) -> list[tuple[Expr, bool]]:
     return found
 
 
-def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays) -> list[str]:
+def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = False) -> list[str]:
     """The conditions that fail for some of the parameters, as formulas: products of the factors
     that change their sign there.
     """
     rows = []
-    for term, strict in conditions(system, fixed):
+    for term, strict in conditions(system, fixed, closed):
         if not term.free_symbols or any(not p.exp.is_Integer for p in term.atoms(sympy.Pow)):
             continue
         above, below = sympy.fraction(sympy.together(term))

@@ -120,6 +120,7 @@ OPERATORS: Mapping[type, Callable[[Value, Value], Value]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
 }
+NEGATED: Mapping[type, str] = {ast.Lt: ">=", ast.LtE: ">", ast.Gt: "<=", ast.GtE: "<"}
 
 
 def value(text: str, point: Point) -> Value:
@@ -246,6 +247,19 @@ def conjunction(*parts: str) -> str:
     return " and ".join(one) or ANYWHERE
 
 
+def negation(text: str) -> str:
+    """The formula's negation: of one inequality, the other one.
+
+    >>> negation("3 - a >= 0"), negation("a > 0 and a < 1")
+    ('3 - a < 0', 'not (a > 0 and a < 1)')
+    """
+    node = checker.parse(text)
+    if isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in NEGATED:
+        (op,), (right,) = node.ops, node.comparators
+        return f"{checker_text(node.left)} {NEGATED[type(op)]} {checker_text(right)}"
+    return f"not ({text})"
+
+
 def renamed(text: str, names: Mapping[str, str]) -> str:
     """The text with other names in place of some."""
     return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
@@ -306,6 +320,9 @@ def read_rows(
             system = _with_line(system, keyword, text)
         except ClaimError as problem:
             raise ClaimError(f"{place(k)}: {problem}") from None
+        except (checker.Rejected, RecursionError):
+            what = f"unreadable: {short(text)}; write shorter formulas of {SIGNS}"
+            raise ClaimError(f"{place(k)}: {what}") from None
     return system
 
 
@@ -394,10 +411,10 @@ def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
 
 def _refuse_call(call: ast.Call, in_piece: bool) -> None:
     name = ast.unparse(call.func)
-    if name in ("implies", "iff"):
+    if name in ("implies", "iff") and len(call.args) == 2:
         return
     if name not in FUNCTIONS:
-        raise ClaimError(f"{short(name)}(..) is no function here; abs, max and min are")
+        raise ClaimError(f"{short(name)}(..) is no function here; write abs, max or min")
     if not in_piece:
         raise ClaimError(f"{name} stands outside of a piece; write comparisons without it")
     if any(isinstance(inner, (ast.Compare, ast.BoolOp)) for inner in ast.walk(call)):

@@ -5,7 +5,7 @@ function that grows near the point.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import prod
 
 import numpy as np
@@ -30,6 +30,7 @@ LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
 MOST_WORDS = 4
+SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
 MOST_TRIED = 12  # words whose orbits are sought in exact terms
 MOST_TERMS = 60  # of equations in several variables; elimination has no other bound
 SINGULAR = 1e-9
@@ -210,7 +211,7 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
         excess = np.broadcast_to(np.asarray(squared, float) ** 2 - 1, (setting.count,)) / 2
     for side in ("+", "-"):
         for _, more in bounded_below(excess, setting.products):
-            for radius in _radii(setting):
+            for radius in filter(grows(setting, more), _radii(setting, more)):
                 yield MapRule(
                     name,
                     (
@@ -228,5 +229,27 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
                 )
 
 
-def _radii(setting: Setting) -> list[str]:
-    return ["1", "1/4", "1/16", *(text for text, _ in setting.products[1:4])]
+def _radii(setting: Setting, more: str) -> list[str]:
+    return ["1", "1/4", "1/16", *(text for text, _ in setting.products[1:4]), f"({more})/4"]
+
+
+def grows(setting: Setting, more: str) -> Callable[[str], bool]:
+    """Whether the square of the distance grows by more than 1 + more at samples, up to a radius."""
+    system, known = setting.system, setting.constants
+    (state,) = system.state
+    rate = 1 + np.broadcast_to(np.asarray(value(more, known), float), (setting.count,))
+
+    def fits(radius: str) -> bool:
+        reach = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+        for share in SHARES:
+            gap = share * reach
+            points = known | {state: known[f"{state}_point"] + gap}
+            inside = np.broadcast_to(holds(system.space, points), gap.shape)
+            points |= {f"{state}_gap": gap}
+            with np.errstate(all="ignore"):
+                less = after(system, points)[f"{state}_gap"] ** 2 < rate * gap**2
+            if (less & inside).any():
+                return False
+        return True
+
+    return fits

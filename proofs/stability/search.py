@@ -24,6 +24,7 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Map,
@@ -32,6 +33,7 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     conjuncts,
     expression,
+    negation,
     renamed,
     symbols,
     value,
@@ -69,6 +71,7 @@ STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
 LOCAL_WORK = 6_000_000  # on all of these candidates
+ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -95,6 +98,7 @@ class Proof:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
+        self.open = None
         try:
             statement = checker.read_statements(text)[rule.name]
             premises = checker.premises_of(statement, self.known)
@@ -125,6 +129,19 @@ class Proof:
     def domain(self) -> str:
         """For which parameters the last statement holds."""
         return dict(self.rules[-1].rows)["domain"]
+
+    def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
+        """Certifies all of these statements, or none."""
+        kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
+        for rule in rules:
+            if dict(rule.rows).get("value"):
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
+            else:
+                fault = self.add(rule, efforts, LOCAL_BUDGET)
+            if fault:
+                self.rules, self.certificates, self.known = kept
+                return False
+        return True
 
     def why(self) -> str:
         """What Z3 says of the last premise without a proof, and its text."""
@@ -273,6 +290,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if not fixed.stable_share(system, parameters):
             break
         split = narrowed(system, fixed, parameters)
+        closed = narrowed(system, fixed, parameters, closed=True)
+        found = None
+        if closed != split:  # the multiplier is -1 at the end
+            found = settled(proof, system, fixed, closed, given, log, closed=True)
+        if found:
+            return Outcome(proof, *found, lines)
         log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
         found = settled(proof, system, fixed, split, given, log)
         if found:
@@ -284,8 +307,10 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
             fault = refuted(proof, setting, log, ways)
-            where = fault and beyond(given, proof.domain(), system.parameters)
-            faults += [f"{name_of(fixed)} {fault}{where and f' where {where}'}"] if fault else []
+            if fault:
+                where = beyond(given, proof.domain(), system.parameters)
+                at = f"at least where {where}, " if where else ""
+                faults.append(f"{at}{name_of(fixed)} {fault}")
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
     for fixed in every:
@@ -293,7 +318,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             setting = setting_of(system, fixed, system.domain)
             near = near_by(proof, setting, name_of(fixed), given, log)
             if near:
-                return Outcome(proof, "region", f"{near}; of the others nothing was found", lines)
+                return Outcome(proof, "region", f"{near}; of other states nothing was found", lines)
     return Outcome(proof, "unknown", "", lines)
 
 
@@ -324,8 +349,8 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
             for one, gap in gaps.items():
                 on = on.replace(f"|{one}|", f"|{gap}|")
             on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
-            at = f" where {where}" if where else ""
-            return f"{name} is stable{at}, and attracts every state with {on}"
+            at = f"at least where {where}, " if where else ""
+            return f"{at}{name} is stable, and attracts every state with {on}"
     return ""
 
 
@@ -376,10 +401,16 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
 
 
 def settled(
-    proof: Proof, system: Map, fixed: FixedPoint, split: Sequence[str], given: str, log: Report
+    proof: Proof,
+    system: Map,
+    fixed: FixedPoint,
+    split: Sequence[str],
+    given: str,
+    log: Report,
+    closed: bool = False,
 ) -> tuple[str, str] | None:
     """Verdict and sentence for one fixed point, where something is certified; `given` is the domain
-    as the user gives it.
+    as the user gives it; `closed`: by envelopes alone, the multiplier being -1 at the end.
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
@@ -390,19 +421,26 @@ def settled(
         if fault:
             there = beyond(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
-            sentence = f"{name} {fault}{there and f' where {there}'}"
-            return "refuted", sentence + (f"; {more}" if more else "")
-    if not attracted(proof, setting, log):
+            at = f"at least where {there}, " if there else ""
+            return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
+    if closed:
+        if not enveloped(proof, setting, log, closed):
+            return None
+    elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
             return None
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    for parts in ([f"not ({where})"], complement(where)):
+    for parts in ([negation(where)], complement(where)):
         kinds = outside_refuted(proof, system, fixed, parts, log)
         if kinds and sharp(proof, setting, kinds, log):
-            return "exactly", f"{name} is stable and attracts every state if and only if {where}"
+            inside = beyond(system.domain, setting.domain, system.parameters)
+            divides = beyond(given, system.domain, system.parameters)
+            of = f", of all parameters with {divides}" if divides else ""
+            sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
+            return "exactly", sentence
     return "stable", f"{name} is stable and attracts every state at least where {where}"
 
 
@@ -459,6 +497,10 @@ def sharp(
             ),
         ),
         ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
+    ]
+    if f"{name}/attracts" in proof.known:
+        rows = []
+    rows += [
         ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
     ]
     for label, lines in rows:
@@ -545,15 +587,27 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     before = proof.work
-    for efforts, budget, most in ROUNDS:
+    for count, (efforts, budget, most) in enumerate(ROUNDS):
         for _, rule in found[:most]:
             if proof.work - before < MOST_WORK and not tried(proof, rule, efforts, budget, log):
                 return True
+        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+            return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
-    elif proof.add(found[0][1], *ROUNDS[0][:2]):  # the candidate that fits best
-        log(f"{function_of(found[0][1])}: {proof.why()}")
-    return False
+        return False
+    best = found[0][1]
+    fault = proof.add(best, *ROUNDS[0][:2])
+    log(f"{function_of(best)}: {proof.why() or fault}")
+    return not fault
+
+
+def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool:
+    """Whether the point of a map of one variable is certified, by an envelope, to be stable and to
+    attract every state; `closed`: with the loss of a multiplier that may be -1.
+    """
+    rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
+    return any(proof.add_all(one, (1, 2), log) for one in rules)
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:

@@ -566,12 +566,12 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
         if number and np.ptp(np.log(least[np.isfinite(least)])) < FEW_FOLD:
             yield radius, number
         for _, under in bounded_below(least, setting.products, 1):
-            yield radius, _inverse(under)
+            yield radius, inverse(under)
         if number:
             yield radius, number
 
 
-def _inverse(text: str) -> str:
+def inverse(text: str) -> str:
     """1 over a quotient."""
     above, _, below = text.partition("/")
     below = below.removeprefix("(").removesuffix(")") if below.count("(") == 1 else below

@@ -9,9 +9,10 @@ premises the checker writes.
     coq            the texts of the definition for Coq, and Statements.v
     coq_templates  the parts of Statements.v without data
     coq_readings   premises of any map rule as Coq lemmas in the words of the statements
-    coq_frame      the words in which a file of Coq speaks of any map
+    coq_frame      the words in which a file of Coq speaks of any map or relation
+    coq_kinds      the words of a map, and of a relation, in such a file
     coq_values     the rules on Lyapunov's and Chetaev's functions for such a file
-    coq_rules      a theorem on the orbits of any map as one file of Coq
+    coq_rules      a theorem on the orbits of any map or relation as one file of Coq
     coq_rule_templates  the parts of such a file without data
 """
 

@@ -279,10 +279,10 @@ def piecewise(scope: Scope, name: str, pieces: Sequence[Piece]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Writes proofs/coq/Statements.v from the table of the theorem: `python -m
+# Writes proofs/coq/theorem/Statements.v from the table of the theorem: `python -m
 # juggleproof.proofs.theorem.coq`.
 
-COQ = Path(__file__).resolve().parents[1] / "coq"
+STATEMENTS = Path(__file__).resolve().parents[1] / "coq" / "theorem" / "Statements.v"
 
 
 def statements(
@@ -408,4 +408,4 @@ def _theorems(theorem: Attraction, other: Periodic, physical: Physical) -> str:
 
 
 if __name__ == "__main__":
-    write_file(COQ / "Statements.v", current().encode())
+    write_file(STATEMENTS, current().encode())

@@ -1,17 +1,17 @@
-"""The words in which a file of Coq speaks of its map."""
+"""The words in which a file of Coq speaks of its map or relation."""
 
 from __future__ import annotations
 
-import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from string import Template
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.branch import Known
-from juggleproof.certificates.coq.text import coq_name, disjunctive
+from juggleproof.certificates.coq.text import conjunctive, coq_name, disjunctive
+from juggleproof.proofs.theorem import coq_kinds as kinds
 from juggleproof.proofs.theorem.coq_readings import reading_name
-from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, term_of
+from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, names_of, term_of
 
 
 def theorem_name(name: str) -> str:
@@ -20,22 +20,31 @@ def theorem_name(name: str) -> str:
 
 
 class Frame:
-    """The words in which a file speaks of its map: parameters and state, bound and applied."""
+    """The words in which a file speaks of its map or relation: parameters, state and inputs, bound
+    and applied.
+    """
 
     def __init__(self, own: checker.Statement, known: Known) -> None:
         (parameters,), (state,) = own.get("over"), own.get("state")
         self.known = known
+        self.kind = own.kind
         self.names = state
         self.state = [*map(coq_name, state)]
         self.axes = [f"States.axis_{name}" for name in state]
         self.pieces = range(1, len(own.get("piece")) + 1)
+        self.inputs = [coq_name(name) for line in own.get("input") for name in line]
         names = " ".join(map(coq_name, parameters))
         self.bound = f" ({names} : R)" if names else ""
         self.pattern = f"({self.state[0]} : State)"
         if len(state) > 1:
             self.pattern = f"'({self.tuple(self.state)} : State)"
+        arguments = f" {names}" if names else ""
         self.words = {
-            "a": f" {names}" if names else "",
+            **{
+                word: Template(text).substitute(a=arguments)
+                for word, text in kinds.WORDS[own.kind].items()
+            },
+            "a": arguments,
             "all": f"forall {names} : R, " if names else "",
             "open": opened("of_s", self.state),
             "opening": opened("of_s", self.state).replace(". ", "; "),
@@ -50,6 +59,23 @@ class Frame:
         """A template with the words of the file, of a statement, and more."""
         prefix, name = reading_name(own.name), theorem_name(own.name)
         return Template(text).substitute({**self.words, "P": prefix, "theorem": name, **more})
+
+    def of_kind(
+        self,
+        parts: Mapping[str, Mapping[str, str]],
+        own: checker.Statement,
+        around: str = "",
+        **more: str,
+    ) -> dict[str, str]:
+        """What is said of a map in one way, and of a relation in another, around the point of a
+        module, and that this point is fixed.
+        """
+        words = {"around": around, "e": self.fill(kinds.POINT, own, around=around), **more}
+        texts = {"is_fixed": kinds.FIXED[self.kind], **parts[self.kind]}
+        return {
+            "around": around,
+            **{word: self.fill(text, own, **words) for word, text in texts.items()},
+        }
 
     def define(
         self,
@@ -113,11 +139,14 @@ class Frame:
         of the value; known: what it assumes; point: the coordinates; places: where the next state
         occurs.
         """
+        before = "".join(f"{name} " for name in self.inputs)
         cases = "|".join(
-            case.format(f"(${{P}}_{premise}_{k}{value}$a {point} {known})") for k in self.pieces
+            case.format(f"(${{P}}_{premise}_{k}{value}$a {point} {before}{known})")
+            for k in self.pieces
         )
+        moves = "(of_map_moves$a of_s of_map of_there)" if self.kind == "map" else "of_moves"
         return self.fill(
-            f"destruct (of_map_moves$a of_s of_map of_there) as {self.one_piece()};\n"
+            f"destruct {moves} as {self.one_piece()};\n"
             f"    rewrite of_same{places}; clear of_same; ${{opening}}[{cases}].",
             own,
         )
@@ -134,7 +163,7 @@ class Frame:
 
     def one_piece(self) -> str:
         """The pattern for the piece whose guard holds, and for the image by it."""
-        return disjunctive(["[of_g of_same]"] * len(self.pieces))
+        return disjunctive([conjunctive([*self.inputs, "of_g", "of_same"])] * len(self.pieces))
 
     def extra_steps(self, descent: checker.Statement) -> int:
         """The steps from the first stage to the last."""
@@ -155,11 +184,6 @@ def equal_states(proofs: Sequence[str]) -> str:
     for one in proofs[1:]:
         proof = f"(f_equal2 pair {proof} {one})"
     return proof
-
-
-def names_of(node: ast.expr) -> set[str]:
-    """The names that occur in a term."""
-    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
 
 
 def nested(last: str, count: int) -> str:

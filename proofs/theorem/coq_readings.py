@@ -16,7 +16,7 @@ from juggleproof.certificates.coq.lemmas import certified
 from juggleproof.certificates.coq.text import coq_name, lemma_name, polynomial, proposition
 from juggleproof.certificates.coq.transfer import Form, Transfer
 from juggleproof.certificates.states import State
-from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, term_of
+from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, names_of, term_of
 
 AND, OR = "/\\", "\\/"
 
@@ -66,8 +66,8 @@ class Reading:
     """A statement for all, in the words of its lines, as a lemma that its polynomial lemma proves.
 
     A root is written as `sqrt`; that it is one needs the sign of what is under it, which the
-    certificate proves and which has a lemma of its own, as have the lines `have`; shown: {lines up
-    to such a one: this lemma}.
+    certificate proves and which has a lemma of its own, as have the lines `have`, and formulas of
+    variables alone, which several premises assume; shown: {such a text: the name of its lemma}.
     """
 
     def __init__(
@@ -87,6 +87,7 @@ class Reading:
         self.universal: list[str] = []
         self.assumed: list[str] = []  # names of the lines assumed, as they stand
         self.premises: list[str] = []  # and as polynomial formulas
+        self.defined: set[str] = set()  # names that stand for terms
         self.lets: list[str] = []
         self.sums: list[str] = []  # equations of states around a point
         self.before: list[str] = []  # lemmas on roots and on lines `have`
@@ -123,6 +124,7 @@ class Reading:
     def _let(self, name: str, term: ast.expr) -> None:
         own, value = coq_name(name), term_of(term, 0)
         self.walk.define(name, self.walk.value(term))
+        self.defined.add(name)
         if ast.unparse(term) == f"{name}_point + {name}_gap":  # so that it can be any state
             equation = self.branch.fresh()
             self.stated.append(f"forall {own} : R, {own} = {value} ->")
@@ -210,13 +212,14 @@ class Reading:
     def _exhibit(self) -> None:
         """What exists, from the polynomial lemma."""
         names, own = [*map(coq_name, self.form.existential)], self.branch.fresh()
+        applied = " ".join([lemma_name(self.statement.name), *self.universal, *self.premises])
         self._declare(self.form.existential)
         nodes = [said for keyword, said in self.statement.lines if keyword in ("with", "show")]
         node = nodes[0] if len(nodes) == 1 else ast.BoolOp(ast.And(), nodes)
         formula, kept = self.form.unfolding.goal(True), self.branch.fresh()
         self.stated.append(f"exists {' '.join(names)} : R, {formula_of(node, 0)}")
         self.rows += [
-            f"destruct {lemma_name(self.statement.name)} as ({' & '.join([*names, own])}).",
+            f"destruct ({applied}) as ({' & '.join([*names, own])}).",
             f"pose proof {own} as {kept}.",
             *self.branch.assume(formula, kept),
         ]
@@ -230,16 +233,28 @@ class Reading:
     def _same(self, node: ast.expr, formula: checker.Formula) -> str:
         """A proof that a formula as it stands is equivalent to its polynomial formula."""
         texts = _Texts(self.branch, {}, {})
-        texts.lets, texts.sums = self.lets, self.sums
+        is_shared = not (names_of(node) & self.defined or _divides(node))
+        if not is_shared:
+            texts.lets, texts.sums = self.lets, self.sums
         read = self._read(node, texts)
-        self.rows += texts.rows
         target = proposition(self.branch.names, formula)
         proof = f"(reads_holds _ _ _ {read.proof})"
-        if read.holds == target:
+        if read.holds != target:
+            same = self.branch.fresh()
+            texts.rows.append(f"assert ({same} : {read.holds} <-> {target}) by equivalent.")
+            proof = f"(iff_trans {proof} {same})"
+        if not is_shared:
+            self.rows += texts.rows
             return proof
-        same = self.branch.fresh()
-        self.rows.append(f"assert ({same} : {read.holds} <-> {target}) by equivalent.")
-        return f"(iff_trans {proof} {same})"
+        names = [coq_name(name) for name in self.branch.names if name in names_of(node)]
+        forall = [f"forall {' '.join(names)} : R,"] * bool(names)
+        text = " ".join([*forall, f"({formula_of(node, 0)}) <-> ({target})"])
+        if text not in self.shown:
+            self.shown[text] = reading_name(f"{self.statement.name}.formula-{len(self.shown) + 1}")
+            head = [f"Lemma {self.shown[text]} :", f"  {text}.", "Proof."]
+            rows = [" ".join(["intros", *names]) + ".", *texts.rows, f"exact {proof}.", "Qed."]
+            self.before.append("\n".join([*head, *rows]))
+        return f"({' '.join([self.shown[text], *names])})"
 
     def _read(self, node: ast.expr, texts: _Texts) -> _Read:
         if isinstance(node, ast.UnaryOp):
@@ -295,6 +310,14 @@ def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
         if exponent % 2 and not positive and ">" in relation
     ]
     return prod(signless, start=value.over({}))
+
+
+def _divides(node: ast.AST) -> bool:
+    """Whether a name is divided by, which a branch has to know not to be 0."""
+    return any(
+        isinstance(one, ast.BinOp) and isinstance(one.op, ast.Div) and names_of(one.right)
+        for one in ast.walk(node)
+    )
 
 
 def _chain(parts: Sequence[_Read], lemma: str) -> _Read:

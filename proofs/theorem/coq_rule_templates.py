@@ -2,7 +2,7 @@
 
 `$a` are the parameters, each after a space, `$all` binds them, `$P` begins the names of the
 premises of the statement, `$open` takes the state `of_s` apart, and `$s` are its coordinates. No
-name of a claim begins with `of_`.
+name of a claim begins with `of_`. The words of coq_kinds are those of a map, or of a relation.
 """
 
 from __future__ import annotations
@@ -11,19 +11,16 @@ HEADER = """\
 (* $name, a theorem on the orbits of a map, for coqc alone.
 
    A certificate proves each premise, as a lemma on polynomials; the lemma after it is the premise
-   in the words of the rule. The modules Map, Descent and so on, one for each rule, define what the
-   theorem at the end speaks of; Rules and Lyapunov hold for any map. *)
+   in the words of the rule. The modules $M, Descent and so on, one for each rule, define what
+   the theorem at the end speaks of; those before States hold for any map or relation. *)
 
 """
 
-STABLE = """\
-Definition stable (space : State -> Prop) (f : State -> State) (e : State) : Prop :=
-  forall epsilon, 0 < epsilon -> exists delta, 0 < delta /\\
-  forall s, space s -> (forall j, Rabs (coordinate j s - coordinate j e) < delta) ->
-  forall n j, Rabs (coordinate j (Rules.iterate f n s) - coordinate j e) < epsilon.
-Definition attracting (space : State -> Prop) (f : State -> State) (e : State) : Prop :=
-  forall s, space s -> forall epsilon, 0 < epsilon -> exists N, forall n, (N <= n)%nat ->
-  forall j, Rabs (coordinate j (Rules.iterate f n s) - coordinate j e) < epsilon."""
+SAME_STATE = """\
+Lemma of_same_state : forall of_s of_t,
+  (forall of_j, States.coordinate of_j of_s = States.coordinate of_j of_t) -> of_s = of_t.
+Proof. intros of_s of_t of_same. $open${open_t}exact $equal. Qed.
+"""
 
 MAP = """\
 Lemma of_map_moves : ${all}forall of_s, Map.domain$a -> Map.space$a of_s ->
@@ -40,10 +37,6 @@ Proof.
   intros$a of_s of_map of_there.
   $stays
 Qed.
-
-Lemma of_same_state : forall of_s of_t,
-  (forall of_j, States.coordinate of_j of_s = States.coordinate of_j of_t) -> of_s = of_t.
-Proof. intros of_s of_t of_same. $open${open_t}exact $equal. Qed.
 """
 
 PIECE = """\
@@ -56,14 +49,48 @@ Proof.
 Qed.
 """
 
+RELATION = """\
+Lemma of_goes_on : ${all}forall of_s, Relation.domain$a -> Relation.space$a of_s ->
+  exists of_t, Relation.next$a of_s of_t.
+Proof.
+  intros$a of_s of_map of_there.
+  ${open}pose proof (${P}_covers$a $s of_map of_there) as $some_guard; [$an_image].
+Qed.
+
+Lemma of_map_keeps : ${all}forall of_s of_t, Relation.domain$a -> Relation.space$a of_s ->
+  Relation.next$a of_s of_t -> Relation.space$a of_t.
+Proof.
+  intros$a of_s of_t of_map of_there of_moves.
+  $stays
+Qed.
+
+Lemma of_only_next : ${all}forall of_s, Relation.domain$a -> Relation.space$a of_s ->
+  (forall of_t, Relation.next$a of_s of_t -> of_t = of_s) ->
+  forall of_t, Relation.next$a of_s of_t <-> of_t = of_s.
+Proof.
+  intros$a of_s of_map of_there of_only of_t. split; [apply of_only|intros ->].
+  destruct (of_goes_on$a of_s of_map of_there) as [of_next of_moves].
+  rewrite (of_only of_next of_moves) in of_moves. exact of_moves.
+Qed.
+
+(* Each state of the space has a next one, and all next ones are in the space. *)
+Theorem $theorem : ${all}Relation.domain$a -> forall of_s, Relation.space$a of_s ->
+  (exists of_t, Relation.next$a of_s of_t) /\\
+  forall of_t, Relation.next$a of_s of_t -> Relation.space$a of_t.
+Proof.
+  intros$a of_map of_s of_there. split; [exact (of_goes_on$a of_s of_map of_there)|].
+  intro of_t. exact (of_map_keeps$a of_s of_t of_map of_there).
+Qed.
+"""
+
 # For what is shown of the next state, which is in the space.
 NEXT = """\
-assert (of_map : Map.domain$a) by exact (${P}_inside$a of_dom).
-  assert (of_next := of_map_keeps$a of_s of_map of_there)."""
+assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
+  assert (of_next := of_map_keeps$a $st of_map of_there$by)."""
 
 DESCENT = """\
 Lemma of_rank_bounded : ${all}Descent.domain$a ->
-  forall of_s, Map.space$a of_s -> 0 <= Descent.rank$a of_s.
+  forall of_s, ${M}.space$a of_s -> 0 <= Descent.rank$a of_s.
 Proof.
   intros$a of_dom of_s of_there. ${open}exact (Rge_le _ _ (${P}_bounded$a $s of_dom of_there)).
 Qed.
@@ -71,11 +98,11 @@ Qed.
 Lemma of_staged : ${all}forall of_s, {$staged} + {~ ($staged)}.
 Proof. intros$a of_s. ${open}cbv beta iota zeta delta [$stage_names]. decidable. Qed.
 
-Lemma of_rank_falls : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
-  (exists k, Rules.stage (Descent.stages$a) k of_s) \\/
-  Descent.rank$a (Map.f$a of_s) <= Descent.rank$a of_s - 1.
+Lemma of_rank_falls : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
+  $step(exists k, Rules.stage (Descent.stages$a) k of_s) \\/
+  Descent.rank$a $after <= Descent.rank$a of_s - 1.
 Proof.
-  intros$a of_dom of_s of_there. $next
+  intros$a of_dom $st of_there$by. $next
   destruct (of_staged$a of_s) as [of_in|of_out]; [left|right].
   { $in_a_stage }
   $falls
@@ -83,48 +110,41 @@ Qed.
 """
 
 STAGE = """\
-Lemma of_stage_$k : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
-  Descent.stage_$k$a of_s -> Descent.stage_$following$a (Map.f$a of_s).
+Lemma of_stage_$k : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
+  ${step}Descent.stage_$k$a of_s -> Descent.stage_$following$a $after.
 Proof.
-  intros$a of_dom of_s of_there of_in. $next
+  intros$a of_dom $st of_there$by of_in. $next
   $leads
 Qed.
 """
 
 DESCENDS = """\
 Lemma of_stages_lead_on : ${all}Descent.domain$a ->
-  forall of_k of_s, (S of_k < length (Descent.stages$a))%nat -> Map.space$a of_s ->
-  Rules.stage (Descent.stages$a) of_k of_s ->
-  Rules.stage (Descent.stages$a) (S of_k) (Map.f$a of_s).
+  forall of_k $st, (S of_k < length (Descent.stages$a))%nat -> ${M}.space$a of_s ->
+  ${step}Rules.stage (Descent.stages$a) of_k of_s ->
+  Rules.stage (Descent.stages$a) (S of_k) $after.
 Proof.
-  intros$a of_dom $each_stage of_s of_less of_there of_in; [${lead_on}cbn in of_less; lia].
+  intros$a of_dom $each_stage $st of_less of_there$by of_in; [${lead_on}cbn in of_less; lia].
 Qed.
 
-Lemma of_last_stage_kept : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
-  Rules.last_stage (Descent.stages$a) of_s -> Rules.last_stage (Descent.stages$a) (Map.f$a of_s).
+Lemma of_last_stage_kept : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
+  ${step}Rules.last_stage (Descent.stages$a) of_s -> Rules.last_stage (Descent.stages$a) $after.
 Proof.
-  intros$a of_dom of_s of_there of_in. exact (of_stage_$last$a of_dom of_s of_there of_in).
+  intros$a of_dom $st of_there$by of_in. exact (of_stage_$last$a of_dom $st of_there$by of_in).
 Qed.
 
-Theorem $theorem : ${all}Descent.domain$a -> forall of_s of_n, Map.space$a of_s ->
-  Descent.rank$a of_s + INR $extra <= INR of_n ->
-  Descent.stage_$last$a (Rules.iterate (Map.f$a) of_n of_s).
+Theorem $theorem : ${all}Descent.domain$a -> forall $orbit of_n, ${run}${M}.space$a $start ->
+  Descent.rank$a $start + INR $extra <= INR of_n -> Descent.stage_$last$a $at_n.
 Proof.
-  intros$a of_dom of_s of_n of_there of_late.
-  exact (Rules.descent (Map.f$a) (Map.space$a) (Descent.rank$a) (Descent.stages$a)
-    (fun of_t => of_map_keeps$a of_t (${P}_inside$a of_dom))
+  intros$a of_dom $orbit of_n$runs of_there of_late.
+  exact ($descent
     (of_rank_bounded$a of_dom) (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom)
-    (of_last_stage_kept$a of_dom) of_s of_n of_there of_late).
+    (of_last_stage_kept$a of_dom) $orbit of_n$runs of_there of_late).
 Qed.
 """
 
-NORM = """\
-(Map.f$a) States.coordinate (fun of_j => States.coordinate of_j (Contraction.point$a))
-    (fun of_j => States.coordinate of_j (Contraction.weights$a)) (Contraction.set$a)
-    (Contraction.rate$a)"""
-
 CONSTANTS = """\
-destruct (of_constants$a $known) as (of_rate & of_below_1 & of_radius & of_size & of_low & of_high
+destruct (of_constants$a of_dom) as (of_rate & of_below_1 & of_radius & of_size & of_low & of_high
     & of_positive & of_between)."""
 
 CONTRACTS = """\
@@ -150,24 +170,24 @@ Proof.
 Qed.
 
 Lemma of_closer : ${all}Contraction.domain$a ->
-  forall of_c of_s, 0 <= of_c -> Contraction.set$a of_s -> Contraction.near$a of_c of_s ->
-  Contraction.near$a (Contraction.rate$a * of_c) (Map.f$a of_s).
+  forall of_c $st, 0 <= of_c -> Contraction.set$a of_s -> ${step}Contraction.near$a of_c of_s ->
+  Contraction.near$a (Contraction.rate$a * of_c) $after.
 Proof.
-  intros$a of_dom of_c of_s of_positive [of_there of_in] of_close. $next
+  intros$a of_dom of_c $st of_positive [of_there of_in]$by of_close. $next
   apply (of_near_is$a _ _) in of_close. apply (of_near_is$a _ _).
   pose proof (Rle_ge _ _ of_positive) as of_distance.
   $closer
 Qed.
 
 Lemma of_set_kept : ${all}Contraction.domain$a ->
-  forall of_s, Contraction.set$a of_s -> Contraction.set$a (Map.f$a of_s).
+  forall $st, Contraction.set$a of_s -> ${step}Contraction.set$a $after.
 Proof.
-  intros$a of_dom of_s [of_there of_in]. $next
+  intros$a of_dom $st [of_there of_in]$by. $next
   split; [exact of_next|].
   $stays
 Qed.
 
-Lemma of_surrounded : ${all}Contraction.domain$a -> forall of_s, Map.space$a of_s ->
+Lemma of_surrounded : ${all}Contraction.domain$a -> forall of_s, ${M}.space$a of_s ->
   Contraction.near$a (Contraction.radius$a) of_s -> Contraction.set$a of_s.
 Proof.
   intros$a of_dom of_s of_there of_in. apply (of_near_is$a _ _) in of_in.
@@ -181,48 +201,27 @@ Proof.
   ${open}exact (${P}_size$a $s of_dom of_there of_in).
 Qed.
 
-Lemma of_fixed : ${all}Contraction.domain$a ->
-  Map.space$a (Contraction.point$a) /\\ Map.f$a (Contraction.point$a) = Contraction.point$a.
-Proof.
-  intros$a of_dom. $constants
-  assert (of_there : Map.space$a (Contraction.point$a)) by exact (${P}_point$a of_dom).
-  split; [exact of_there|]. apply of_same_state.
-  apply (Rules.fixed_point $norm (of_closer$a of_dom)); [|reflexivity].
-  apply (of_surrounded$a of_dom); [exact of_there|].
-  intro of_j. unfold Rminus. rewrite Rplus_opp_r, Rabs_R0.
-  apply Rmult_le_pos; [lra|destruct (of_between of_j); lra].
-Qed.
-
-Lemma of_stable : ${all}Contraction.domain$a ->
-  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a).
-Proof.
-  intros$a of_dom. $constants
-  exact (Rules.stability $norm
-    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom) (Map.space$a) (Contraction.radius$a)
-    of_low of_high of_below_1 of_positive of_between of_radius (of_surrounded$a of_dom)).
-Qed.
-
 (* The point is fixed, stable, and attracts the set, at the rate. *)
 Theorem $theorem : ${all}Contraction.domain$a ->
-  Map.space$a (Contraction.point$a) /\\ Map.f$a (Contraction.point$a) = Contraction.point$a /\\
-  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-  States.attracting (Contraction.set$a) (Map.f$a) (Contraction.point$a) /\\
-  forall of_n of_c of_s, 0 <= of_c -> Contraction.set$a of_s -> Contraction.near$a of_c of_s ->
-  Contraction.near$a (Contraction.rate$a ^ of_n * of_c) (Rules.iterate (Map.f$a) of_n of_s).
+  ${M}.space$a (Contraction.point$a) /\\ $is_fixed /\\
+  States.stable (${M}.space$a) ($F) (Contraction.point$a) /\\
+  States.attracting (Contraction.set$a) ($F) (Contraction.point$a) /\\
+  forall of_n of_c $orbit, ${run}0 <= of_c ->
+  Contraction.set$a $start -> Contraction.near$a of_c $start ->
+  Contraction.near$a (Contraction.rate$a ^ of_n * of_c) $at_n.
 Proof.
   intros$a of_dom. $constants
-  split; [exact (proj1 (of_fixed$a of_dom))|split; [exact (proj2 (of_fixed$a of_dom))|]].
-  split; [exact (of_stable$a of_dom)|split].
-  { exact (Rules.convergence $norm
-    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom) (Contraction.set$a) of_low of_high
-    of_below_1 of_positive of_between (fun _ => 0) (Contraction.set$a :: nil)%list
-    (Contraction.size$a) (of_set_kept$a of_dom) (fun _ _ => Rle_refl 0)
-    (fun _ of_in => or_introl (ex_intro _ 0%nat of_in))
-    ltac:(intros of_k of_t of_less; cbn in of_less; lia)
-    (fun of_t _ => of_set_kept$a of_dom of_t) (fun _ _ of_in => of_in) (Rlt_le _ _ of_size)
-    (fun of_t _ => of_small$a of_dom of_t)). }
-  { exact (Rules.contraction $norm
-    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom)). }
+  assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
+  assert (of_there : ${M}.space$a (Contraction.point$a)) by exact (${P}_point$a of_dom).
+  split; [exact of_there|split; [|split; [|split]]].
+  { ${alone}apply of_same_state. $fixed
+    apply (of_surrounded$a of_dom); [exact of_there|].
+    intro of_j. unfold Rminus. rewrite Rplus_opp_r, Rabs_R0.
+    apply Rmult_le_pos; [lra|destruct (of_between of_j); lra]. }
+  { exact ($stability (Contraction.radius$a)
+    of_low of_high of_below_1 of_positive of_between of_radius (of_surrounded$a of_dom)). }
+  { exact ($convergence). }
+  { exact ($contraction). }
 Qed.
 """
 
@@ -240,33 +239,33 @@ Qed.
 
 (* The point is fixed, stable, and attracts the set. *)
 Theorem $theorem : ${all}LyapunovFunction.domain$a ->
-  Map.space$a (LyapunovFunction.point$a) /\\
-  Map.f$a (LyapunovFunction.point$a) = LyapunovFunction.point$a /\\
-  States.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
-  States.attracting (LyapunovFunction.set$a) (Map.f$a) (LyapunovFunction.point$a).
+  ${M}.space$a (LyapunovFunction.point$a) /\\
+  $is_fixed /\\
+  States.stable (${M}.space$a) ($F) (LyapunovFunction.point$a) /\\
+  States.attracting (LyapunovFunction.set$a) ($F) (LyapunovFunction.point$a).
 Proof.
   intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
-  assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
+  assert (of_map : ${M}.domain$a) by exact (${P}_inside$a$E of_dom$H).
   destruct (${P}_constants$a$E of_dom$H) as [of_radius of_upper].
   assert (of_positive : forall of_d of_c, 0 < of_d -> 0 <= of_c ->
     0 < LyapunovFunction.least$a of_d of_c).
   { intros of_d of_c of_1 of_2.
     exact (${P}_positive$a$E of_d of_c of_dom$H of_1 (Rle_ge _ _ of_2) (one_more _ of_2)). }
-  assert (of_surrounded : forall of_s, Map.space$a of_s ->
+  assert (of_surrounded : forall of_s, ${M}.space$a of_s ->
     LyapunovFunction.near$a (LyapunovFunction.radius$a) of_s -> LyapunovFunction.set$a of_s).
   { intros of_s of_there of_close. apply (of_near_point_is$a _ _) in of_close.
     split; [exact of_there|].
     ${open}exact (${P}_surrounds$a$E $gaps of_dom$H $sums of_there of_close). }
-  assert (of_small : forall of_i of_s of_d, (of_i < $count)%nat -> Map.space$a of_s -> 0 <= of_d ->
+  assert (of_small : forall of_i of_s of_d, (of_i < $count)%nat -> ${M}.space$a of_s -> 0 <= of_d ->
     LyapunovFunction.near$a of_d of_s -> of_d <= LyapunovFunction.radius$a ->
     LyapunovFunction.guards$a of_i of_s ->
     LyapunovFunction.values$a of_i of_s <= LyapunovFunction.upper$a * of_d).
   { intros $each_value of_s of_d of_less of_there of_1 of_close of_2 of_here;
       [$small|exfalso; lia]. }
-  assert (of_kept : forall of_s,
-    LyapunovFunction.set$a of_s -> LyapunovFunction.set$a (Map.f$a of_s)).
-  { intros of_s [of_there of_in].
-    assert (of_next := of_map_keeps$a of_s of_map of_there). split; [exact of_next|].
+  assert (of_kept : forall $st,
+    LyapunovFunction.set$a of_s -> ${step}LyapunovFunction.set$a $after).
+  { intros $st [of_there of_in]$by.
+    assert (of_next := of_map_keeps$a $st of_map of_there$by). split; [exact of_next|].
     $stays }
   pose (of_above := Lyapunov.above (LyapunovFunction.guards$a) (LyapunovFunction.values$a) $count).
   assert (of_bounded : forall of_s of_v, LyapunovFunction.set$a of_s -> of_above of_s of_v ->
@@ -289,20 +288,19 @@ Proof.
     ${open}exact (Rge_le _ _ (${P}_least$a$E $gaps $value of_d of_c of_dom$H $sums of_there of_in
       $reached (Rle_ge _ _ of_1) (one_more _ of_1) of_2 (Rle_ge _ _ of_3) (one_more _ of_3)
       of_apart (Rle_ge _ _ of_4))). }
-  assert (of_falls : forall of_i of_s of_v, (of_i < $count)%nat -> LyapunovFunction.set$a of_s ->
-    of_above of_s of_v -> 0 <= of_v -> LyapunovFunction.guards$a of_i (Map.f$a of_s) ->
-    LyapunovFunction.values$a of_i (Map.f$a of_s) <= of_v - $loss).
-  { intros $each_value of_s of_v of_less [of_there of_in] of_high of_1 of_guard.
+  assert (of_falls : forall of_i $st of_v, (of_i < $count)%nat -> LyapunovFunction.set$a of_s ->
+    ${step}of_above of_s of_v -> 0 <= of_v -> LyapunovFunction.guards$a of_i $after ->
+    LyapunovFunction.values$a of_i $after <= of_v - $loss).
+  { intros $each_value $st of_v of_less [of_there of_in]$by of_high of_1 of_guard.
     $falls
     exfalso; lia. }
   split; [exact of_at|split; [|split]].
-  { apply of_same_state.
-    exact (Lyapunov.lyapunov_fixed_point $function of_radius of_positive of_surrounded of_small
-      of_kept of_bounded of_loses of_least of_falls (LyapunovFunction.point$a) of_at
-      (fun _ => eq_refl)). }
-  { exact (Lyapunov.lyapunov_stability $function of_radius of_upper of_positive of_surrounded
+  { ${alone}apply of_same_state.
+    exact (${rules}_fixed_point $function of_radius of_positive of_surrounded of_small
+      of_kept of_bounded of_loses of_least of_falls (LyapunovFunction.point$a) $at_point). }
+  { exact (${rules}_stability $function of_radius of_upper of_positive of_surrounded
       of_small of_kept of_bounded of_loses of_least of_falls). }
-  { exact (Lyapunov.lyapunov_attraction $attraction of_positive of_kept of_bounded of_loses
+  { exact (${rules}_attraction $attraction of_positive of_kept of_bounded of_loses
       of_least of_falls). }
 Qed.
 """
@@ -349,98 +347,81 @@ Qed.
 """
 
 ATTRACTS = """\
-(* The point is stable and attracts every state, within a bound. *)
+(* The point is stable and attracts every state$within_a_bound. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  States.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-  States.attracting (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-  forall of_s of_n of_k, Map.space$a of_s -> Descent.rank$a of_s + INR $extra <= INR of_n ->
-  Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
-    (Rules.iterate (Map.f$a) (of_n + of_k) of_s).
+  States.stable (${M}.space$a) ($F) ($around.point$a) /\\
+  States.attracting (${M}.space$a) ($F) ($around.point$a)$bound.
 Proof.
-  intros$a of_dom.
-  assert (of_con : Contraction.domain$a) by exact (${P}_inside$a of_dom). $constants
-  assert (of_into : forall of_s, Map.space$a of_s -> Rules.last_stage (Descent.stages$a) of_s ->
-    Contraction.set$a of_s).
+  intros$a of_dom. assert (of_near : $around.domain$a) by exact (${P}_inside$a of_dom).
+  destruct ($settles$a of_near) as (_ & _ & of_stays & $tends).
+  pose (of_keeps $st := of_map_keeps$a $st (${descent}_inside$a of_dom)).
+  assert (of_into : forall of_s, ${M}.space$a of_s -> Descent.stage_$last$a of_s ->
+    $around.set$a of_s).
   { intros of_s of_there of_in. split; [exact of_there|].
     ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
-  pose (of_kept of_t := of_map_keeps$a of_t (${descent}_inside$a of_dom)).
-  pose (of_near of_t of_there of_in := of_small$a of_con of_t (of_into of_t of_there of_in)).
-  split; [exact (of_stable$a of_con)|split].
-  { exact (Rules.convergence $norm
-    (of_set_kept$a of_con) of_rate (of_closer$a of_con) (Map.space$a) of_low of_high of_below_1
-    of_positive of_between (Descent.rank$a) (Descent.stages$a) (Contraction.size$a) of_kept
-    (of_rank_bounded$a of_dom) (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom)
-    (of_last_stage_kept$a of_dom) of_into (Rlt_le _ _ of_size) of_near). }
-  { exact (Rules.approach $norm
-    (of_set_kept$a of_con) of_rate (of_closer$a of_con) (Map.space$a) (Descent.rank$a)
-    (Descent.stages$a) (Contraction.size$a) of_kept (of_rank_bounded$a of_dom)
-    (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom) (of_last_stage_kept$a of_dom) of_into
-    (Rlt_le _ _ of_size) of_near). }
+  assert (of_enters : forall $orbit of_n, ${run}${M}.space$a $start ->
+    Descent.rank$a $start + INR $extra <= INR of_n -> $around.set$a $at_n).
+  { intros $orbit of_n$runs of_there of_late. exact (of_into _
+      $kept
+      ($descends$a of_dom $orbit of_n$runs of_there of_late)). }
+  split; [exact of_stays|$split].
+  { refine ($from_a_set
+      ($around.set$a) _ of_tends).
+    intros $orbit$runs of_there.
+    destruct (Rules.exceeded_by_a_number (Descent.rank$a $start + INR $extra)) as [of_n of_late].
+    exists of_n. exact (of_enters $orbit of_n$runs of_there of_late). }$bounded
 Qed.
 """
 
-ATTRACTS_BY_LYAPUNOV = """\
-(* The point is stable and attracts every state. *)
-Theorem $theorem : ${all}Descent.domain$a ->
-  States.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
-  States.attracting (Map.space$a) (Map.f$a) (LyapunovFunction.point$a).
-Proof.
-  intros$a of_dom. destruct ($lyapunov$a (${P}_inside$a of_dom)) as (_ & _ & of_stays & of_tends).
-  assert (of_into : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
-    LyapunovFunction.set$a of_s).
-  { intros of_s of_there of_in. split; [exact of_there|].
-    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
-  split; [exact of_stays|]. refine (Lyapunov.attraction_from_a_set (Map.f$a) States.coordinate
-    (fun of_j => States.coordinate of_j (LyapunovFunction.point$a)) (Map.space$a)
-    (LyapunovFunction.set$a) _ of_tends).
-  intros of_s of_there.
-  destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
-  exists of_n. apply of_into; [|exact ($descends$a of_dom of_s of_n of_there of_late)].
-  apply Rules.iterate_keeps; [|exact of_there].
-  intro of_t. exact (of_map_keeps$a of_t (${descent}_inside$a of_dom)).
-Qed.
-"""
+BOUND = """ /\\
+  forall $orbit of_n of_k, ${run}${M}.space$a $start ->
+  Descent.rank$a $start + INR $extra <= INR of_n ->
+  Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
+    $at_n_k"""
+
+BOUNDED = """
+  { intros $orbit of_n of_k$runs of_there of_late.
+    pose proof (of_enters $orbit of_n$runs of_there of_late) as of_in.
+    destruct (of_constants$a of_near) as (_ & _ & _ & of_size & _).
+    $approach }"""
 
 INTO = """\
 (* The point is stable and attracts every state, on the larger space. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  States.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
-  States.attracting (Map.space$a) (Map.f$a) ($around.point$a).
+  States.stable (${M}.space$a) ($F) ($around.point$a) /\\
+  States.attracting (${M}.space$a) ($F) ($around.point$a).
 Proof.
   intros$a of_dom.
-  assert (of_map : Map.domain$a) by exact (${descent}_inside$a of_dom).
+  assert (of_map : ${M}.domain$a) by exact (${descent}_inside$a of_dom).
   assert (of_inner : Inner.Descent.domain$a) by exact (${P}_inside$a of_dom).
-  assert (of_inner_map : Inner.Map.domain$a) by exact (${inner}_inside$a of_inner).
-  assert (of_agree : forall of_s, Map.space$a of_s -> Inner.Map.space$a of_s ->
-    Map.f$a of_s = Inner.Map.f$a of_s).
-  { intros of_s of_there of_within.
-    destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same; symmetry;
-      [$agree]. }
-  pose (of_keeps of_s := of_map_keeps$a of_s of_map).
-  pose (of_inner_keeps of_s := Inner.of_map_keeps$a of_s of_inner_map). split.
-  { refine (Lyapunov.into_stability (Map.f$a) (Inner.Map.f$a) States.coordinate
-      (fun of_j => States.coordinate of_j ($around.point$a)) (Map.space$a) (Inner.Map.space$a)
+  assert (of_inner_map : Inner.${M}.domain$a) by exact (${inner}_inside$a of_inner).
+  assert (of_agree : forall $st, ${M}.space$a of_s -> Inner.${M}.space$a of_s ->
+    $same_step).
+  { $agree }
+  pose (of_keeps $st := of_map_keeps$a $st of_map).
+  pose (of_inner_keeps $st := Inner.of_map_keeps$a $st of_inner_map). split.
+  { refine (${into}_stability ($F) (Inner.$F) States.coordinate
+      (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${M}.space$a)
       (Into.radius$a) of_keeps of_inner_keeps of_agree _ _ (proj1 ($attraction$a of_inner))).
     { exact (${P}_constants$a of_dom). }
     { intros of_s of_there of_close. pose proof $within as of_within.
       ${open}exact (${P}_surrounds$a $s of_dom of_there of_within). } }
-  refine (Lyapunov.into_attraction (Map.f$a) (Inner.Map.f$a) States.coordinate
-    (fun of_j => States.coordinate of_j ($around.point$a)) (Map.space$a) (Inner.Map.space$a)
+  refine (${into}_attraction ($F) (Inner.$F) States.coordinate
+    (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${M}.space$a)
     of_keeps of_inner_keeps of_agree _ ($tends ($attraction$a of_inner))).
-  intros of_s of_there.
-  destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
-  exists of_n.
-  assert (of_enters : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
-    Inner.Map.space$a of_s).
-  { clear of_s of_there of_late. intros of_s of_there of_in.
-    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
-  apply of_enters; [|exact ($descends$a of_dom of_s of_n of_there of_late)].
-  apply Rules.iterate_keeps; [exact of_keeps|exact of_there].
+  assert (of_enters : forall of_s, ${M}.space$a of_s -> Descent.stage_$last$a of_s ->
+    Inner.${M}.space$a of_s).
+  { intros of_s of_there of_in. ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
+  intros $orbit$runs of_there.
+  destruct (Rules.exceeded_by_a_number (Descent.rank$a $start + INR $extra)) as [of_n of_late].
+  exists of_n. exact (of_enters _
+    $kept
+    ($descends$a of_dom $orbit of_n$runs of_there of_late)).
 Qed.
 """
 
 ESCAPES = """\
-Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
+Lemma of_periodic : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
   Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
   exists of_j, States.coordinate of_j (Escape.start$a) <> States.coordinate of_j (Escape.point$a).
 Proof.
@@ -451,6 +432,20 @@ Proof.
   $steps
   split; [exact of_there_0|split; [|$apart]].
   cbn [Rules.iterate]. rewrite $rewritten. exact $equal.
+Qed.
+
+(* The orbit of the start is periodic, and the point does not attract it. *)
+Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
+  Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
+  Escape.start$a <> Escape.point$a /\\
+  ~ States.attracting (Map.space$a) (Map.f$a) (Escape.point$a).
+Proof.
+  intros$a of_dom. destruct (of_periodic$a of_dom) as (of_there & of_back & of_j & of_apart).
+  split; [exact of_there|split; [exact of_back|split]].
+  { intro of_same. apply of_apart. now rewrite of_same. }
+  { intro of_all. exact (Rules.periodic_orbit_stays_away (Map.f$a) States.coordinate
+      (fun of_j => States.coordinate of_j (Escape.point$a)) $period (Escape.start$a) of_j
+      ltac:(lia) of_back of_apart (of_all _ of_there)). }
 Qed.
 """
 

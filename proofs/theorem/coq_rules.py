@@ -1,11 +1,11 @@
-"""A theorem on the orbits of a map, certified by rules of the checker, as one file of Coq: the map,
-the premises proved by their certificates, and the theorem by proofs/coq/Rules.v.
+"""A theorem on the orbits of a map or relation, certified by rules of the checker, as one file of
+Coq: the map, the premises proved by their certificates, and the theorem by proofs/coq/orbits.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from pathlib import Path
 from string import Template
 
@@ -15,6 +15,7 @@ from juggleproof.certificates.coq.branch import Known
 from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
 from juggleproof.certificates.language import lemmas_of, rests_on
 from juggleproof.certificates.nodes import Certificate
+from juggleproof.proofs.theorem import coq_kinds as kinds
 from juggleproof.proofs.theorem import coq_rule_templates as texts
 from juggleproof.proofs.theorem.coq_frame import (
     Frame,
@@ -35,9 +36,9 @@ from juggleproof.proofs.theorem.coq_values import (
     lyapunov_proofs,
 )
 
-COQ = Path(__file__).resolve().parents[1] / "coq"
-# what says nothing of the orbits that tend to a point, or is a part of what does
-NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation", "escapes")
+ORBITS = Path(__file__).resolve().parents[1] / "coq" / "orbits"
+# what says nothing of stability or attraction
+NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation")
 
 
 def theorems_in(statements: Known) -> list[str]:
@@ -52,17 +53,18 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
     """The file of a certified theorem, which coqc accepts by itself.
 
     The certificates are those of the statement, of all that it rests on, and of the lemmas that
-    these use.  Raises NotWritten for a rule, or a part of a certificate, that is not written for
-    Coq.
+    these use.  Raises NotWritten for a part of a certificate that is not written for Coq, and where
+    a map and a relation, or two relations of other inputs, are joined.
     """
     everything = [*_chain(name, statements, whole=True)]
-    for one in everything:
-        if statements[one].kind not in RULES:
-            raise NotWritten(f"{one} is of a rule that is not written for Coq; claim it by another")
-    kinds = {statements[one].kind for one in everything}
-    rows = [Template(texts.HEADER).substitute(name=name)]
-    rows.append(_theory(not kinds.isdisjoint(("lyapunov", "unstable", "into"))))
-    frame = Frame(statements[everything[0]], statements)
+    own = [statements[one] for one in everything]
+    if len({str(one.get("input")) for one in own if one.get("state")}) > 1:  # a map has none
+        raise NotWritten(
+            "it joins a map and a relation, or two relations; claim both with the same line `input`"
+        )
+    frame = Frame(own[0], statements)
+    rows = [Template(texts.HEADER).substitute(name=name, M=frame.words["M"])]
+    rows.append(_theory({one.kind for one in own}))
     rows += states(frame)
     used = _uses(everything, certificates)
     rows += [
@@ -121,23 +123,22 @@ def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[
     return used
 
 
-def _theory(with_lyapunov: bool) -> str:
-    """The lemmas of certificates, and the rules for any map."""
-    sources = ["Readings.v", "Rules.v", *["Lyapunov.v"] * with_lyapunov]
+def _theory(rules: Set[str]) -> str:
+    """The lemmas of certificates, and what rules conclude for any map or relation."""
+    modules = {"Rules": "Rules.v"}
+    if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
+        modules["Lyapunov"] = "Lyapunov.v"
+    if "relation" in rules:
+        modules["Executions"] = "Relation.v"
     imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
-    prelude, read, rules, *more = (
-        imports.sub("", text) for text in (PRELUDE, *((COQ / one).read_text() for one in sources))
-    )
-    return "\n".join(
-        [
-            "From Coq Require Import Reals ZArith Lra Lia List.",
-            "Open Scope R_scope.\n",
-            prelude,
-            read,
-            f"Module Rules.\n{rules}End Rules.\n",
-            *(f"Module Lyapunov.\nImport Rules.\n{text}End Lyapunov.\n" for text in more),
-        ]
-    )
+    rows = ["From Coq Require Import Reals ZArith Lra Lia List.", "Open Scope R_scope.\n"]
+    rows += [imports.sub("", text) for text in (PRELUDE, (ORBITS / "Readings.v").read_text())]
+    needs = ""
+    for module, source in modules.items():
+        text = imports.sub("", (ORBITS / source).read_text())
+        rows.append(f"Module {module}.\n{needs}{text}End {module}.\n")
+        needs += f"Import {module}.\n"
+    return "\n".join(rows)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -152,7 +153,7 @@ def states(f: Frame) -> Iterator[str]:
     yield f"Definition State : Type := {' * '.join(['R'] * len(axes))}."
     yield f"Inductive axis : Set := {' | '.join(axes)}."
     yield f"Definition coordinate (of_j : axis) {f.pattern} : R :=\n  match of_j with {cases} end."
-    yield texts.STABLE
+    yield kinds.STABLE[f.kind]
     yield "End States.\n"
 
 
@@ -188,9 +189,8 @@ def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         one_guard=disjunctive(["of_g"] * last),
         none="|".join(f"exact (of_not_{k} of_g)" for k in f.pieces),
         stays=f.by_pieces(own, "stays", "of_map of_there of_g", places=""),
-        open_t=opened("of_t", [f"of_{axis}" for axis in range(len(f.axes))]),
-        equal=equal_states([f"(of_same {axis})" for axis in f.axes]),
     )
+    yield _same_state(f, own)
     for k in f.pieces:
         others = []
         for i in f.pieces:
@@ -202,9 +202,54 @@ def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         yield f.fill(texts.PIECE, own, k=k, one_piece=f.one_piece(), others=filled)
 
 
+def _same_state(f: Frame, own: checker.Statement) -> str:
+    """States with the same coordinates are the same."""
+    return f.fill(
+        texts.SAME_STATE,
+        own,
+        open_t=opened("of_t", [f"of_{axis}" for axis in range(len(f.axes))]),
+        equal=equal_states([f"(of_same {axis})" for axis in f.axes]),
+    )
+
+
+def relation_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """Domain and space, and the next states by the pieces, for some inputs."""
+    yield "Module Relation.\nImport States."
+    yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
+    yield f.define(own, "space", "Prop", *own.get("space"))
+    inputs, names = "".join(f" {name}" for name in f.inputs), " ".join(f.inputs)
+    more = f" ({names} : R)" if names else ""
+    some, steps = (f"exists {names} : R, " if names else ""), []
+    for k, ((guard,), images) in enumerate(own.get("piece"), 1):
+        yield f.define(own, f"guard_{k}", "Prop", guard, more=more)
+        yield f.define(own, f"image_{k}", "State", *images, more=more)
+        applied = f"$a of_s{inputs}"
+        steps.append(f"({some}guard_{k}{applied} /\\ of_t = image_{k}{applied})")
+    text = f"Definition next{f.bound} (of_s of_t : State) : Prop :=\n  "
+    yield f.fill(text + " \\/\n  ".join(steps) + ".", own)
+    yield "End Relation."
+
+
+def relation_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """Each state of the space has a next one, and all next ones are in the space."""
+    last, exists = f.pieces[-1], "".join(f"exists {name}; " for name in f.inputs)
+    images = []
+    for k in f.pieces:
+        which = "right; " * (k - 1) + "left; " * (k < last)
+        images.append(f"eexists; {which}{exists}split; [exact of_g|reflexivity]")
+    yield f.fill(
+        texts.RELATION,
+        own,
+        some_guard=conjunctive([*f.inputs, disjunctive(["of_g"] * last)]),
+        an_image="|".join(images),
+        stays=f.by_pieces(own, "stays", "of_map of_there of_g", places=""),
+    )
+    yield _same_state(f, own)
+
+
 def descent_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Rank and stages."""
-    yield "Module Descent.\nImport States Map."
+    yield f"Module Descent.\nImport States {f.words['M']}."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "rank", "R", *own.get("rank"))
     stages = own.get("stage")
@@ -232,7 +277,8 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     for k in stages:
         leads = f.by_pieces(own, f"stage_{k}", "of_dom of_there of_in of_g of_next")
         yield f.fill(texts.STAGE, own, k=k, next=next_, following=min(k + 1, last), leads=leads)
-    lead_on = "".join(f"exact (of_stage_{k}$a of_dom of_s of_there of_in)|" for k in stages[:-1])
+    known = "of_dom $st of_there$by of_in"
+    lead_on = "".join(f"exact (of_stage_{k}$a {known})|" for k in stages[:-1])
     yield f.fill(
         texts.DESCENDS,
         own,
@@ -240,6 +286,7 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         lead_on=f.fill(lead_on, own),
         last=last,
         extra=f.extra_steps(own),
+        **f.of_kind(kinds.DESCENT, own),
     )
 
 
@@ -255,7 +302,7 @@ def _in_a_stage(count: int) -> str:
 
 def contraction_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The set, the point, and the numbers of the norm."""
-    yield "Module Contraction.\nImport States Map."
+    yield f"Module Contraction.\nImport States {f.words['M']}."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "on", "Prop", *own.get("on"))
     for name in ("point", "weights"):
@@ -296,11 +343,12 @@ def contraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         closer=f.by_pieces(
             own,
             "closer",
-            "of_c of_dom of_there of_in (Rle_ge _ _ of_positive) of_close of_g of_next",
+            "of_dom of_there of_in (Rle_ge _ _ of_positive) of_close of_g of_next",
+            point="$s of_c",
         ),
         stays=f.by_pieces(own, "stays", "of_dom of_there of_in of_g of_next"),
-        constants=f.fill(texts.CONSTANTS, own, known="of_dom"),
-        norm=f.fill(texts.NORM, own),
+        constants=f.fill(texts.CONSTANTS, own),
+        **f.of_kind(kinds.CONTRACTION, own, "Contraction"),
     )
 
 
@@ -310,26 +358,23 @@ def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The point is stable, and attracts every state."""
-    descent = f.known[own.get("descent")[0]]
-    if own.get("lyapunov"):
-        yield f.fill(
-            texts.ATTRACTS_BY_LYAPUNOV,
-            own,
-            extra=f.extra_steps(descent),
-            last=f.extra_steps(descent) + 1,
-            descent=reading_name(descent.name),
-            descends=theorem_name(descent.name),
-            lyapunov=theorem_name(own.get("lyapunov")[0]),
-        )
-        return
+    """The point is stable, and attracts every state; with a contraction within a bound."""
+    descent, bounded = f.known[own.get("descent")[0]], bool(own.get("contraction"))
+    extra, words = f.extra_steps(descent), f.of_kind(kinds.ENTERED, own, _around(f, own))
     yield f.fill(
         texts.ATTRACTS,
         own,
-        extra=f.extra_steps(descent),
+        within_a_bound=", within a bound" * bounded,
+        bound=f.fill(texts.BOUND, own, extra=extra) * bounded,
+        settles=theorem_name((own.get("lyapunov") + own.get("contraction"))[0]),
+        tends="of_tends & of_nearer" if bounded else "of_tends",
+        split="split" * bounded,
+        bounded=f.fill(texts.BOUNDED, own, extra=extra, **words) * bounded,
+        extra=extra,
+        last=extra + 1,
         descent=reading_name(descent.name),
-        constants=f.fill(texts.CONSTANTS, own, known="of_con"),
-        norm=f.fill(texts.NORM, own),
+        descends=theorem_name(descent.name),
+        **words,
     )
 
 
@@ -343,7 +388,7 @@ def escape_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The start is not the point, and is back after a period."""
+    """The start is back after a period, so that the point does not attract it."""
     (word,) = own.get("word")
     guards = [f"of_guard_{k}" for k in range(len(word))]
     back = [f"of_back_{k}" for k in range(len(f.axes))]
@@ -405,14 +450,16 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state of the larger space."""
     descent, attraction = f.known[own.get("descent")[0]], f.known[own.get("attraction")[0]]
     inner_descent, last = f.known[attraction.get("descent")[0]], f.extra_steps(descent) + 1
-    agree = "|".join(
+    images = "|".join(
         f.fill(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)", own)
         for k in f.pieces
     )
+    around, one_piece = _around(f, own), f.one_piece()
+    words = f.of_kind(kinds.ENTERED, own, around)
+    words |= f.of_kind(kinds.INTO, own, around, one_piece=one_piece, images=images)
     yield f.fill(
         texts.INTO,
         own,
-        around=_around(f, own),
         tends=_tends(attraction),
         attraction=f"Inner.{theorem_name(attraction.name)}",
         descent=reading_name(descent.name),
@@ -420,9 +467,8 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         descends=theorem_name(descent.name),
         extra=last - 1,
         last=last,
-        one_piece=f.one_piece(),
-        agree=agree,
         within=conjoined([f"(within_one _ _ (of_close {axis}))" for axis in f.axes]),
+        **words,
     )
 
 
@@ -466,6 +512,7 @@ def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 Rows = Callable[[Frame, checker.Statement], Iterator[str]]
 RULES: Mapping[str, tuple[Rows, Rows]] = {
     "map": (map_definitions, map_proofs),
+    "relation": (relation_definitions, relation_proofs),
     "descends": (descent_definitions, descent_proofs),
     "contracts": (contraction_definitions, contraction_proofs),
     "lyapunov": (lyapunov_definitions, lyapunov_proofs),

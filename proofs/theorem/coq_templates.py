@@ -8,7 +8,7 @@ HEADER = """\
 (* The theorem as it is meant to be read: every definition in full, every theorem closed by the
    proof that stands elsewhere.
 
-   Written by proofs/theorem/coq_statements.py from the derivations in symbolic/ and the table in
+   Written by proofs/theorem/coq.py from the derivations in symbolic/ and the table in
    proofs/theorem/definition.py: do not edit.
 
    Defined:  iterate, dist, stable, attracting in their usual form; the ball's sampled map with its

@@ -100,6 +100,9 @@ def _enclosed(text: str, own: int, level: int) -> str:
 
 def names_in(text: str) -> set[str]:
     """The names that occur in a text; `sqrt` is none."""
-    return {node.id for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)} - {
-        "sqrt"
-    }
+    return names_of(checker.parse(text)) - {"sqrt"}
+
+
+def names_of(node: ast.AST) -> set[str]:
+    """The names that occur in a syntax tree."""
+    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
+from juggleproof.proofs.theorem import coq_kinds as kinds
 from juggleproof.proofs.theorem import coq_rule_templates as texts
 from juggleproof.proofs.theorem.coq_frame import Frame, nested
 
@@ -77,7 +78,7 @@ def values_of(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The value, what it loses at least, and the set."""
-    yield f"Module {LYAPUNOV}.\nImport States Map."
+    yield f"Module {LYAPUNOV}.\nImport States {f.words['M']}."
     yield from values_of(f, own)
     yield f.define(own, "on", "Prop", *own.get("on"))
     yield f.define(own, "loss", "R", *own.get("loss"), more=" (value : R)")
@@ -107,7 +108,8 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     extra = "" if is_plain else " of_v"
     falls, small = [], []
     for k, guard in enumerate(around.guards, 1):
-        rows = f"{{ assert (of_next := of_map_keeps$a of_s of_map of_there).\n    {own_value}{here}"
+        rows = "{ assert (of_next := of_map_keeps$a $st of_map of_there$by).\n"
+        rows += f"    {own_value}{here}"
         if is_plain:
             rows += f"apply Rle_trans with ({value} - {loss});\n      "
             rows += "[|exact (Rplus_le_compat_r _ _ _ of_own)].\n    "
@@ -127,7 +129,7 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
             f"exact (${{P}}_small_{k}$a{around.points} {around.gaps} of_d of_dom{around.proofs}"
             f" {around.sums} of_there (Rle_ge _ _ of_1) of_close of_2{' of_here' if guard else ''})"
         )
-    norm = f"(Map.f$a) States.coordinate (fun of_j => States.coordinate of_j ({LYAPUNOV}.point$a))"
+    rules = f.of_kind(kinds.LYAPUNOV, own, LYAPUNOV)
     parts = f"({LYAPUNOV}.guards$a) ({LYAPUNOV}.values$a) {len(around.guards)}"
     losses = f"(fun of_s {'_' if is_plain else 'of_v'} => {loss}) ({LYAPUNOV}.least$a)"
     more = {
@@ -149,9 +151,10 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         "value": value,
         "reached": "(Rle_refl _)" if is_plain else heres,
         "falls": "\n    ".join(falls),
-        "function": f"{norm} (Map.space$a)\n      ({LYAPUNOV}.set$a) {parts} {losses}"
+        "function": f"{rules['system']} ({LYAPUNOV}.set$a) {parts} {losses}"
         f"\n      ({LYAPUNOV}.upper$a) ({LYAPUNOV}.radius$a)",
-        "attraction": f"{norm}\n      ({LYAPUNOV}.set$a) {parts} {losses}",
+        "attraction": f"{rules['orbits']} ({LYAPUNOV}.set$a) {parts} {losses}",
+        **rules,
     }
     yield around.fill(f, texts.LYAPUNOV, own, more)
 

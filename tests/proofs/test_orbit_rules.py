@@ -346,6 +346,15 @@ def test_a_premise_within_no_budget_is_what_z3_says_holds(
     assert "false at" not in out
 
 
+def test_what_was_open_is_searched_again_holds(tmp_path: Path) -> None:
+    """With more work, and after what it rests on is mended."""
+    overlapping = (*MAP, ("piece", "x >= 1 -> a"))
+    assert certify(file_of(tmp_path), "--budget", "200") == 1
+    assert certify(file_of(tmp_path)) == 0
+    assert certify(file_of(tmp_path, of_map=overlapping)) == 1
+    assert certify(file_of(tmp_path)) == 0
+
+
 def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

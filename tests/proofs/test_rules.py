@@ -100,6 +100,18 @@ def test_a_range_is_sharp_only_for_the_conclusion_itself_holds(
     assert range_of_rule("t/exactly", SHARP, is_conclusion=is_conclusion) == text
 
 
+def test_what_is_asked_of_other_parameters_is_part_of_the_range_holds() -> None:
+    both = {
+        name: text.replace("over a\ndomain a > 0", "over a b\ndomain a > 0 and b > 0").replace(
+            "3*a < 1", "3*a < 1 and b > 0 and b < 1"
+        )
+        for name, text in SHARP.items()
+    }
+    assert range_of_rule("t/exactly", both) == "a > 0 and 3*a < 1 and b > 0 and b < 1"
+    within = {name: text.replace(" and b < 1", "") for name, text in both.items()}
+    assert range_of_rule("t/exactly", within) == "0 < a < 1/3"
+
+
 def test_a_map_without_parameters_has_no_range_holds() -> None:
     texts = {
         "t/map": "statement t/map\nover \ndomain 0 < 1\nstate x",

@@ -166,7 +166,10 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
         entry = np.repeat(np.arange(len(values)), whole)
         part = starts[inverse[entry]] + counted(whole)
         keys, inverse = np.unique([key for form in forms for key in form], return_inverse=True)
-        coefficients = np.array([c for form in forms for c in form.values()], dtype=np.float64)
+        try:
+            coefficients = np.array([c for form in forms for c in form.values()], dtype=np.float64)
+        except OverflowError:  # beyond 10^308
+            return None
         values, places = values[entry] * coefficients[part], places[entry]
         inverse = inverse[part]
         if len(keys) * columns > MOST_ENTRIES:

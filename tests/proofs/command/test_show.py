@@ -19,6 +19,7 @@ from juggleproof.proofs.command.show import export_smt2, list_claims
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.tables import draw
+from tests.proofs.command import running
 
 
 def heads(text: str) -> list[str]:
@@ -56,6 +57,13 @@ def test_export_of_the_whole_paper_writes_every_statement_holds(tmp_path: Path) 
 def test_rejects_export_of_an_unknown_name() -> None:
     with pytest.raises(ClaimError, match="eq-999: no such claim; did you mean eq-9"):
         export_smt2(["eq-3", "eq-999"], None)
+
+
+def test_rejects_export_of_a_file_to_other_than_coq() -> None:
+    for form in ("smt2", "latex"):
+        done = running.run("export", form, "mine.py")
+        line = "juggleproof: mine.py: claims of your own are exported to coq only\n"
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", line)
 
 
 def test_claims_of_a_section_and_a_verdict_are_listed_holds(

@@ -30,8 +30,16 @@ def coqc() -> str:
 def order() -> tuple[str, ...]:
     """The files of the development in the order of _CoqProject."""
     return tuple(
-        row for row in (SOURCES / "_CoqProject").read_text().splitlines() if row.endswith(".v")
+        Path(row).name
+        for row in (SOURCES / "_CoqProject").read_text().splitlines()
+        if row.endswith(".v")
     )
+
+
+def source(name: str) -> str:
+    """The text of a file of the development, whichever folder it is in."""
+    (path,) = SOURCES.glob(f"*/{name}")
+    return path.read_text()
 
 
 def compiled(folder: Path, name: str, text: str) -> subprocess.CompletedProcess[str]:
@@ -49,6 +57,6 @@ def compiled(folder: Path, name: str, text: str) -> subprocess.CompletedProcess[
 def build(folder: Path) -> Path:
     """The whole development compiled in the folder."""
     for name in order():
-        result = compiled(folder, name, (SOURCES / name).read_text())
+        result = compiled(folder, name, source(name))
         assert result.returncode == 0, (name, result.stderr)
     return folder

@@ -141,6 +141,60 @@ def zero_attracts_from_above() -> list[MapRule]:
     ]
 
 
+@claim("cycle")
+def a_point_that_two_states_never_reach() -> list[MapRule]:
+    """x -> a x (1 - x) on [0, 1], 3 < a < 7/2: 1 - 1/a does not attract a state of period 2."""
+    over = (("over", "a"), ("domain", "3 < a and a < 7/2"), ("state", "x"), ("space", UNIT))
+    root = ("root", "u = sqrt(a^2 - 2*a - 3)")
+    orbit = (("point", "1 - 1/a"), ("start", "(a + 1 - u)/(2*a)"), ("word", "1 1"))
+    domain = ("domain", "3 < a and a < 7/2 and a > 0")
+    return [
+        MapRule("map", (*over, ("piece", "x >= 0 -> a*x*(1 - x)"))),
+        MapRule("away", (("map", "cycle/map"), domain, root, *orbit)),
+    ]
+
+
+@claim("pushed")
+def zero_attracts_whatever_the_input() -> list[MapRule]:
+    """x -> u x, |u| <= a < 1, for x < 1, x - 1 above: all executions from x > -1 tend to 0."""
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x"), ("input", "u"))
+    pieces = (("piece", "-a <= u and u <= a and x < 1 -> u*x"), ("piece", "x >= 1 -> x - 1"))
+    of, open_ = (("relation", "pushed/small"), ("domain", BELOW_1)), "-1 < x and x < 1"
+    set_, numbers = (("on", open_), ("point", "0")), norm("1", rate="a", radius="1/2", size="1")
+    rank = (("domain", BELOW_1), ("rank", "x + 1"), ("stage", open_))
+    return [
+        MapRule("small", (*over, ("space", open_), *pieces)),
+        MapRule("near", (*of, *set_, *numbers)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", open_))),
+        MapRule("inner", (("descent", "pushed/down"), ("contraction", "pushed/near"))),
+        MapRule("large", (*over, ("space", "-1 < x"), *pieces)),
+        MapRule("falls", (("relation", "pushed/large"), *rank)),
+        MapRule(
+            "all",
+            (("descent", "pushed/falls"), ("attraction", "pushed/inner"), ("radius", "1/2")),
+        ),
+    ]
+
+
+@claim("switched")
+def origin_attracts_however_it_is_switched() -> list[MapRule]:
+    """Two linear maps of the quadrant, either at each step: all executions tend to the origin."""
+    quadrant = "0 <= x and 0 <= y"
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x y"), ("input", ""))
+    pieces = (("piece", "x >= 0 -> a*y, a*x"), ("piece", "y >= 0 -> a*x, a*y/2"))
+    of = (("relation", "switched/step"), ("domain", BELOW_1))
+    value = (("value", "x_gap"), ("value", "y_gap >= 0 -> y_gap"))
+    falls = (("loss", "(1 - a)*value"), ("least", "(1 - a)*distance"), ("upper", "1"))
+    return [
+        MapRule("step", (*over, ("space", quadrant), *pieces)),
+        MapRule(
+            "near", (*of, ("on", quadrant), ("point", "0, 0"), *value, *falls, ("radius", "1"))
+        ),
+        MapRule("down", (*of, ("rank", "0"), ("stage", quadrant))),
+        MapRule("all", (("descent", "switched/down"), ("lyapunov", "switched/near"))),
+    ]
+
+
 def norm(weights: str, rate: str, radius: str, size: str) -> tuple[tuple[str, str], ...]:
     """The numbers of a contraction."""
     return ("weights", weights), ("rate", rate), ("radius", radius), ("size", size)

@@ -14,7 +14,7 @@ import pytest
 from juggleproof.certificates import checker
 from tests.certificates.checker.harness import Case, judge
 from tests.certificates.checker.rules import TABLES
-from tests.proofs.coq.development import SOURCES, compiled
+from tests.proofs.coq.development import SOURCES, compiled, source
 from tests.proofs.coq.model import HEAD, NotWritten, accepted
 from tests.proofs.coq.test_development import REALS
 
@@ -32,9 +32,7 @@ def test_the_rules_rest_on_the_axioms_of_the_reals_alone_holds(development: Path
     asked = [
         f"@{file}.{name}"
         for file in FILES
-        for name in re.findall(
-            r"^(?:Theorem|Lemma) (\w+)", (SOURCES / f"{file}.v").read_text(), flags=re.MULTILINE
-        )
+        for name in re.findall(r"^(?:Theorem|Lemma) (\w+)", source(f"{file}.v"), flags=re.MULTILINE)
     ]
     assert len(asked) > 100 and "@Leaves.closes_sound" in asked
     text = (
@@ -48,7 +46,7 @@ def test_the_rules_rest_on_the_axioms_of_the_reals_alone_holds(development: Path
 
 
 def test_every_proof_rule_is_one_of_coqs_holds() -> None:
-    text = (SOURCES / "Leaves.v").read_text()
+    text = source("Leaves.v")
     (cases,) = re.findall(r"^Inductive node :=\n(.*?)\.\n", text, re.DOTALL | re.MULTILINE)
     page = (SOURCES.parents[1] / "docs" / "certificates.md").read_text()
     rules = re.findall(r"^### `(\w+)`", page.split("## Proof rules")[1].split("\n## ")[0], re.M)
@@ -70,6 +68,7 @@ WEAKER = {
         "exists k, (k < count)%nat /\\ guard k s.",
         "exists k, guard k s.",
     ),
+    "after-the-point": ("Relation", "next t u -> forall j,", "next s u -> forall j,"),
     "loss-at-the-point": ("Lyapunov", "0 <= v -> 0 <= loss s v.", "0 <= v -> -1 <= loss s v."),
     "direction-elsewhere": (
         "Lyapunov",
@@ -332,7 +331,7 @@ WEAKER = {
 @pytest.mark.parametrize("name", list(WEAKER)[::SHARE])
 def test_rejects_a_weaker_rule(name: str, development: Path) -> None:
     file, old, new = WEAKER[name]
-    text = (SOURCES / f"{file}.v").read_text()
+    text = source(f"{file}.v")
     assert text.count(old) >= 1
     result = compiled(development, "Mutant.v", text.replace(old, new))
     assert result.returncode != 0 and "Error" in result.stderr

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import copy
 import re
-import shutil
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -28,15 +27,16 @@ from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
-TURNED, LARGE = "turned/exactly", "falling/all"
+TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
+INPUT, EITHER = "pushed/all", "switched/all"
 
 
-def settles(point: str) -> str:
+def settles(point: str, words: str = "(Map.space a) (Map.f a)") -> str:
     """That a point is stable and attracts every state, as it is stated."""
-    words = "(Map.space a) (Map.f a)"
     return f"States.stable {words} ({point} a) /\\ States.attracting {words} ({point} a)"
 
 
+RELATION = "(Relation.space a) (Relation.next a)"
 CONCLUSIONS = {
     SHARP: f"Map.domain a -> (Descent.domain a <-> {settles('Contraction.point')}).",
     PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
@@ -44,6 +44,11 @@ CONCLUSIONS = {
     GROWN: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
     TURNED: f"Map.domain a -> (Descent.domain a <-> {settles('LyapunovFunction.point')}).",
     LARGE: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
+    CYCLE: "Escape.domain a -> Map.space a (Escape.start a) /\\"
+    " Rules.iterate (Map.f a) 2 (Escape.start a) = Escape.start a /\\ Escape.start a <>"
+    " Escape.point a /\\ ~ States.attracting (Map.space a) (Map.f a) (Escape.point a).",
+    INPUT: f"Descent.domain a -> {settles('Inner.Contraction.point', RELATION)}.",
+    EITHER: f"Descent.domain a -> {settles('LyapunovFunction.point', RELATION)}.",
 }
 
 
@@ -99,6 +104,7 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
         (PLANE, "mixed/down", "stage-1-1", "falls-1"),
         (SHIFTED, "shifted/near", "falls-1-1", "falls-2-2"),
         (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
+        (EITHER, "switched/near", "falls-1-2", "falls-2-1"),
         (TURNED, "turned/swings", "bounded-1", "grows-1-1"),
     ],
 )
@@ -117,6 +123,8 @@ def test_rejects_a_forged_certificate(
         (SHARP, "domain (a : R) : Prop :=\n  0 < a /\\ a < 1.", "domain (a : R) : Prop := 0 < a."),
         (SHARP, "then image_1 a of_s\n  else of_s", "then of_s\n  else image_1 a of_s"),
         (PLANE, "(x / 4, (x + y) / 4)", "(x / 4, (x - y) / 4)"),
+        (CYCLE, "(a + 1 - u) / (2 * a)", "(a + 1 + u) / (3 * a)"),
+        (INPUT, "- a <= u /\\ u <= a /\\ x < 1.", "u <= a /\\ x < 1."),
     ],
 )
 def test_rejects_a_changed_map(name: str, old: str, new: str, tmp_path: Path) -> None:
@@ -153,21 +161,25 @@ def test_rests_on_decides_what_is_a_theorem_holds() -> None:
     del texts[SHARP]
     assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [
         "scaled/all",
+        "scaled/away",
         *[*CONCLUSIONS][1:],
     ]
 
 
 def test_rejects_what_cannot_be_written_in_one_line(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    own = shutil.copy(MAPS, tmp_path / "own.py")
-    monkeypatch.delitem(coq_rules.RULES, "escapes")
+    own, text = tmp_path / "own.py", MAPS.read_text()
+    text = text.replace(
+        '"large", (*over, ("space", "x', '"large", (*over, ("input", ""), ("space", "x'
+    )
+    own.write_text(text.replace('"map", "falling/large"', '"relation", "falling/large"'))
     assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
     names = {path.name for path in (tmp_path / "coq").iterdir()}
-    assert "S_scaled_exactly.v" not in names and len(names) == len(CONCLUSIONS) - 1
+    assert "S_falling_all.v" not in names and len(names) == len(CONCLUSIONS) - 1
     assert capsys.readouterr().err == (
-        f"juggleproof: {own}: scaled/exactly: scaled/away is of a rule that is not written for Coq;"
-        " claim it by another\n"
+        f"juggleproof: {own}: falling/all: it joins a map and a relation, or two relations;"
+        " claim both with the same line `input`\n"
     )
     text = MAPS.read_text().replace('rate="1/2"', 'rate="1/9"')
     own.write_text(text)
@@ -190,7 +202,7 @@ def squares_are_not_negative():
 def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
     own = tmp_path / "own.py"
     own.write_text(INEQUALITY)
-    says = f"{own}: no claim on the orbits of a map; add a MapRule that concludes one"
+    says = f"{own}: no theorem on all orbits of a map; add a MapRule that concludes one"
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq([str(own)], None)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.proofs.coq.development import SOURCES, compiled, order
+from tests.proofs.coq.development import compiled, order, source
 
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 4
 PHYSICS = ("Executions.v", "Bouncing.v", "Existence.v", "FromPhysics.v")
@@ -47,12 +47,12 @@ THEOREMS = {
 @pytest.mark.parametrize("name", list(DEFINITIONS)[::SHARE])
 def test_rejects_a_changed_definition(name: str, development: Path, tmp_path: Path) -> None:
     old, new = DEFINITIONS[name]
-    text = (SOURCES / PHYSICS[0]).read_text()
+    text = source(PHYSICS[0])
     assert text.count(old) == 1 and [file for file in order() if file in PHYSICS] == list(PHYSICS)
     for path in development.glob("*.vo"):
         shutil.copy(path, tmp_path)
     for file in PHYSICS:
-        changed = text.replace(old, new) if file == PHYSICS[0] else (SOURCES / file).read_text()
+        changed = text.replace(old, new) if file == PHYSICS[0] else source(file)
         result = compiled(tmp_path, file, changed)
         if result.returncode:
             break
@@ -62,7 +62,7 @@ def test_rejects_a_changed_definition(name: str, development: Path, tmp_path: Pa
 @pytest.mark.parametrize("name", list(THEOREMS)[::SHARE])
 def test_rejects_a_changed_theorem(name: str, development: Path) -> None:
     old, new = THEOREMS[name]
-    text = (SOURCES / PHYSICS[-1]).read_text()
+    text = source(PHYSICS[-1])
     assert old in text
     result = compiled(development, "Mutant.v", text.replace(old, new))
     assert result.returncode != 0 and "Error:" in result.stderr and "yntax" not in result.stderr

@@ -7,13 +7,16 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections import Counter
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from fractions import Fraction
 from multiprocessing import get_context
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
+import z3
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
@@ -21,8 +24,14 @@ from juggleproof.proofs.api import certify
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import Options
 from juggleproof.proofs.run import run as judged
-from juggleproof.proofs.smtlib.answering import Question, answer, answer_files, settled
-from juggleproof.proofs.smtlib.script import problems_of_file
+from juggleproof.proofs.smtlib.answering import (
+    Question,
+    answer,
+    answer_files,
+    question,
+    settled,
+)
+from juggleproof.proofs.smtlib.script import problems_of_file, read_problems
 from tests.proofs.command.running import ROOT, run, run_anew
 from tests.proofs.smtlib.evaluating import truth
 
@@ -120,6 +129,16 @@ def test_numbers_that_the_search_cannot_hold_are_unknown_holds(body: str, tmp_pa
         found.answer.word == "unknown"
         and found.answer.reason == "its numbers grow too long for the search"
     )
+
+
+def test_a_problem_beyond_the_checkers_limits_is_unknown_and_says_so(tmp_path: Path) -> None:
+    names = [f"x{k}" for k in range(70)]
+    rising = "".join(f"(assert (< {one} {other}))" for one, other in zip(names, names[1:]))
+    for divided in ("", "(assert (> (/ 1 x5) x6))"):
+        text = "".join(f"(declare-const {name} Real)" for name in names)
+        (found,) = answer_files([script(tmp_path, f"{text}{rising}{divided}(check-sat)")])
+        assert found.answer.word == "unknown"
+        assert found.answer.reason == "beyond the checker's limits: too many variables: x60"
 
 
 def test_contradictory_givens_are_unsat_by_a_statement_of_their_own_holds(tmp_path: Path) -> None:
@@ -345,3 +364,35 @@ def test_rejects_bad_input_in_one_line(
     done = run("certify", *arguments, cwd=tmp_path)
     assert done.returncode == 2 and told in done.stderr and done.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["mine.smt2"]
+
+
+def _term(rng: Random, depth: int) -> str:
+    if depth == 0 or rng.random() < 1 / 4:
+        return rng.choice(["x", "y", "1", "2", "0", "(- 1)"])
+    sign = rng.choice("+-*//")
+    return f"({sign} {_term(rng, depth - 1)} {_term(rng, depth - 1)})"
+
+
+def _formula(rng: Random, depth: int) -> str:
+    if depth == 0 or rng.random() < 2 / 5:
+        sign = rng.choice(["<", "<=", "=", ">", ">="])
+        return f"({sign} {_term(rng, 2)} {_term(rng, 1)})"
+    sign = rng.choice(["and", "or", "=>", "not"])
+    parts = [_formula(rng, depth - 1) for _ in range(1 if sign == "not" else 2)]
+    return f"({sign} {' '.join(parts)})"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_random_problems_with_divisions_by_anything_are_answered_as_by_z3_holds(seed: int) -> None:
+    rng, words = Random(seed), Counter[str]()
+    for _ in range(20):
+        asserted = "".join(f"(assert {_formula(rng, 2)})" for _ in range(rng.randint(1, 3)))
+        text = f"(declare-const x Real)(declare-const y Real){asserted}"
+        (problem,) = read_problems(text + "(check-sat)", "f")
+        word = answer(question(problem, "f/check")).word
+        solver = z3.Solver()
+        solver.set("rlimit", 3_000_000)
+        solver.from_string(text)
+        assert word == str(solver.check()), text
+        words[word] += 1
+    assert words["sat"] and words["unsat"]

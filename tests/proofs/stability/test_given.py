@@ -62,7 +62,18 @@ REJECTED = {
     ),
     "over a\ndomain a > b\nstate x\npiece a*x": ("{file}:2: b is no parameter; name it in `over`"),
     "state x\npiece x/2\npoint x": "{file}:3: x is no parameter; name it in `over`",
-    "state x\npiece sin(x)": "{file}:2: sin(..) is no function here; abs, max and min are",
+    "state x\npiece sin(x)": "{file}:2: sin(..) is no function here; write abs, max or min",
+    "state x\nspace implies(x > 0)\npiece x": (
+        "{file}:2: implies(..) is no function here; write abs, max or min"
+    ),
+    "state x\npiece max(*x)": (
+        f"{{file}}:2: unreadable: max(*x); write shorter formulas of {SIGNS.removeprefix('write ')}"
+    ),
+    "state x\npiece " + " + ".join(["x"] * 999): (
+        "{file}:2: unreadable: "
+        + "x + " * 14
+        + f"x ..; write shorter formulas of {SIGNS.removeprefix('write ')}"
+    ),
     "state x\npiece max(x > 0, 1)": "{file}:2: max of a formula; it takes terms",
     "state x\nspace abs(x) <= 1\npiece x/2": (
         "{file}:2: abs stands outside of a piece; write comparisons without it"

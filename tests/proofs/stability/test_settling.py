@@ -31,6 +31,17 @@ SETTLED = {  # name: (text, exit code, first line)
         0,
         f"proved   cobweb: (1/(s + 1)) {STABLE} if and only if 1 - s > 0",
     ),
+    "share": (  # no map at b = 0
+        "over b\ndomain 0 <= b < 2\nstate p\nspace p >= 0\npiece max(0, 1 - p/b)",
+        0,
+        f"proved   share: (b/(b + 1)) {STABLE} if and only if b - 1 > 0, of all parameters with"
+        " b > 0",
+    ),
+    "half-share": (
+        "over b\ndomain 0 <= b < 1\nstate p\nspace p >= 0\npiece max(0, 1 - p/b)",
+        1,
+        f"refuted  half-share: at least where b > 0, (b/(b + 1)) {AWAY} 1, which is periodic",
+    ),
     "at-rest": (  # the identity at a = 0
         "over a\ndomain 0 <= a and a < 1\nstate x\npiece (1 - a)*x",
         0,
@@ -73,7 +84,7 @@ SETTLED = {  # name: (text, exit code, first line)
         "state x y\nspace x > 0 and y > 0\npiece 1 + x/y, x",
         1,
         "in part  quotient: (2, 2) is stable, and attracts every state with |(4/5)*(y - 2)| <= 1/8"
-        " and |x - 2| <= 1/8 and |(3/5)*(x - 2) + (-3/5)*(y - 2)| <= 1/8; of the others nothing"
+        " and |x - 2| <= 1/8 and |(3/5)*(x - 2) + (-3/5)*(y - 2)| <= 1/8; of other states nothing"
         " was found",
     ),
     "circle": (
@@ -240,7 +251,7 @@ FAULTS = {  # what stands in place of the map, and what is wrong with it
         "the line `state x`: state comes too late; write over, domain, state, space, piece, point"
     ),
     'MapRule("linear", (("state", "x"), ("piece", "sin(x)")))': (
-        "the line `piece sin(x)`: sin(..) is no function here; abs, max and min are"
+        "the line `piece sin(x)`: sin(..) is no function here; write abs, max or min"
     ),
     'MapRule("linear", (("state", "x"), ("piece", "x/2\\npoint 1")))': (
         "the line `piece x/2 point 1`: unreadable: x/2 point 1; write names, 3/10 or 0.3,"

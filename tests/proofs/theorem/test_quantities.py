@@ -247,7 +247,8 @@ def test_tree_of_the_theorem_leads_to_its_premises_holds(
     assert run(["explain", "theorem", "--premises"]) == 0
     said = capsys.readouterr().out
     assert (
-        "theorem/exactly: 2 premises: covers same-point-1" in said and "6 rules, 35 premises" in said
+        "theorem/exactly: 2 premises: covers same-point-1" in said
+        and "6 rules, 35 premises" in said
     )
     assert said.count("    statement theorem/") == 35 + said.split("rests on")[0].count(
         "    statement theorem/"

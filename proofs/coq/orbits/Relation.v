@@ -5,8 +5,9 @@
 
    Defined:  execution, shift.
    Proved:   relation_descent     an execution is in the last stage when a map's orbit would be;
-             relation_contraction, relation_stability   it contracts as an orbit does, and stays near;
+             relation_contraction, relation_stability, relation_convergence   it contracts as an orbit does, stays near, and converges;
              relation_lyapunov_stability, relation_lyapunov_attraction   likewise with a Lyapunov function;
+             relation_fixed_point, relation_lyapunov_fixed_point   no other state comes after the point;
              stable_point_stays   an execution from a stable point stays at it;
              relation_attraction  what attracts from a set attracts from all that leads into it;
              relation_into_attraction, relation_into_stability   an attraction on a smaller space is one of the larger. *)
@@ -30,6 +31,12 @@ Section Executions.
 
   Lemma first_shifted n x : iterate shift n x O = x n.
   Proof. rewrite shifted. f_equal. lia. Qed.
+
+  Lemma execution_keeps (P : State -> Prop) : (forall s t, P s -> next s t -> P t) -> forall x n, execution x -> P (x O) -> P (x n).
+  Proof. intros keeps x n runs first. induction n as [|n IH]; [exact first|]. exact (keeps _ _ IH (runs n)). Qed.
+
+  Lemma execution_later n x : execution x -> execution (fun k => x (n + k)%nat).
+  Proof. intros runs k. rewrite Nat.add_succ_r. apply runs. Qed.
 
   Lemma from_shifts (P : State -> Prop) : (forall s t, P s -> next s t -> P t) -> forall x, from P x -> from P (shift x).
   Proof. intros keeps x [runs first]. split; [intro n; apply runs|exact (keeps _ _ first (runs O))]. Qed.
@@ -105,7 +112,7 @@ Section Executions.
   Proof.
     intros enters attracts x runs inside. apply converges_of_shift. destruct (enters x runs inside) as [N there].
     apply converges_later with (N := N). apply converges_of_shift, attracts.
-    - intro n. rewrite !shifted, Nat.add_succ_r. apply runs.
+    - intro n. rewrite !shifted. exact (execution_later N x runs n).
     - now rewrite first_shifted.
   Qed.
 
@@ -126,6 +133,12 @@ Section Executions.
         n c x positive (conj runs inside) near).
     Qed.
 
+    Theorem relation_fixed_point s t : on s -> next s t -> (forall j, coordinate j s = point j) -> forall j, coordinate j t = point j.
+    Proof.
+      intros inside moves there. apply (fixed_point (fun _ => t) coordinate point weight (eq s) rate) with (s := s); [|reflexivity|exact there].
+      intros c _ positive <- near. exact (contracts c s t positive inside moves near).
+    Qed.
+
     Variables (radius lowest highest : R).
     Hypothesis rate_below_1 : rate < 1.
     Hypothesis lowest_positive : 0 < lowest.
@@ -139,6 +152,25 @@ Section Executions.
       apply (stability shift first point weight (from on) rate (from_shifts on on_invariant) rate_nonnegative shift_contracts
         (from space) radius lowest highest rate_below_1 lowest_positive weights_bounded radius_positive).
       intros x [runs inside] near. split; [exact runs|now apply near_is_on].
+    Qed.
+
+    Variable size : R.
+    Hypothesis size_nonnegative : 0 <= size.
+    Hypothesis on_is_small : forall s, on s -> within coordinate point weight size s.
+
+    Theorem relation_convergence x : execution x -> on (x O) -> execution_converges x.
+    Proof.
+      intros runs inside. apply converges_of_shift.
+      apply (convergence shift first point weight (from on) rate (from_shifts on on_invariant) rate_nonnegative shift_contracts (from on)
+        lowest highest rate_below_1 lowest_positive weights_bounded (fun _ => 0) (from on :: nil) size (from_shifts on on_invariant)).
+      - intros. apply Rle_refl.
+      - intros y there. left. now exists 0%nat.
+      - intros k y less. cbn in less. lia.
+      - intros y _. exact (from_shifts on on_invariant y).
+      - trivial.
+      - exact size_nonnegative.
+      - intros y [_ there] _. exact (on_is_small _ there).
+      - now split.
     Qed.
   End Contraction.
 
@@ -173,6 +205,26 @@ Section Executions.
       - intros y v [_ there]. now apply loss_nonnegative.
       - intros y v distance level [_ there]. now apply loss_at_least.
       - intros i y v less [runs_ there]. exact (falls i _ _ v less there (runs_ O)).
+    Qed.
+
+    Theorem relation_lyapunov_fixed_point s t u :
+      space s -> (forall j, coordinate j s = point j) -> next s t -> next t u -> forall j, coordinate j t = point j.
+    Proof.
+      intros inside there moves on_ j. assert (near : close coordinate point 0 s).
+      { intro i. rewrite there, Rminus_diag_eq, Rabs_R0 by reflexivity. lra. }
+      assert (at_point : on s). { apply near_is_on; [exact inside|]. intro i. specialize (near i). lra. }
+      assert (none : above guard term count s 0).
+      { intros i less here. pose proof (small i s 0 less inside (Rle_refl 0) near (Rlt_le _ _ radius_positive) here). lra. }
+      pose proof (on_invariant s t at_point moves) as after.
+      assert (low : above guard term count t (0 - loss s 0)) by (intros i less here; apply falls with (s := s); trivial; lra).
+      pose proof (loss_nonnegative s 0 at_point none (Rle_refl 0)). pose proof (bounded t _ after low).
+      replace (0 - loss s 0) with 0 in low by lra.
+      destruct (Req_dec (coordinate j t - point j) 0) as [zero|other]; [lra|]. apply Rabs_pos_lt in other.
+      pose proof (least_positive _ 0 other (Rle_refl 0)).
+      assert (least (Rabs (coordinate j t - point j)) 0 <= loss t 0).
+      { apply loss_at_least; trivial; try lra. exists j. lra. }
+      assert (lower : above guard term count u (0 - loss t 0)) by (intros i less here; apply falls with (s := t); trivial; lra).
+      pose proof (bounded u _ (on_invariant t u after on_) lower). lra.
     Qed.
 
     Theorem relation_lyapunov_stability : executions_stable.
@@ -214,7 +266,7 @@ Section Into.
   Proof.
     intros enters attracts. apply (relation_attraction F space coordinate point (fun s => space s /\ inner s)).
     - intros x runs there. destruct (enters x runs there) as [N inside]. exists N. split; [|exact inside].
-      clear inside. induction N as [|N IH]; [exact there|exact (space_invariant _ _ IH (runs N))].
+      exact (execution_keeps F space space_invariant x N runs there).
     - intros x runs [there inside]. apply attracts; [now apply inner_execution|exact inside].
   Qed.
 

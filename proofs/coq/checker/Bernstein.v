@@ -3,7 +3,7 @@
    Defined:  mixed (a form of degree n in u, v from its Bernstein coefficients, by de Casteljau's recursion); mean, its value at
              (1 - t, t); tensor, the same along several axes, by nested means.
    Proved:   mean_below         a mean of coefficients less than c is less than c, and so for "at most";
-             mean_multiplied    the coefficients of a product with a line; so those of any power (Axes.v);
+             mean_multiplied    the coefficients of a product with a line; so those of any power (Coefficients.v);
              mean_lower, mean_upper   the coefficients on a part of the interval are means themselves;
              mean_at_end        where the coefficients grow, the mean is at most the last;
              one_root           one change of sign of the coefficients: exactly one root inside;

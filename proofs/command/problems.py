@@ -1,0 +1,87 @@
+"""`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
+each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+from rich.console import Console
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import canonical, write_file
+from juggleproof.proofs.checked import as_child
+from juggleproof.proofs.command.outputs import asked_of, refuse_unwritable
+from juggleproof.proofs.reports import problems
+from juggleproof.proofs.run import stop
+from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
+
+
+class ProblemOptions(argparse.Namespace):
+    """What `juggleproof certify` takes for scripts; 0 is for the default."""
+
+    files: list[Path]
+    fresh: bool
+    jobs: int
+    budget: int
+    store: Path | None
+    json: Path | None
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Answers the scripts; returns the exit code."""
+    return certify(ProblemOptions(**vars(parsed)))
+
+
+NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings", "report", "output")
+
+
+def certify(options: ProblemOptions) -> int:
+    """Answers the problems; 0 where all are answered, and as the scripts state, else 1.  Raises
+    ClaimError for an option that goes with claims only.
+    """
+    for option in NOT_FOR_SCRIPTS:
+        if getattr(options, option):
+            raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")
+    refuse_unwritable(options.files, asked_of(options))
+    answered = _answered(options)
+    problems.draw(answered, Console(highlight=False))
+    for one in answered:
+        if one.contradicts:
+            print(
+                f"CONTRADICTS {one.problem.place}: the script states"
+                f" {one.problem.status}, but it is {one.answer.word}, by what the checker accepted"
+            )
+        if one.rejected:
+            print(f"rejected by the checker: {one.answer.name}: {one.rejected}")
+    print(problems.summary(answered))
+    if options.json is not None:
+        write_file(
+            options.json, canonical({one.answer.name: problems.data(one) for one in answered})
+        )
+    return int(not all(one.settled for one in answered))
+
+
+def _answered(options: ProblemOptions) -> list[Answered]:
+    jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
+    budget = options.budget or BUDGET
+    if jobs == 1:
+        return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh)
+    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
+        try:
+            return answer_files(
+                options.files,
+                budget=budget,
+                store=options.store,
+                fresh=options.fresh,
+                executor=pool,
+            )
+        except ClaimError:
+            raise
+        except BaseException:
+            stop(pool)
+            raise

@@ -1,0 +1,341 @@
+"""Maps of one variable with one piece: Lyapunov functions whose values are the same at a state and
+at its image under a fractional linear involution, which envelopes the map.
+
+Source: P. Cull, Stability of discrete one-dimensional population models, Bulletin of Mathematical
+Biology 50 (1988).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.given import (
+    ANYWHERE,
+    Expr,
+    atoms,
+    conjunction,
+    conjuncts,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.samples import (
+    Arrays,
+    Floats,
+    Samples,
+    after,
+    around,
+    region,
+    with_licences,
+    with_point_licences,
+)
+from juggleproof.proofs.stability.values import (
+    Function,
+    Setting,
+    bounded_below,
+    inverse,
+)
+
+SLOPES = (0, 1, 2, 3)  # of the involutions that are tried for all maps
+STATES = 200  # samples for each of the parameters
+SIZES = np.logspace(-3, 3, 48)  # of distances, relative to those of the point from the bounds
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """With a lower bound l of the space, the point e, d = e - l and a number b >= 0 the involution
+
+        s -> e - d (s - e)/(d + (1 - b) (s - e)),
+
+    which takes l to the state where upper = 0: lower = s - l, upper = d - b (s - e) times what is
+    positive, or 1 where b = 0.
+    """
+
+    lower: str
+    upper: str
+    reach: str  # d
+
+    def function(self, state: str) -> Function:
+        """V = (s - e)^2/((s - l) (d - b (s - e))), which the involution leaves as it is."""
+        other = self.reach if self.upper == "1" else self.upper
+        return Function((f"{state}_gap^2/({factor(self.lower)}*{factor(other)})",))
+
+
+def factor(text: str) -> str:
+    """The term as a factor."""
+    return text if text.isidentifier() else f"({text})"
+
+
+def envelopes(setting: Setting) -> Iterator[Envelope]:
+    """The involutions to try, for each lower bound of the space that is linear in the state."""
+    system = setting.system
+    (state,) = symbols(system.state)
+    point = expression(setting.point.terms[0])
+    for poly, strict in atoms(system.space):
+        if not strict or not poly.is_polynomial() or sympy.diff(poly, state) != 1:
+            continue
+        reach = poly.subs(state, point)
+        named = poly.subs(state, *symbols([f"{state}_point"])) if setting.point.roots else reach
+        for slope in slopes(setting, reach):
+            upper = sympy.numer(sympy.together(reach - slope * (state - point)))
+            if not upper.has(state):
+                yield Envelope(written(poly), "1", written(named))
+            elif not setting.point.roots:  # which a map cannot name
+                at_point = value(written(upper.subs(state, point)), setting.parameters)
+                if np.all(np.less(at_point, 0)):
+                    upper = -upper
+                yield Envelope(written(poly), written(sympy.expand(upper)), written(named))
+
+
+def slopes(setting: Setting, reach: Expr) -> list[Expr]:
+    """b for which the involution has the second derivative of the map f at the point, where
+    f' = -1: b = 1 - d f''/2, for all parameters and at the least of the multipliers; then numbers.
+    """
+    (state,) = symbols(setting.system.state)
+    point = expression(setting.point.terms[0])
+    (image,) = setting.system.images[setting.piece]
+    known = setting.constants
+    matched, slope = (
+        sympy.factor(sympy.cancel(term.subs(state, point)))
+        for term in (1 - reach * sympy.diff(image, state, 2) / 2, sympy.diff(image, state))
+    )
+    with np.errstate(all="ignore"):
+        at, multiplier = (
+            np.broadcast_to(np.asarray(value(written(term), known), float), (setting.count,))
+            for term in (matched, slope)
+        )
+    found = [sympy.Integer(0)]
+    if (at > 0).all():
+        found.append(matched)
+    flip = at[np.argmin(multiplier)]
+    if 0 < flip < 100:
+        found.append(sympy.Rational(flip).limit_denominator(12))
+    return list(dict.fromkeys([*found, *map(sympy.Integer, SLOPES)]))
+
+
+def envelope_rules(setting: Setting, name: str, closed: bool) -> Iterator[list[MapRule]]:
+    """Statements by which the point attracts every state of the map's space, in order; what samples
+    refute is left out.  closed: the multiplier is -1 at some of the parameters.
+    """
+    system = setting.system
+    if len(system.state) > 1 or len(system.pieces) > 1:
+        return
+    setting = replace(setting, domain=spare_domain(setting))
+    setting = replace(setting, have=equation_of(setting) if setting.point.roots else ())
+    for envelope in sorted(set(envelopes(setting)), key=lambda one: (len(one.upper), one.upper)):
+        if envelope.upper == "1":
+            for rule in lyapunov_rules(setting, envelope, f"{name}/lyapunov", closed):
+                yield [rule]
+            continue
+        inside = spare_space(setting, envelope)
+        smaller = replace(system, space=inside, domain=setting.domain)
+        within = replace(setting, system=smaller)
+        rules = list(lyapunov_rules(within, envelope, f"{name}/lyapunov", closed))
+        entering = entrance(setting, envelope, name) if rules else []
+        for rule in rules if entering else ():
+            inner = ("map", f"{name}/inner")
+            descent = (inner, ("domain", setting.domain), ("rank", "0"), ("stage", ANYWHERE))
+            yield [
+                smaller.rule(f"{name}/inner"),
+                replace(rule, rows=(inner, *rule.rows[1:])),
+                MapRule(f"{name}/inner-descends", descent),
+                MapRule(
+                    f"{name}/inner-attracts",
+                    (("descent", f"{name}/inner-descends"), ("lyapunov", f"{name}/lyapunov")),
+                ),
+                *entering,
+            ]
+
+
+def equation_of(setting: Setting) -> tuple[str, ...]:
+    """What premises are to know of a point with a root: the irreducible equation of it that follows
+    from f(e) = e, and the bounds of the space.
+    """
+    system = setting.system
+    (state,) = symbols(system.state)
+    name = f"{state}_point"
+    known, lines = setting.constants, []
+    factors = sympy.factor_list(sympy.numer(sympy.together(system.images[0][0] - state)))[1]
+    for equation, _ in factors:
+        if equation.has(state):
+            term = equation.subs(state, sympy.Symbol(name, real=True))
+            if np.allclose(value(written(term), known), 0):
+                lines.append(f"{written(term)} = 0")
+    for bound, strict in atoms(system.space):
+        if bound.has(state):
+            term = written(bound.subs(state, sympy.Symbol(name, real=True)))
+            lines.append(f"{term} {'>' if strict else '>='} 0")
+    return tuple(lines)
+
+
+def spare_domain(setting: Setting) -> str:
+    """The domain without conditions that follow from the others at samples: each fact more makes
+    proofs harder to find.
+    """
+    system, kept = setting.system, conjuncts(setting.domain)
+    divisors = {f"{name} > 0" for name in system.parameters}
+    for part in [one for one in kept if one not in divisors]:
+        rest = conjunction(*(one for one in kept if one != part))
+        if rest != ANYWHERE and implied(part, region(rest, system.parameters, STATES)):
+            kept.remove(part)
+    system = with_licences(replace(system, domain=conjunction(*kept)))
+    return with_point_licences(system.domain, setting.point)
+
+
+def spare_space(setting: Setting, envelope: Envelope) -> str:
+    """The space where upper > 0, without bounds that follow from it at samples."""
+    system = setting.system
+    kept = [*conjuncts(system.space), f"{envelope.upper} > 0"]
+    for part in kept[:-1]:
+        rest = conjunction(*(one for one in kept if one != part))
+        states = around(system, setting.point, setting.parameters, STATES, rest)
+        if implied(part, states.points):
+            kept.remove(part)
+    return conjunction(*kept)
+
+
+def implied(part: str, points: Arrays) -> bool:
+    """Whether a formula holds at all samples, of which there are some."""
+    return len(next(iter(points.values()), ())) > 0 and bool(np.all(holds(part, points)))
+
+
+def lyapunov_rules(
+    setting: Setting, envelope: Envelope, name: str, closed: bool
+) -> Iterator[MapRule]:
+    """The statements `lyapunov` whose loss is a constant times V, or times (s - e)^2 V where
+    `closed`.
+    """
+    (state,) = setting.system.state
+    function = envelope.function(state)
+    samples = states_of(setting, envelope)
+    with np.errstate(all="ignore"):
+        here = function.at(samples.points, len(samples.which))
+        there = function.at(after(setting.system, samples.points), len(samples.which))
+    square = samples.points[f"{state}_gap"] ** 2
+    if not len(here) or not (there < here).all() or closed and envelope.upper == "1":
+        return
+    bounded = envelope.upper != "1"
+    shares = (here - there) / here / (square if closed else 1)
+    sizes = here / square
+    count, products = setting.count, setting.products
+    order, size = (4, f"{state}_gap^2*value") if closed else (2, "value")
+    near = room(setting, envelope) / 2
+    wide = f"1/(2*{factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
+    for (_, radius), (_, least), (_, loss) in product(
+        bounded_below(near, products, 1),
+        bounded_below(samples.least(sizes, count), products, 1) if bounded else [(0.0, wide)],
+        bounded_below(samples.least(shares, count), products),
+    ):
+        far = f"{factor(loss)}*{factor(least)}*distance^{order}"
+        rows = [
+            ("on", ANYWHERE),
+            ("loss", f"{factor(loss)}*{size}"),
+            ("least", far if bounded else f"{far}/(1 + level)"),
+            ("upper", steepness(setting, function, radius)),
+            ("radius", radius),
+        ]
+        if rows[3][1]:
+            yield setting.rule(name, function, rows)
+
+
+def steepness(setting: Setting, function: Function, radius: str) -> str:
+    """A bound of V(s)/|s - e| where |s - e| <= radius; nothing where none is found."""
+    (state,) = setting.system.state
+    known = setting.constants
+    size = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+    least = np.full(setting.count, np.inf)
+    for gap in (size, -size):
+        points = known | {state: known[f"{state}_point"] + gap, f"{state}_gap": gap}
+        least = np.minimum(least, size / function.at(points, setting.count))
+    found = bounded_below(least, setting.products, 1)
+    return inverse(found[0][1]) if found else ""
+
+
+def room(setting: Setting, envelope: Envelope) -> Floats:
+    """The distance from the point to the bound l of the space, or to the state where upper = 0 if
+    that is less, for each of the parameters.
+    """
+    point = setting.constants[f"{setting.system.state[0]}_point"]
+    found = np.abs(zero_of(setting, envelope.lower) - point)
+    if envelope.upper != "1":
+        found = np.minimum(found, np.abs(zero_of(setting, envelope.upper) - point))
+    return found
+
+
+def states_of(setting: Setting, envelope: Envelope) -> Samples:
+    """States of the space at distances of all sizes from the bound l, from the point, and from the
+    state where upper = 0.
+    """
+    (state,) = setting.system.state
+    low, point = zero_of(setting, envelope.lower), setting.constants[f"{state}_point"]
+    each = [low[:, None] + np.outer(point - low, SIZES)]
+    near = np.outer(point - low, SIZES[SIZES < 1])
+    each += [point[:, None] + near, point[:, None] - near]
+    if envelope.upper != "1":
+        end = zero_of(setting, envelope.upper)
+        reach = np.outer(end - point, SIZES[SIZES < 1])
+        each += [end[:, None] + reach, end[:, None] - reach]
+    states = np.concatenate(each, axis=1)
+    which = np.repeat(np.arange(setting.count), states.shape[1])
+    points = {name: values[which] for name, values in setting.constants.items()}
+    points |= {state: states.ravel(), f"{state}_gap": states.ravel() - point[which]}
+    inside = np.broadcast_to(holds(setting.system.space, points), which.shape)
+    return Samples(points, which).where(inside)
+
+
+def zero_of(setting: Setting, text: str) -> Floats:
+    """The state at which a term is 0 that is linear in it, for each of the parameters."""
+    (state,) = symbols(setting.system.state)
+    (end,) = sympy.solve(expression(text), state)
+    found = np.asarray(value(written(end), setting.parameters), float)
+    return np.broadcast_to(found, (setting.count,))
+
+
+def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
+    """The statements that orbits enter the part of the space where upper > 0, and that what
+    attracts that part attracts the whole; none where no constants are found.
+    """
+    system = setting.system
+    (state,) = system.state
+    samples = states_of(setting, envelope)
+    outside = samples.where(~holds(f"{envelope.upper} > 0", samples.points))
+    at_end = setting.constants | {state: zero_of(setting, envelope.upper)}
+    falls = [
+        points[state] - system.next({name: points[name] for name in system.names})[0]
+        for points in (outside.points, at_end)
+    ]
+    steps = [(0.0, "")]
+    if len(falls[0]):
+        least = np.minimum(outside.least(falls[0], setting.count), falls[1])
+        steps = bounded_below(least, setting.products, 1)
+    radii = bounded_below(room(setting, envelope) / 2, setting.products, 1)
+    if not radii or not steps:
+        return []
+    rank = f"{factor(envelope.lower)}*{factor(inverse(steps[0][1]))}" if steps[0][1] else "0"
+    return [
+        MapRule(
+            f"{name}/descends",
+            (
+                ("map", f"{name}/map"),
+                ("domain", setting.domain),
+                ("rank", rank),
+                ("stage", f"{envelope.upper} > 0"),
+            ),
+        ),
+        MapRule(
+            f"{name}/attracts",
+            (
+                ("descent", f"{name}/descends"),
+                ("attraction", f"{name}/inner-attracts"),
+                ("radius", radii[0][1]),
+            ),
+        ),
+    ]

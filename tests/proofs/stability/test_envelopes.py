@@ -1,0 +1,89 @@
+"""Maps of one variable are proved stable by envelopes, up to the parameters where the multiplier is
+-1 and no further.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+from juggleproof.certificates.store import STATEMENTS
+from juggleproof.proofs.command.check import check
+from juggleproof.proofs.stability.envelopes import Envelope, lyapunov_rules
+from juggleproof.proofs.stability.given import read_rows, value
+from juggleproof.proofs.stability.points import fixed_points
+from juggleproof.proofs.stability.search import setting_of
+from tests.proofs.command import running
+
+LOGISTIC = "over a\ndomain 1 < a and a < 4\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)\n"
+PROVED = {  # name: (text, first line, a hypothesis, a weaker one)
+    "logistic": (
+        LOGISTIC,
+        "((a - 1)/a) is stable and attracts every state if and only if 3 - a >= 0",
+        "3 - a >= 0",
+        "7/2 - a >= 0",
+    ),
+    "hassell": (
+        "over r\ndomain r > 1\nstate x\nspace x > 0\npiece r*x/(1 + x)^2\n",
+        "(root_1 - 1) is stable and attracts every state; root_1 = sqrt(r)",
+        "domain r > 1 and r > 0",
+        "domain r > 1/2 and r > 0",
+    ),
+}
+POSITIVE = some.fractions(Fraction(1, 20), 20, max_denominator=20)
+
+
+@pytest.fixture(scope="module", params=PROVED)
+def proved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the certificates."""
+    name = request.param
+    folder = tmp_path_factory.mktemp(name)
+    (folder / f"{name}.map").write_text(PROVED[name][0])
+    done = running.run("stability", str(folder / f"{name}.map"), "-o", str(folder))
+    assert done.stdout.partition("\n")[0] == f"proved   {name}: {PROVED[name][1]}"
+    return folder / f"{name}.certificates"
+
+
+def test_the_checker_takes_what_is_proved_by_an_envelope_holds(proved: Path) -> None:
+    assert check(proved) == 0
+
+
+def test_rejects_an_envelope_for_more_parameters(proved: Path, tmp_path: Path) -> None:
+    _, _, given_, weaker = PROVED[proved.stem]
+    for file in proved.iterdir():
+        text = file.read_text()
+        assert file.name != STATEMENTS or given_ in text
+        (tmp_path / file.name).write_text(text.replace(given_, weaker))
+    assert check(tmp_path) == 1
+
+
+@given(e=POSITIVE, b=POSITIVE, x=POSITIVE)
+def test_v_is_the_same_at_a_state_and_its_image_under_the_involution_holds(
+    e: Fraction, b: Fraction, x: Fraction
+) -> None:
+    gap = x - e
+    if e - b * gap <= 0:  # beyond the image of the bound
+        return
+    image = -e * gap / (e + (1 - b) * gap)
+    (term,) = Envelope("x", "e - b*x_gap", "e").function("x").terms
+    here, there = (value(term, {"x": e + g, "x_gap": g, "e": e, "b": b}) for g in (gap, image))
+    assert here == there
+
+
+@pytest.mark.parametrize(("slope", "fits"), [(1, False), (2, False), (3, True)])
+def test_rejects_an_envelope_of_another_second_derivative(slope: int, fits: bool) -> None:
+    """At a = 3 the involution has to have that of the map, so b = 3."""
+    rows = [(line.split()[0], line.partition(" ")[2]) for line in LOGISTIC.splitlines()]
+    system = replace(read_rows("logistic", rows), domain="2 < a and a <= 3 and a > 0")
+    (fixed,) = [one for one in fixed_points(system) if one.point.terms == ("(a - 1)/a",)]
+    setting = replace(setting_of(system, fixed, system.domain), have=())
+    upper = f"(1 + {slope})*(a - 1) - {slope}*a*x"
+    inner = replace(system, space=f"0 < x and {upper} > 0")
+    envelope = Envelope("x", upper, "(a - 1)/a")
+    rules = lyapunov_rules(replace(setting, system=inner), envelope, "logistic/lyapunov", True)
+    assert bool(list(rules)) is fits
