@@ -72,6 +72,7 @@ BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
 LOCAL_WORK = 6_000_000  # on all of these candidates
 ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
+GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -546,8 +547,11 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
     """That orbits leave a neighbourhood of the point, or nothing."""
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
+    before = proof.work
     for rule in islice(rules(setting, name), MOST_RATES):
-        fault = proof.add(rule, EFFORTS, LOCAL_BUDGET)
+        if proof.work - before > GROWTH_WORK:
+            break
+        fault = proof.add(rule, EFFORTS, GROWTH_BUDGET)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
             return "is not stable"
