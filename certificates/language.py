@@ -188,6 +188,9 @@ class MapRule:
     the lines as (keyword, text), the terms and formulas that the texts are written from, and file
     and line of the call that made it.
 
+    A line ("lemma", "PREMISE: FORMULA") is for the search alone, which proves the formula first,
+    and uses it in the proof of the premise; the checker sees neither.
+
     >>> over = (("over", "a"), ("domain", "a > 0"))
     >>> map = (("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))
     >>> print(MapRule("demo/halves", over + map).text())
@@ -212,8 +215,23 @@ class MapRule:
     def text(self) -> str:
         """The statement as the checker reads it."""
         return "\n".join(
-            [f"statement {self.name}", *(f"{keyword} {text}" for keyword, text in self.rows)]
+            [f"statement {self.name}", *(f"{keyword} {text}" for keyword, text in self.lines)]
         )
+
+    @property
+    def lines(self) -> list[tuple[str, str]]:
+        """The lines without lemmas."""
+        return [row for row in self.rows if row[0] != "lemma"]
+
+    @property
+    def lemmas(self) -> dict[str, list[str]]:
+        """The formulas of the lemmas, by premise."""
+        found: dict[str, list[str]] = {}
+        for keyword, text in self.rows:
+            if keyword == "lemma":
+                premise, _, formula = text.partition(":")
+                found.setdefault(premise.strip(), []).append(formula.strip())
+        return found
 
 
 RESTING = tuple(checker.NAMED)  # the lines that name an earlier statement

@@ -149,12 +149,11 @@ class Remark:
 
 class ClaimHints(TypedDict, total=False):
     """What a claim may tell the search: the names of the statements that its proofs use, and how
-    they are used; of a map rule, by the name of the premise.
+    they are used.
     """
 
     uses: Sequence[str]
     search: Hints
-    premises: Mapping[str, Hints]
 
 
 @dataclass(frozen=True)

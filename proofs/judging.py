@@ -297,24 +297,33 @@ class Judge:
         own = self.claim.where.rpartition(":")[0]
         return place if place.rpartition(":")[0] == own else self.claim.where
 
-    def search_rule(self, rule: checker.Statement) -> Certificate:
+    def search_rule(
+        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]]
+    ) -> Certificate:
         """A proof of each premise of a map rule, or why some have none.
 
-        Raises ClaimError where the premises cannot be written.
+        Raises ClaimError where the premises cannot be written, and for a lemma that is for none of
+        them, or cannot be read.
         """
         stated = {**self.judgement.outcomes, **self.known}
         premises = premises_of(rule, self.known, stated)
         if isinstance(premises, str):
             return {"unknown": premises}
+        for name in lemmas:
+            if name not in premises or premises[name].get("exists"):
+                raise ClaimError(
+                    f"{rule.name}: the line `lemma {name}: ..` names no premise that is proved;"
+                    f" name one of {', '.join(one for one in premises if one != 'possible')}"
+                )
         answers: dict[str, tuple[Vote, Model | None]] = {}
 
         def is_false(name: str) -> bool:
             answers[name] = vote_and_model(premises[name])
             return answers[name][1] is not None
 
-        hints, budget = self.claim.hints.get("premises"), self.resources.budget
+        budget = self.resources.budget
         try:
-            found = dict(search_premises(premises, self.known, budget, hints, is_false))
+            found = dict(search_premises(premises, self.known, budget, lemmas, is_false))
         except checker.Rejected as reason:
             raise ClaimError(f"{rule.name}: {reason}") from None
         proofs = {name: proof for name, proof in found.items() if proof is not None}
@@ -380,7 +389,7 @@ class Judge:
         """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
-            return self.search_rule(parsed)
+            return self.search_rule(parsed, getattr(statement, "lemmas", {}))
         certificate: Certificate
         try:
             certificate = search_certificate(

@@ -61,7 +61,8 @@ class Lines:
         domain = self.one("domain")
         with_domain = "" if domain in ALWAYS else f" with {domain}"
         every = self.intervals() or f"all {', '.join(names)}{with_domain}"
-        return f"for {every}: " if names else ""
+        whole = [name for line in self.of_map().all("integer") for name in line.split()]
+        return f"for {every}{''.join(f', {n} an integer' for n in whole)}: " if names else ""
 
     def of_map(self) -> Lines:
         """The map or relation that the statement is about, or is."""
@@ -125,13 +126,22 @@ def _factor(text: str) -> str:
 
 
 def _steps(descent: Lines) -> str:
-    """From which number of steps on the orbit of s is in the trap."""
+    """The numbers N of steps after which the orbit of s is in the trap."""
+    if len(_terms(descent.all("rank")[0].rpartition(" -> ")[2])) > 1:
+        return "N that is large enough for s"
     more = len(descent.all("stage")) - 1
-    return "rank(s)" + (f" + {more}" if more else "")
+    return "N >= rank(s)" + (f" + {more}" if more else "")
 
 
 def _rank(descent: Lines) -> str:
-    return f"where rank = {descent.one('rank')}"
+    return f"where rank = {_greatest(descent.all('rank'))}"
+
+
+def _greatest(rows: Sequence[str]) -> str:
+    """The greatest of the terms of lines, some with a guard."""
+    each = [row.rpartition(" -> ")[::2] for row in rows]
+    terms = [_vector(term) + (f" where {guard}" if guard else "") for guard, term in each]
+    return f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
 
 
 def _power(contraction: Lines, exponent: str) -> str:
@@ -188,7 +198,7 @@ def _of_descent(f: Lines) -> str:
     trap = _set("the last stage", f.all("stage")[-1])
     return (
         f"{f.for_domain()}f^N(s) is in {trap} for every state s of the space and every integer"
-        f" N >= {_steps(f)}, {_rank(f)}"
+        f" {_steps(f)}, {_rank(f)}"
     )
 
 
@@ -202,10 +212,8 @@ def _of_contraction(f: Lines) -> str:
     )
 
 
-def _greatest(f: Lines) -> str:
+def _value_of(f: Lines) -> str:
     """The greatest of the terms `value`, and what their names of the point mean."""
-    each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
-    terms = [term + _where(guard) for guard, term in each]
     state = f.of_map().one("state").split()
     points = {name: f"e_{name}" if len(state) > 1 else "e" for name in state}
     meanings = {f"{name}_gap": f"{name} - {point}" for name, point in points.items()}
@@ -213,10 +221,9 @@ def _greatest(f: Lines) -> str:
     names = [
         f"{name} = {meaning}"
         for name, meaning in meanings.items()
-        if name in checker.names_in(*terms)
+        if name in checker.names_in(*f.all("value"))
     ]
-    greatest = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
-    return ", ".join([greatest, *names])
+    return ", ".join([_greatest(f.all("value")), *names])
 
 
 def _of_lyapunov(f: Lines) -> str:
@@ -225,7 +232,7 @@ def _of_lyapunov(f: Lines) -> str:
         f" {_set('the set `on`', f.one('on'))}, which f takes into itself:"
         f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least"
         f" integers n >= 0, for every state s of the space in the set and every distance > 0,"
-        f" where V(s) = {_greatest(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
+        f" where V(s) = {_value_of(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
         f" all states of the space with |s - e| <= {f.one('radius')} are in the set"
     )
 
@@ -249,7 +256,7 @@ def _of_attraction(f: Lines) -> str:
         return f"{start} of the space"
     return (
         f"{start} s of the space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers"
-        f" k >= 0 and N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
+        f" k >= 0 and {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
     )
 
 
@@ -308,7 +315,7 @@ RULES = {
         },
     ),
     "map": Rule(
-        "over domain state space (piece )+",
+        "over (integer )?domain state space (piece )+",
         _of_map,
         {
             "possible": OF_DOMAIN["possible"],
@@ -318,7 +325,7 @@ RULES = {
         },
     ),
     "relation": Rule(
-        "over domain state input space (piece )+",
+        "over (integer )?domain state input space (piece )+",
         _of_relation,
         {
             "possible": OF_DOMAIN["possible"],
@@ -327,7 +334,7 @@ RULES = {
         },
     ),
     "descends": Rule(
-        "(map|relation) domain (root )*rank (stage )+",
+        "(map|relation) domain (root )*(rank )+(stage )+",
         _of_descent,
         {
             **OF_DOMAIN,
@@ -459,7 +466,7 @@ def read_rule(rule: MapRule) -> checker.Statement:
     Raises ClaimError, which names the line and what is wanted, where it cannot.
     """
     try:
-        keywords = [keyword for keyword, _ in rule.rows]
+        keywords = [keyword for keyword, _ in rule.lines]
     except (TypeError, ValueError):
         raise ClaimError(f"{rule.name}: each line of a rule is a pair (keyword, text)") from None
     fault = _fault(keywords)
@@ -470,7 +477,7 @@ def read_rule(rule: MapRule) -> checker.Statement:
     except checker.Rejected as reason:
         count = re.search(r"line (\d+)$", reason.place)
         at = int(count[1]) - 2 if count else len(keywords)  # the first line is `statement`
-        row = f"the line `{' '.join(rule.rows[at])}`: " if at < len(keywords) else ""
+        row = f"the line `{' '.join(rule.lines[at])}`: " if at < len(keywords) else ""
         raise ClaimError(
             f"{rule.name}: {row}{checker.Rejected(reason.kind, reason.offender)}"
         ) from None
@@ -516,8 +523,8 @@ def _fault(keywords: Sequence[str]) -> str:
         return ""
 
     def parts(kind: str) -> list[tuple[list[str], str]]:
-        """The keywords of which one stands at each place, and how often: once, or * or +."""
-        found = re.findall(r"\(([a-z| ]+)\) ?([*+]?)|([a-z]+) ", RULES[kind].lines)
+        """The keywords of which one stands at each place, and how often: once, or *, + or ?."""
+        found = re.findall(r"\(([a-z| ]+)\) ?([*+?]?)|([a-z]+) ", RULES[kind].lines)
         return [
             ((group or word).replace(" ", "").split("|"), often) for group, often, word in found
         ]
@@ -526,7 +533,7 @@ def _fault(keywords: Sequence[str]) -> str:
         return [
             f"`{'` or `'.join(words)}`"
             for words, often in parts(kind)
-            if often != "*" and not {*words} & {*keywords}
+            if often not in ("*", "?") and not {*words} & {*keywords}
         ]
 
     def foreign(kind: str) -> list[str]:
@@ -543,9 +550,9 @@ def _fault(keywords: Sequence[str]) -> str:
     for before, after, one, other in zip(places, places[1:], keywords, keywords[1:]):
         if 0 <= after < before:
             faults.append(f"`{other}` after `{one}`")
-        elif after == before >= 0 and not parts(kind)[after][1]:
+        elif after == before >= 0 and parts(kind)[after][1] in ("", "?"):
             faults.append(f"`{other}` twice")
-    often = {"": "", "*": " (any number)", "+": " (at least one)"}
+    often = {"": "", "*": " (any number)", "+": " (at least one)", "?": " (at most one)"}
     order = ", ".join(" or ".join(words) + often[count] for words, count in parts(kind))
     return f"{', '.join(faults)}; the lines of `{kind}` are, in this order: {order}"
 

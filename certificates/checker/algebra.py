@@ -98,7 +98,7 @@ class Kind(Enum):
     ITERATES_NAME = "an undeclared name in a map"
     PIECE = "a piece gives one term in parameters and state for each state variable"
     STAGE_INPUT = "a stage names an input, which has another value at each step"
-    VALUE = "a term in parameters and state is expected, or a guard and such a term"
+    VALUE = "terms in parameters and state are expected, as many on each line, or a guard and such"
     STATE_TERMS = "one term in the parameters for each state variable is expected"
     EARLIER = "no earlier certified statement of this kind and name"
     OTHER_MAP = "two statements about different maps are joined"

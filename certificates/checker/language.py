@@ -360,7 +360,7 @@ def mapping(text: str, read: Reader) -> tuple[list[str], list[str]]:
 
 
 def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
-    """TERM, or GUARD -> TERM."""
+    """TERMS, or GUARD -> TERMS, as text."""
     return mapping(text, read) if " -> " in text else ([], listed(text, read))
 
 
@@ -386,11 +386,11 @@ LINES = {  # how what follows each keyword is read
         ("range", "given", "have", "with", "show", "domain", "holds"), lambda text, read: read(text)
     ),
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
-    "value": guarded,
+    **dict.fromkeys(("value", "rank"), guarded),
     "word": lambda text, read: [int(k) for k in text.split()],
     **dict.fromkeys(NAMED, lambda text, read: text),
     **dict.fromkeys(
-        ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
+        ("space", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
     ),
     **dict.fromkeys(("point", "weights", "start", "direction"), listed),
@@ -404,9 +404,9 @@ ORDERS = {
     ),
     "sharp": r"sharp over domain (number )*holds ",
     "iterates": r"forall integer (let )*iterates after ",
-    "map": r"over domain state space (piece )+",
-    "relation": r"over domain state input space (piece )+",
-    "descends": r"(map|relation) domain (root )*rank (stage )+",
+    "map": r"over (integer )?domain state space (piece )+",
+    "relation": r"over (integer )?domain state input space (piece )+",
+    "descends": r"(map|relation) domain (root )*(rank )+(stage )+",
     "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": (
         r"(map|relation) domain (root )*on point (have )*(value )+loss least upper radius "

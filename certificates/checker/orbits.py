@@ -66,6 +66,10 @@ class Orbits:
             self.map = earlier(statement, known, "map", "relation")
         (self.parameters,) = self.map.get("over")
         (self.state,) = self.map.get("state")
+        integers = self.map.rows("integer")
+        # the next state of a state that is an integer may be none
+        require(names_in(*integers) <= set(self.parameters), Kind.NO_VARIABLE, self.map.name)
+        self.integers = [f"integer {line}" for line in integers]
         self.inputs = [name for line in self.map.get("input") for name in line]
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
@@ -101,11 +105,15 @@ class Orbits:
         points with what the lines `have` say.
         """
         named = self.point if self.have else []
-        forall = "forall " + " ".join([*self.parameters, *named, *extra])
-        known = [*self.fixed, *(self.have or self.let_point())]
+        known = self.have or self.let_point()
         # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
-        return [forall, f"range {self.domain}", *known, *rows]
+        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, *known, self.domain, *rows])))
+        return [*self.head(*named, *extra), *known, *rows]
+
+    def head(self, *more: str) -> list[str]:
+        """For all parameters in the domain, and more variables, with the roots of parameters."""
+        forall = "forall " + " ".join([*self.parameters, *more])
+        return [forall, *self.integers, f"range {self.domain}", *self.fixed]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
@@ -155,9 +163,7 @@ class Orbits:
     def at_the_point(self) -> list[str]:
         """The point, which has its terms, is in the space, and what the lines `have` say is so."""
         shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
-        forall = "forall " + " ".join(self.parameters)
-        lets = [*self.fixed, *self.let_point()]
-        return [forall, f"range {self.domain}", *lets, "show " + all_of(shown)]
+        return [*self.head(), *self.let_point(), "show " + all_of(shown)]
 
     def within_gaps(self, distance: str, after: str = "") -> str:
         """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
@@ -184,14 +190,23 @@ class Orbits:
             parts.append(f"-{reach} <= {side} and {side} <= {reach}")
         return all_of(parts)
 
-    def values(self) -> list[tuple[list[str], str]]:
-        """[(guards, term)] of the lines `value`, each with one guard or none."""
-        values = self.own.get("value")
-        fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
+    def values(self, keyword: str, names: Sequence[str]) -> list[tuple[list[str], list[str]]]:
+        """[(guards, terms)] of the lines of this keyword, each with one guard or none, and a term
+        for each of the names, which premises give to what is at least the greatest of the terms.
+        """
+        values = self.own.get(keyword)
+        fits = all(len(guards) < 2 and len(terms) == len(names) for guards, terms in values)
         # the terms are of the state alone: with `value` in them, V(s) <= value would say nothing
-        names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
-        require(fits and "value" not in names, Kind.VALUE, self.own.name)
-        return [(guards, term) for guards, (term,) in values]
+        used = names_in(*(text for sides in values for side in sides for text in side))
+        require(fits and used.isdisjoint(names), Kind.VALUE, self.own.name)
+        return [*values]
+
+    def at_most(self, keyword: str, names: Sequence[str]) -> list[str]:
+        """Where their guards hold, the terms of each line are at most what the names stand for."""
+        return [
+            "given " + where(guards, (f"({term}) <= {name}" for term, name in zip(terms, names)))
+            for guards, terms in self.values(keyword, names)
+        ]
 
     def terms(self, keyword: str, *more: str) -> list[str]:
         """One term for each state variable, in the parameters and what more is named."""
@@ -208,11 +223,10 @@ class Orbits:
         of the map's domain.
         """
         some = "exists " + " ".join([*self.parameters, *self.state])
-        possible = [some, f"with {self.domain}", f"show {self.space}"]
+        possible = [*self.integers, some, f"with {self.domain}", f"show {self.space}"]
         inside = {}
         if self.own is not self.map:
-            (whole,) = self.map.rows("domain")
-            inside = {"inside": self.for_all("show " + whole)}
+            inside = {"inside": self.for_all("show " + self.map.rows("domain")[0])}
         return {"possible": possible, **inside, **premises}
 
 
@@ -233,6 +247,12 @@ def all_earlier(statement: Statement, known: Known, *keywords: str) -> list[Stat
     return [known[name] for _, name in lines]
 
 
+def where(guards: Sequence[str], parts: Iterable[str]) -> str:
+    """All of the parts hold, where the guards do."""
+    text = " and ".join(parts)
+    return f"(not ({all_of(guards)}) or {text})" if guards else text
+
+
 def all_of(parts: Iterable[str], op: str = " and ") -> str:
     return op.join(f"({part})" for part in parts)
 
@@ -240,7 +260,8 @@ def all_of(parts: Iterable[str], op: str = " and ") -> str:
 def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """A map f of the space into itself: for all parameters in the domain, each state of the space
     has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
-    space.
+    space.  Parameters that a line `integer` names are integers, here and in all that is said of the
+    map.
     """
     f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]
@@ -272,22 +293,39 @@ def premises_of_relation(
 
 
 def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premises:
-    """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all
-    states s of the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
+    """Descent of a rank to a trap: stages A_1, .., A_m.  Each line `rank` has a term for each
+    component of the rank; component c of rank(s) is the greatest of the c-th terms of the lines
+    whose guard, if they have one, holds at s.  For all parameters in the domain and all states s of
+    the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1, if the rank has one
+    component; if it has more, for every integer N from some number on, which depends on s.
 
-    Premises: rank >= 0; outside of all stages rank(f(s)) <= rank(s) - 1; f takes A_k into A_(k+1),
-    and A_m into itself. So the first visit to a stage is after at most rank(s) steps, and m - 1
-    more steps, or fewer, lead to A_m.
+    Premises: each component of the rank is >= 0; outside of all stages some component falls by 1 at
+    least from s to f(s), and none before it grows; f takes A_k into A_(k+1), and A_m into itself.
+    So the first visit to a stage is after at most rank(s) steps; with more components, after
+    finitely many, as the integers below them descend in lexicographic order. And m - 1 more steps,
+    or fewer, lead to A_m.
     """
     f = Orbits(statement, known, work)
-    (rank,) = statement.get("rank")
+    names = [f"rank_{c + 1}" for c in range(len(statement.get("rank")[0][1]))]
+    ranks, at_most, rank, extra = f.values("rank", names), f.at_most("rank", names), names, names
+    if [guards for guards, _ in ranks] == [[]]:
+        at_most, extra, rank = [], [], [f"({term})" for term in ranks[0][1]]
     stages = statement.get("stage")
     require(not names_in(*stages) & set(f.inputs), Kind.STAGE_INPUT, statement.name)
     outside = f"given not ({all_of(stages, ' or ')})"
-    premises = {"bounded": f.at(f"show ({rank}) >= 0")}
+    falls = []
+    for c in range(len(rank)):
+        parts = []
+        for guards, terms in ranks:
+            less = [f"({f.next(term)}) <= {one}" for term, one in zip(terms, rank)]
+            work.spend(PER_LETTER * sum(map(len, less)))
+            parts.append(where([*map(f.next, guards)], [*less[:c], f"{less[c]} - 1"]))
+        falls.append(" and ".join(parts))
+    show = " or ".join(falls)
+    positive = " and ".join(f"{one} >= 0" for one in rank)
+    premises = {"bounded": f.at(*at_most, f"show {positive}", extra=extra)}
     for k in range(len(f.pieces)):
-        falls = f"({f.next(rank)}) <= ({rank}) - 1"
-        premises[f"falls-{k + 1}"] = f.step(k, outside, show=falls)
+        premises[f"falls-{k + 1}"] = f.step(k, outside, *at_most, show=show, extra=extra)
         for i, (stage, after) in enumerate(zip(stages, [*stages[1:], stages[-1]])):
             premises[f"stage-{i + 1}-{k + 1}"] = f.step(k, f"given {stage}", show=f.next(after))
     return f.with_domain(premises)
@@ -347,17 +385,14 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     f = Orbits(statement, known, work).around()
     (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
     (upper,), (radius,) = map(statement.get, ("upper", "radius"))
-    values = f.values()
-    here = [f"given {on}"]
-    for guards, term in values:
-        reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
-        here.append("given " + all_of(reached, " or "))
+    values = f.values("value", ["value"])
+    here = [f"given {on}", *f.at_most("value", ["value"])]
     # what holds for every number that is at least V(s) holds for V(s); 1 + value > 0 and 1 + level
     # > 0, so that loss and least may divide by them
     bounded = [*here, "given value >= 0", "given 1 + value > 0"]
     before, extra = bounded, ["value"]
-    if len(values) == 1 and not values[0][0]:
-        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[2:]], []
+    if [guards for guards, _ in values] == [[]]:
+        before, extra = [here[0], f"let value = {values[0][1][0]}", *bounded[2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
     far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
     far_off = [*any_level, f"given {far}", "given level >= value", f"show ({loss}) >= ({least})"]
@@ -374,14 +409,13 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
         "loss": f.at(*before, f"show ({loss}) >= 0", extra=extra),
         "least": f.at(*bounded, *far_off, extra=["value", *both]),
     }
-    for i, (guards, term) in enumerate(values):
+    for i, (guards, (term,)) in enumerate(values):
         small = [*(f"given {guard}" for guard in guards), f"show ({term}) <= ({upper})*distance"]
         premises[f"small-{i + 1}"] = f.at(*near, *small, extra=["distance"])
     for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
-        for i, (guards, term) in enumerate(values):
-            less = f"({f.next(term)}) <= value - ({loss})"
-            show = all_of([*(f"not ({f.next(guard)})" for guard in guards), less], " or ")
+        for i, (guards, (term,)) in enumerate(values):
+            show = where([*map(f.next, guards)], [f"({f.next(term)}) <= value - ({loss})"])
             premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
     return f.with_domain(premises)
 
@@ -390,7 +424,7 @@ def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Pr
     """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
     of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
     tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
-    for all integers N >= rank(s) + m - 1, k >= 0.
+    for all integers k >= 0 and all N for which the descent says that f^N(s) is in the last stage.
     """
     f = Orbits(earlier(statement, known, "descent"), known, work)
     other = Orbits(around(statement, known), known, work)
@@ -425,7 +459,7 @@ def premises_of_attraction_into(statement: Statement, known: Known, work: Work) 
     attraction = earlier(statement, known, "attraction")
     g = Orbits(earlier(attraction, known, "descent"), known, work)
     other = Orbits(around(attraction, known), known, work)
-    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
+    same = all(f.map.get(key) == g.map.get(key) for key in ("over", "integer", "state", "piece"))
     require(same, Kind.OTHER_MAP, statement.name)
     (radius,), point = statement.get("radius"), other.terms("point")
     roots = [root for root in other.fixed if root not in f.fixed]
@@ -479,11 +513,11 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
     """
     f = Orbits(statement, known, work).around()
     (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
-    curve, values = f.terms("direction", "distance", *f.point), f.values()
+    curve, values = f.terms("direction", "distance", *f.point), f.values("value", ["value"])
 
     def next_value(bound: str) -> str:
         """W of the next state meets a lower bound."""
-        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, term in values]
+        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, (term,) in values]
         return all_of(map(all_of, parts), " or ")
 
     # what is shown to be a state of the space has the roots that are of the state
@@ -497,7 +531,7 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
         "point": f.at_the_point(),
         "direction": f.for_all(*small, show, extra=["distance"]),
     }
-    for i, (guards, term) in enumerate(values):
+    for i, (guards, (term,)) in enumerate(values):
         here = [f.within_gaps(radius), *guards, f"({term}) > 0"]
         given = [f"given {one}" for one in here]
         premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
@@ -225,11 +225,13 @@ def search_proof(
     hints: Hints | None = None,
     confirm: bool = True,
     roles: Roles = NO_ROLES,
+    lemmas: Sequence[str] = (),
 ) -> Proof | None:
     """A proof that the checker accepts, or None; `confirm=False` leaves that to the caller.
 
-    Inside a sharp range, `sharp` has its domain and its condition.  Raises Exhausted where the
-    budget ends.
+    Inside a sharp range, `sharp` has its domain and its condition.  The lemmas, formulas without
+    `or`, are proved first, each from those before it, and then used.  Raises Exhausted where the
+    budget ends, and Rejected for a lemma that cannot be read, or has an `or`.
     """
     unfolding = unfolded(statement, sharp)
     steps: list[Node] = []
@@ -273,19 +275,57 @@ def search_proof(
         if values is not None:
             proof = "witness", steps, values
     else:
-        node = search_closing(
+        atoms = [atom for lemma in lemmas for atom in lemma_atoms(unfolding.context, lemma)]
+        node = search_by_lemmas(
             state_of(unfolding).assume(unfolding.goal(False)),
-            known,
-            budget,
-            effort,
-            hints,
-            confirm=False,
+            atoms,
+            lambda state: search_closing(state, known, budget, effort, hints, confirm=False),
         )
         if node is not None:
             proof = "proof", steps, node
     if proof is None or not confirm or proves(statement, proof, known, sharp):
         return proof
     return None
+
+
+# The signs of p, of -1, 0 and 1, with which p relation 0 holds.
+HOLDS = {
+    ">": (False, False, True),
+    ">=": (False, True, True),
+    "=": (False, True, False),
+    "!=": (True, False, True),
+}
+
+
+def lemma_atoms(context: checker.Context, text: str) -> list[checker.Atom]:
+    """The atoms of a lemma, which are about the variables, and what is named, of a statement."""
+    atoms: list[checker.Atom] = []
+    for part in checker.conjuncts(context.formula(checker.parse(text))):
+        if isinstance(part, bool) or part[0] != "atom":
+            raise checker.Rejected(checker.Kind.FORMULA, f"{text}, as a lemma without `or`")
+        atoms.append(part)
+    return atoms
+
+
+def search_by_lemmas(
+    state: State, lemmas: Sequence[checker.Atom], close: Callable[[State], Node | None]
+) -> Node | None:
+    """A node that closes the state: by the signs of each polynomial, of which those are closed
+    first that its lemma says it has not.
+    """
+    if not lemmas:
+        return close(state)
+    (_, poly, relation), *others = lemmas
+    text = state.context.show(poly)
+    cases = [*zip(HOLDS[relation], state.by_sign(text))]
+    nodes: dict[int, Node] = {}
+    for k in sorted(range(3), key=lambda k: cases[k][0]):
+        holds, case = cases[k]
+        node = search_by_lemmas(case, others, close) if holds else close(case)
+        if node is None:
+            return None
+        nodes[k] = node
+    return ("sign", text, nodes[0], nodes[1], nodes[2])
 
 
 # -------------------------------------------------------------------------------------------------
@@ -296,7 +336,7 @@ def search_premises(
     premises: Mapping[str, checker.Statement],
     known: dict[str, checker.Statement],
     budget: int,
-    hints: Mapping[str, Hints] | None = None,
+    lemmas: Mapping[str, Sequence[str]] | None = None,
     is_false: Callable[[str], bool] = lambda name: False,
 ) -> Iterator[tuple[str, Proof | None]]:
     """The premises of a map rule in order, each with a proof or None; each may take the whole
@@ -310,9 +350,9 @@ def search_premises(
         for effort in (1, 2) if premise.get("exists") else shares:
             if proof is not None or effort == 2 and is_false(name):
                 break
-            part, own = Budget(shares[effort]), (hints or {}).get(name)
+            part, own = Budget(shares[effort]), (lemmas or {}).get(name, ())
             try:
-                proof = search_proof(premise, known, part, effort=effort, hints=own)
+                proof = search_proof(premise, known, part, effort=effort, lemmas=own)
             except Exhausted:
                 continue
             except checker.Rejected as reason:
@@ -324,7 +364,7 @@ def search_map_rule(
     statement: checker.Statement,
     known: dict[str, checker.Statement],
     budget: int,
-    hints: Mapping[str, Hints] | None = None,
+    lemmas: Mapping[str, Sequence[str]] | None = None,
 ) -> Certificate:
     """{"certified": {premise: proof}}, or {"unknown": the first premise without a proof}.
 
@@ -338,7 +378,8 @@ def search_map_rule(
         if name not in known:
             return {"unknown": f"it rests on {name}, which is not certified"}
     proofs: dict[str, Proof] = {}
-    for name, proof in search_premises(checker.premises_of(statement, known), known, budget, hints):
+    premises = checker.premises_of(statement, known)
+    for name, proof in search_premises(premises, known, budget, lemmas):
         if proof is None:
             return {"unknown": f"no proof of the premise {name} was found"}
         proofs[name] = proof

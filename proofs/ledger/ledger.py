@@ -46,7 +46,7 @@ UNPRINTED = {
     "region-trap": (
         "the trap of the theorem's proof, which stands in for the paper's last invariant set"
     ),
-    "theorem-roots": "the lemma of the theorem's proofs",
+    "theorem-roots": "numbers compare as their squares do",
     "theorem": (
         "the theorem in normal form, which 4.4 concludes from an argument that does not carry it"
     ),

@@ -1,6 +1,7 @@
 """Instability in two variables or more: quadratic Chetaev functions, W > 0 in a cone that ends at
-the point, where W grows by a rate until the orbit is farther than a radius (LaSalle 1976, theorem
-5.5).
+the point, where W grows by a rate until the orbit is farther than a radius.
+
+Source: LaSalle, The Stability of Dynamical Systems, SIAM 1976.
 """
 
 from __future__ import annotations

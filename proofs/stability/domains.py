@@ -4,9 +4,12 @@ inside the unit circle (Jury's conditions for one and two variables).
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import sympy
 
+from juggleproof.certificates.language import bounds_of
 from juggleproof.proofs.stability.given import (
     Expr,
     Map,
@@ -69,3 +72,20 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
             product = sympy.expand(sign * sympy.prod(parts))
             rows.append(f"{written(product)} {'>' if strict else '>='} 0")
     return list(dict.fromkeys(rows))
+
+
+def middle_of(system: Map, domain: str) -> list[str]:
+    """The middle half of each parameter's range, as formulas; of one without an upper end, that
+    which begins 1/2 above the lower.  None of these where a parameter has neither end.
+    """
+    rows = []
+    for name in system.parameters:
+        low, high = bounds_of(domain, name) or (None, None)
+        if low is None:
+            return []
+        least, most = Fraction(low[0]), Fraction(high[0]) if high else None
+        step = (most - least) / 4 if most is not None else Fraction(1, 2)
+        rows.append(f"{name} >= {least + step}")
+        if most is not None:
+            rows.append(f"{name} <= {most - step}")
+    return rows

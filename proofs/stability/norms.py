@@ -22,6 +22,7 @@ CORNERS = 24  # parameters at which rows are carried back
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 50, 100)
 MOST_NORMS = 3  # that are tried
 SMALLEST_SIZE = 8  # halvings of the neighbourhood
+SLOWEST = Fraction(1, 256)  # fall, as a share of the norm, that is tried
 LOCAL_SHARES = (Fraction(1), Fraction(1, 2), Fraction(1, 8))  # of what samples leave
 SHARES = (0.5, 0.75, 0.9, 0.97)  # of the way from the spectral radius to 1, for the rate
 
@@ -220,6 +221,8 @@ def local_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     for rows, rate in itertools.islice(norms(matrices[chosen]), MOST_NORMS):
         floats = np.array([[float(x) for x in row] for row in rows])
         slower = (1 + rate) / 2
+        if 1 - slower < SLOWEST:
+            continue
         gaps = rng.uniform(-1, 1, (len(which), n))
         gaps /= np.abs(gaps @ floats.T).max(axis=1)[:, None]  # of norm 1
         for power in range(SMALLEST_SIZE):

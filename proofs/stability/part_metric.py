@@ -29,6 +29,7 @@ from juggleproof.proofs.stability.values import (
 WEIGHTS = tuple(Fraction(n, d) for n, d in ((1, 1), (9, 10), (3, 4), (2, 3), (1, 2), (1, 4)))
 SWEEPS = 3  # over all weights
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
+WORST = 8.0  # rank that is tried
 CLOSE = 1e-9  # relative rounding of a value
 
 
@@ -58,6 +59,8 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
     """Statements `lyapunov` that samples do not refute, each with a number that is small where it
     is simple and fits well.
     """
+    if len(setting.system.state) == 1:
+        return  # of which quadratic functions do as well
     low, _ = bounds(setting.system)
     for kind, texts in enumerate(distances(setting)):
         weights = _weights(setting, texts)
@@ -66,7 +69,7 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
         terms = (t if w == 1 else f"{signed(w)}*{t}" for w, t in zip(weights, texts))
         function = Function(tuple(terms), divisor="*".join(low.values()) if kind else "1")
         best = sorted(_rows(setting, function, min(weights)), key=lambda one: one[0])[:2]
-        for rank, rows in best:
+        for rank, rows in best if best[:1] and best[0][0] < WORST else ():
             yield (
                 rank + kind + len(set(weights)) / 4,
                 setting.rule(name, function, [("on", on), *rows]),

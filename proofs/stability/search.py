@@ -23,7 +23,7 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.chetaev import chetaev_rules
-from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.domains import middle_of, narrowed
 from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
@@ -66,21 +66,21 @@ from juggleproof.proofs.stability.values import (
     sum_of_quotients,
 )
 
-MOST_WORK, SQUARES_COST = 5_000_000, 8  # on all candidates; of a unit at the effort of squares
+MOST_WORK, SQUARES_COST = 4_000_000, 8  # on all candidates; of a unit at the effort of squares
 STATES = 40  # samples for each of the parameters
 BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, LOCAL_TRIED = 1_000_000, 4
-LOCAL_WORK = 6_000_000  # on all of these candidates
+LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
 ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
 GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
-    ((1, 2), 20_000, 24),
+    ((1,), 20_000, 24),
+    ((1, 2), 50_000, 12),
     (EFFORTS, 100_000, 6),
     (EFFORTS, 400_000, 4),
 )
-MOST_BOXES, BOX_BUDGET = 3, 400_000
+MOST_BOXES, BOX_BUDGET = 3, 300_000
 Report = Callable[[str], None]
 
 
@@ -174,9 +174,9 @@ class Proof:
 
 def terms_of_pairs(premise: checker.Statement) -> int:
     """How many terms the products of two facts have that a premise without cases begins with."""
-    unfolding = unfolded(premise)
     if premise.get("exists"):
         return 0
+    unfolding = unfolded(premise)
     state = state_of(unfolding).assume(unfolding.goal(False))
     return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
 
@@ -315,11 +315,15 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
     for fixed in every:
-        if fixed.exists(system, parameters).all():
-            setting = setting_of(system, fixed, system.domain)
-            near = near_by(proof, setting, name_of(fixed), given, log)
-            if near:
-                return Outcome(proof, "region", f"{near}; of other states nothing was found", lines)
+        if fixed.stable_share(system, parameters):
+            inner = conjunction(system.domain, *narrowed(system, fixed, parameters))
+            middle = conjunction(inner, *middle_of(system, inner))
+            for domain in dict.fromkeys((inner, middle)):
+                setting = setting_of(system, fixed, domain)
+                near = near_by(proof, setting, name_of(fixed), given, log)
+                if near:
+                    sentence = f"{near}; of other states nothing was found"
+                    return Outcome(proof, "region", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
 
 
@@ -342,9 +346,8 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
     pairs = zip(setting.system.state, setting.point.terms)
     gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
-    before = proof.work
     for rule in islice(rules, LOCAL_TRIED):
-        if proof.work - before < LOCAL_WORK and not tried(proof, rule, EFFORTS, LOCAL_BUDGET, log):
+        if not tried(proof, rule, (1, 2), LOCAL_BUDGET, log):
             where = beyond(given, setting.domain, setting.system.parameters)
             on = with_bars(dict(rule.rows)["on"])
             for one, gap in gaps.items():
@@ -430,7 +433,14 @@ def settled(
     elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
-            return None
+            middle = middle_of(system, inner)
+            if not middle:
+                return None
+            smaller = setting_of(system, fixed, conjunction(inner, *middle), by_samples=True)
+            if not in_boxes(proof, smaller, log):
+                return None
+            where = beyond(given, smaller.domain, system.parameters)
+            return "stable", f"{name} is stable and attracts every state at least where {where}"
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
@@ -584,10 +594,8 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
-    for _, rule in boxes[:MOST_BOXES]:
-        if not tried(proof, rule, (1, 2), BOX_BUDGET, log):
-            return True
+    if in_boxes(proof, setting, log):
+        return True
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     before = proof.work
@@ -612,6 +620,13 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
     """
     rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
     return any(proof.add_all(one, (1, 2), log) for one in rules)
+
+
+def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same, by functions whose sublevel sets are boxes."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
+    return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
 
 
 def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:

@@ -268,7 +268,7 @@ def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
     """Terms in the parameters and in the point's names that are positive on the domain, those first
     that are close to its ends.
     """
-    found = [written(poly) for poly, strict in atoms(domain) if strict]
+    found = [written(sympy.numer(sympy.together(p))) for p, strict in atoms(domain) if strict]
     found += [f"{name}_point" for name in system.state]
     texts = []
     for text in dict.fromkeys(found):

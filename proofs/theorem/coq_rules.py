@@ -159,6 +159,10 @@ def states(f: Frame) -> Iterator[str]:
 
 def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Domain and space, and the map by its pieces."""
+    if own.get("integer"):
+        raise NotWritten(
+            f"{own.name} has parameters that are integers, which is not written for Coq"
+        )
     yield "Module Map.\nImport States."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "space", "Prop", *own.get("space"))
@@ -251,7 +255,10 @@ def descent_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Rank and stages."""
     yield f"Module Descent.\nImport States {f.words['M']}."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
-    yield f.define(own, "rank", "R", *own.get("rank"))
+    (guards, terms), *more = own.get("rank")
+    if guards or more or len(terms) > 1:
+        raise NotWritten(f"{own.name} has a rank of several terms, which is not written for Coq")
+    yield f.define(own, "rank", "R", *terms)
     stages = own.get("stage")
     for k, stage in enumerate(stages, 1):
         yield f.define(own, f"stage_{k}", "Prop", stage)

@@ -27,7 +27,6 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.paper.derivations import Origin, made_by
 from juggleproof.proofs.paper.names import (
@@ -430,8 +429,15 @@ def _terms(*things: Nested) -> tuple[Term | Formula, ...]:
     return tuple(found)
 
 
-def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:
-    """Every orbit is led to the last stage by the fall of the rank."""
+def descends(
+    name: str,
+    of: str,
+    setting: Setting,
+    of_alpha: Formula,
+    descent: Descent,
+    lemmas: Sequence[Formula] = (),
+) -> MapRule:
+    """Every orbit is led to the last stage by the fall of the rank, by lemmas for impacts."""
     stages = [setting.here(stage) for stage in descent.stages]
     rank, roots = setting.here(descent.rank), _roots(descent.roots, setting)
     return MapRule(
@@ -442,6 +448,7 @@ def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: D
             *(("root", f"{name} = sqrt({under})") for name, under in roots),
             ("rank", str(rank)),
             *(("stage", str(stage)) for stage in stages),
+            *(("lemma", f"falls-1: {setting.here(lemma)}") for lemma in lemmas),
         ),
         _terms([under for _, under in roots], rank, stages),
     )
@@ -498,10 +505,9 @@ def exactly(name: str, attraction: str, escape: str) -> MapRule:
 
 
 # -------------------------------------------------------------------------------------------------
-# The one lemma of the theorem: numbers compare as their squares do.
+# Numbers compare as their squares do.
 
 low, high = reals("low high")
-LEMMA = "theorem-roots/below"
 
 
 @claim("theorem-roots", "theorem", "lemma", parameters=())
@@ -510,15 +516,5 @@ def a_number_is_at_most_another_if_its_square_is() -> Statement:
     return always(low <= high, given=[high >= 0, low**2 <= high**2], label="below")
 
 
-def compared(pairs: Sequence[tuple[Term, Term]], setting: Setting) -> Hints:
-    """The lemma for these pairs of a smaller and a greater term of the normal form."""
-    return Hints(
-        tuple(
-            (LEMMA, {"low": str(setting.here(less)), "high": str(setting.here(more))})
-            for less, more in pairs
-        )
-    )
-
-
 # After an impact the root u of the energy is at most 1 + alpha w, and before it at least w - 1.
-AT_IMPACTS = ((real("u_next"), 1 + alpha * w), (w - 1, u))
+AT_IMPACTS = (real("u_next") <= 1 + alpha * w, w - 1 <= u)

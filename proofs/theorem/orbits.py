@@ -22,7 +22,6 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs import forms
 from juggleproof.proofs.paper.names import (
     B1,
@@ -54,7 +53,6 @@ from juggleproof.proofs.theorem.definition import (
     BELOW_A_THIRD,
     FIXED,
     IMPACT,
-    LEMMA,
     NORMAL,
     PIECES,
     SPACE,
@@ -62,7 +60,6 @@ from juggleproof.proofs.theorem.definition import (
     TO_THE_POINT,
     WHOLE,
     Descent,
-    compared,
     descends,
     holds_at,
     the_map,
@@ -382,7 +379,7 @@ def orbits_of_little_energy_keep_to_it() -> list[AnyStatement]:
 # 2)) comes down to (1 + alpha)/(2 (1 - alpha)) as W grows, and the rank of that ball to u/(1 -
 # alpha). From u <= W - 1 the rank of the theorem leads on, which is at most 5 (W - 1)/2 there.
 
-W, after = reals("W after")
+W, after, u_next = reals("W after u_next")
 FACTOR = (1 + alpha) * W / (2 * ((1 - alpha) * W - 2))
 LEAST_FACTOR = (1 + alpha) / (2 * (1 - alpha))
 LITTLE = 4 * x + (w - 1) ** 2 <= (W - 1) ** 2
@@ -391,22 +388,11 @@ RANK_THERE = (
 )  # what the rank of the theorem is at most, where there is little energy
 TO_LITTLE_ENERGY = Descent(FACTOR * u + (1 - w) / 2, (LITTLE,), (SPEED,))
 WITH_W = replace(NORMAL, parameters=(alpha, W), positive=(W > 2, (1 - alpha) * W - 2 > 0))
-OUTSIDE = (W - 1, u)
-LOSES = "theorem-sharper/loses"
-USES = Hints(
-    (
-        *compared((*AT_IMPACTS, OUTSIDE), WITH_W).uses,
-        (LOSES, {"alpha": "alpha", "W": "W", "w": "w", "u": "u", "after": "u_next"}),
-    )
-)
+OUTSIDE = W - 1 <= u
+LOSES = W * (u - u_next) >= w * ((1 - alpha) * W - 2)
 
 
-@claim(
-    "theorem-sharper",
-    "theorem",
-    "sharper bounds",
-    hints={"uses": (LEMMA, LOSES), "premises": {"falls-1": USES}},
-)
+@claim("theorem-sharper", "theorem", "sharper bounds")
 def a_smaller_rank_leads_to_little_energy() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank
     tells whose factor of u falls to (1 + alpha)/(2 (1 - alpha)) as W grows.
@@ -421,7 +407,14 @@ def a_smaller_rank_leads_to_little_energy() -> list[AnyStatement]:
             vocabulary=STANDING,
         ),
         the_map("map", WITH_W),
-        descends("to-little-energy", "theorem-sharper/map", WITH_W, WHOLE, TO_LITTLE_ENERGY),
+        descends(
+            "to-little-energy",
+            "theorem-sharper/map",
+            WITH_W,
+            WHOLE,
+            TO_LITTLE_ENERGY,
+            (*AT_IMPACTS, OUTSIDE, LOSES),
+        ),
         forms.always(
             TO_THE_POINT.rank <= RANK_THERE,
             given=[W >= 1, u**2 <= (W - 1) ** 2, -u <= w - 1],

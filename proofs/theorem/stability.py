@@ -39,7 +39,6 @@ from juggleproof.proofs.theorem.definition import (
     FROM_A_THIRD,
     IMPACT,
     IN_THE_TRAP,
-    LEMMA,
     NEARBY,
     NORMAL,
     OTHER,
@@ -53,7 +52,6 @@ from juggleproof.proofs.theorem.definition import (
     Descent,
     Setting,
     attracts,
-    compared,
     contracts,
     descends,
     escapes,
@@ -84,7 +82,7 @@ def stable_exactly_below_a_third(claim_id: str, setting: Setting) -> list[AnySta
 
     return [
         the_map("map", setting),
-        descends("descends", name("map"), setting, BELOW_A_THIRD, TO_THE_POINT),
+        descends("descends", name("map"), setting, BELOW_A_THIRD, TO_THE_POINT, AT_IMPACTS),
         contracts("contracts", name("map"), setting, BELOW_A_THIRD, IN_THE_TRAP),
         attracts("attracts", name("descends"), name("contracts")),
         escapes("escapes", name("map"), setting, FROM_A_THIRD),
@@ -96,7 +94,6 @@ def stable_exactly_below_a_third(claim_id: str, setting: Setting) -> list[AnySta
     "theorem",
     "theorem",
     "normal form",
-    hints={"uses": (LEMMA,), "premises": {"falls-1": compared(AT_IMPACTS, NORMAL)}},
 )
 def fixed_point_is_stable_and_attracts_exactly_below_a_third() -> list[AnyStatement]:
     """For 0 < alpha < 1: e_1 is stable and attracts every state with x >= 0 if and only if alpha <
@@ -109,7 +106,6 @@ def fixed_point_is_stable_and_attracts_exactly_below_a_third() -> list[AnyStatem
     "theorem-in-units",
     "theorem",
     "the paper's units",
-    hints={"uses": (LEMMA,), "premises": {"falls-1": compared(AT_IMPACTS, PHYSICAL)}},
 )
 def the_same_in_the_units_of_the_paper() -> list[AnyStatement]:
     """For 0 < alpha < 1 and all r, g > 0: e_1 is stable and attracts every state of H if and only
@@ -330,7 +326,6 @@ OTHERS = replace(NORMAL, space=NORMAL.space & is_none_of(*EXCEPTIONS))
     "theorem-one-third",
     "theorem",
     "alpha = 1/3",
-    hints={"uses": (LEMMA,), "premises": {"falls-1": compared(AT_IMPACTS, NORMAL)}},
 )
 def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
     """At alpha = 1/3 every orbit tends to e_1 but those of (0, 3), (1, 1) and (0, -1), and e_1 is
@@ -345,7 +340,9 @@ def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
         goes_to(period_two, falling, "flight"),
         goes_to(rising, period_two, "flies-to-it"),
         the_map("map-of-others", OTHERS, THIRD),
-        descends("descends", "theorem-one-third/map-of-others", OTHERS, THIRD, TO_THE_POINT),
+        descends(
+            "descends", "theorem-one-third/map-of-others", OTHERS, THIRD, TO_THE_POINT, AT_IMPACTS
+        ),
         contracts("contracts", "theorem-one-third/map-of-others", OTHERS, THIRD, IN_THE_TRAP),
         attracts("attracts", "theorem-one-third/descends", "theorem-one-third/contracts"),
     ]
@@ -362,14 +359,13 @@ def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
 
 FACTOR = (s + 1 - alpha) * (s + 1 + alpha) / (2 * (1 - alpha) ** 2)
 TO_THE_REGION = Descent(FACTOR * u + (1 - w) / 2, (R(b),), (("s", 2 * (1 + alpha)), SPEED))
-OUTSIDE = (s, (1 - alpha) * u)  # outside of R, u is at least s/(1 - alpha)
+OUTSIDE = s <= (1 - alpha) * u  # outside of R, u is at least s/(1 - alpha)
 
 
 @claim(
     "theorem-region",
     "theorem",
     "Proposition 1",
-    hints={"uses": (LEMMA,), "premises": {"falls-1": compared((*AT_IMPACTS, OUTSIDE), PHYSICAL)}},
 )
 def every_orbit_enters_the_region() -> list[AnyStatement]:
     """For every 0 < alpha < 1 each orbit is in R from some period on, no later than its rank
@@ -377,5 +373,7 @@ def every_orbit_enters_the_region() -> list[AnyStatement]:
     """
     return [
         the_map("map", PHYSICAL),
-        descends("enters", "theorem-region/map", PHYSICAL, WHOLE, TO_THE_REGION),
+        descends(
+            "enters", "theorem-region/map", PHYSICAL, WHOLE, TO_THE_REGION, (*AT_IMPACTS, OUTSIDE)
+        ),
     ]

@@ -4,6 +4,7 @@ values at which it is false, any other with what Z3 says; a fault in a rule is o
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Sequence
 from fractions import Fraction
@@ -18,7 +19,19 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
-from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, PUSH, SUBTRACT, edited, read
+from tests.certificates.checker.maps import (
+    ASKED,
+    COUNT,
+    DOUBLE,
+    FLIP,
+    NEST,
+    PUSH,
+    SCALE,
+    SUBTRACT,
+    WHOLE,
+    edited,
+    read,
+)
 from tests.certificates.checker.test_map_rules import (
     FAILING,
     FAILING_IN_A_SPACE,
@@ -26,7 +39,9 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_WITH_GUARDS,
 )
 
-STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, ASKED)]
+STATEMENTS_OF = [
+    read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, ASKED)
+]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
 SUBTRACTING = STATEMENTS_OF[0]
@@ -65,6 +80,14 @@ CONCLUSIONS = {
     " u <= a and x < 1; x/6 where x > 5, for all u",
     "push/attracts": "for 0 <= a < 1/2: e = 0 is stable and attracts every state of the space;"
     " f^n(s) is any state that the relation leads to from s in n steps",
+    "count/descends": "for a >= 0: f^N(s) is in the last stage {x < 1} for every state s of the"
+    " space and every integer N that is large enough for s, where rank = (2*x, y)",
+    "count/side": "f^N(s) is in the last stage {x >= -1 and x <= 1} for every state s of the"
+    " space and every integer N >= rank(s), where rank = the greatest of x; -x where x <= 1",
+    "whole/exactly": "for all n with n != 0, n an integer: e = 0 is stable and attracts every state"
+    " of the space if and only if n != 0 and n^2 > 1",
+    "scale/exactly": "for all a with 0 = 0: e = 0 is stable and attracts every state of the space"
+    " if and only if -1 < a < 1",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",
@@ -416,6 +439,7 @@ FAULTS: dict[str, tuple[Rows, str]] = {
         f"`on` after `point`{ORDER}",
     ),
     "twice": ((*NEAR[:2], *NEAR[1:]), f"`domain` twice{ORDER}"),
+    "a line of maps": ((*NEAR, ("integer", "a")), f"`integer` left over{ORDER}"),
     "left over": ((*NEAR, ("ranks", "x")), f"`ranks` left over{ORDER}"),
     "no rule": ((("forall", "x"), ("show", "x = x")), "`show` left over; the lines of"),
     "no pair": ((*NEAR[:7], "size"), "each line of a rule is a pair (keyword, text)"),
@@ -440,6 +464,19 @@ FAULTS: dict[str, tuple[Rows, str]] = {
         put(NEAR, "rate", "1/(2*a - 1)"),
         "premise constants: division by what may vanish",
     ),
+    "a lemma for none": (
+        (*NEAR, ("lemma", "closer-2: x <= 1")),
+        "the line `lemma closer-2: ..` names no premise that is proved; name one of inside,",
+    ),
+    "a lemma for values": ((*NEAR, ("lemma", "possible: x <= 1")), "`lemma possible: ..` names no"),
+    "a lemma with or": (
+        (*NEAR, ("lemma", "closer-1: x < 1 or x = 1")),
+        "premise closer-1: not a formula: x < 1 or x = 1, as a lemma without `or`",
+    ),
+    "a lemma of other names": (
+        (*NEAR, ("lemma", "closer-1: q < 1")),
+        "premise closer-1: an undeclared name: q",
+    ),
     "two terms": (put(NEAR, "point", "0, 0"), "one term in the parameters for each state"),
 }
 
@@ -454,6 +491,26 @@ def test_rejects_lines_that_make_no_rule(
     done = capsys.readouterr()
     assert f"{path}:9: mine/near: " in done.err and reason in done.err
     assert len(done.err.splitlines()) == 1 and not done.out
+
+
+@pytest.mark.parametrize("lemma", ["x_next <= a", "x_next = a*x and a*x <= a", "x + 1 != 0"])
+def test_a_lemma_is_proved_first_and_used_holds(lemma: str, tmp_path: Path) -> None:
+    path = file_of(tmp_path, (*NEAR, ("lemma", f"closer-1: {lemma}")))
+    assert certify(path) == 0
+    folder = path.with_suffix(".certificates")
+    assert "lemma" not in (folder / STATEMENTS).read_text()
+    rows = map(json.loads, (folder / CERTIFICATES).read_text().splitlines())
+    proof = dict(rows)["mine/near"]["certified"]["closer-1"]
+    assert proof[0] == "proof" and proof[2][0] == "sign"
+
+
+@pytest.mark.parametrize("lemma", ["x_next <= a*distance/2", "x = 0", "x != 0", "a < 0", "0 > x"])
+def test_a_false_lemma_proves_no_false_premise_holds(
+    lemma: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = (*put(NEAR, "rate", "a/2"), ("lemma", f"closer-1: {lemma}"))
+    assert certify(file_of(tmp_path, rows)) == 1
+    assert "closer-1, on the set, piece 1 multiplies" in capsys.readouterr().out
 
 
 def test_rejects_the_name_of_another_kind_of_rule(

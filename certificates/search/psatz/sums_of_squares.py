@@ -370,12 +370,12 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
     base = 1 + max([*degrees, *(poly.total_degree() for poly in cofactors)])
     size = len(blocks[0].poly.degrees())
     kind: type = np.int64 if base**size < 2**62 else object
-    scale = np.array([base**v for v in range(size)], dtype=kind)
+    weights = [base**v for v in range(size)]
 
     def keys(polys: Sequence[fmpz_mpoly]) -> NDArray[Any]:  # of Python's integers, where large
         """The monomials as numbers that add as exponents do."""
-        monomials = [tuple(map(int, m)) for poly in polys for m in poly.monoms()]
-        return np.array(monomials, dtype=kind).reshape(-1, size) @ scale
+        monomials = (m for poly in polys for m in poly.monoms())
+        return np.array([sum(int(e) * w for e, w in zip(m, weights)) for m in monomials], kind)
 
     terms = [keys([block.poly]) for block in blocks]
     signs = [np.array([int(c) > 0 for c in block.poly.coeffs()]) for block in blocks]

@@ -381,6 +381,139 @@ unstable scale/unstable
 escape scale/stays
 """
 
+# The second of two numbers runs down; then the first is halved, and the second put back by as much
+# as parameter and first say. And a state that steps to 0 from both sides: its distance is the rank.
+COUNT = """
+statement count/map
+over a
+domain a >= 0
+state x y
+space x >= 0 and y >= 0
+piece y >= 1 -> x, y - 1
+piece y < 1 -> x/2, a*x^2
+
+statement count/descends
+map count/map
+domain a >= 0
+rank 2*x, y
+stage x < 1
+
+statement count/sides
+over
+domain 0 = 0
+state x
+space 0 = 0
+piece x > 0 -> x - 1
+piece x <= 0 -> x + 1
+
+statement count/side
+map count/sides
+domain 0 = 0
+rank x
+rank x <= 1 -> -x
+stage x >= -1 and x <= 1
+
+statement count/both
+map count/sides
+domain 0 = 0
+rank x > 2 -> 1, x
+rank x < -2 -> 1, -x
+rank x >= -2 and x <= 2 -> 0, 0
+stage x >= -2 and x <= 2
+"""
+
+# A parameter that is an integer: what is left is divided by it, or it is taken away.
+WHOLE = """
+statement whole/map
+over n
+integer n
+domain n != 0
+state x
+space 0 = 0
+piece 0 = 0 -> x/n
+
+statement whole/descends
+map whole/map
+domain n != 0 and n^2 > 1
+rank 0
+stage 0 = 0
+
+statement whole/lyapunov
+map whole/map
+domain n != 0 and n^2 > 1
+on 0 = 0
+point 0
+value x^2
+loss (1 - 1/n^2)*value
+least (1 - 1/n^2)*distance^2
+upper 1
+radius 1
+
+statement whole/attracts
+descent whole/descends
+lyapunov whole/lyapunov
+
+statement whole/stays
+map whole/map
+domain n != 0 and n = 1
+point 0
+start 1
+word 1
+
+statement whole/flips
+map whole/map
+domain n != 0 and n = -1
+point 0
+start 1
+word 1 1
+
+statement whole/exactly
+attraction whole/attracts
+escape whole/stays
+escape whole/flips
+
+statement whole/subtracts
+over n
+integer n
+domain n > 0
+state x
+space x >= 0
+piece x >= n -> x - n
+piece x < n -> x/2
+
+statement whole/subtracts-descends
+map whole/subtracts
+domain n > 0
+rank x
+stage x < n
+
+statement whole/contracts
+map whole/subtracts
+domain n > 0
+on x < n
+point 0
+weights 1
+rate 1/2
+radius 1/2
+size n
+
+statement whole/relation
+over n
+integer n
+domain n > 0
+state x
+input u
+space x >= 0
+piece u >= 1 and x >= n -> x - n
+piece x < n -> x/2
+
+statement whole/related
+relation whole/relation
+domain n > 0
+rank x
+stage x < n
+"""
+
 
 def read(text: str) -> dict[str, checker.Statement]:
     """The statements of a text."""
@@ -507,6 +640,26 @@ rate c
 radius b
 upper a
 
+statement asked/of-integers
+over a b
+integer b
+domain a > 0
+state x y
+space x >= b
+piece 0 = 0 -> x + b, y
+
+statement asked/lyapunov-of-integers
+map asked/of-integers
+domain a > 2
+on x < 1
+point a, b
+have x_point = a
+value x^2
+loss value
+least distance
+upper a
+radius b
+
 statement asked/inner
 over a b
 domain a > 0
@@ -560,6 +713,14 @@ relation asked/relation
 domain a > 7
 root d = sqrt(x)
 rank d
+stage x < 1
+
+statement asked/descends-by-several
+map asked/map
+domain a > 8
+root d = sqrt(x)
+rank x > 2 -> d, y, a
+rank x, y^2, b
 stage x < 1
 
 statement asked/escapes

@@ -18,6 +18,7 @@ from juggleproof.certificates.checker.rules import prove
 from tests.certificates.checker.harness import Expected, refused
 from tests.certificates.checker.maps import (
     ASKED,
+    COUNT,
     DOUBLE,
     FLIP,
     NEST,
@@ -26,6 +27,7 @@ from tests.certificates.checker.maps import (
     SUBTRACT,
     SWITCH,
     TURN,
+    WHOLE,
     checked,
     edited,
     read,
@@ -127,6 +129,27 @@ FAILING_WITHOUT_INPUTS = [
     ("contracts", "rate 1/2", "rate 1/3", "closer-1"),
     ("contracts", "rate 1/2", "rate 1", "constants"),
 ]
+FAILING_WITH_RANKS = [
+    ("descends", "rank 2*x, y", "rank 2*x - 1, y", "bounded"),
+    ("descends", "rank 2*x, y", "rank 2*x, y - 1", "bounded"),
+    ("descends", "rank 2*x, y", "rank y, 2*x", "falls-2"),
+    ("descends", "rank 2*x, y", "rank 2*x, y/2", "falls-1"),
+    ("descends", "rank 2*x, y", "rank x, y", "falls-2"),
+    ("descends", "rank 2*x, y", "rank 2*x + y, 0", "falls-2"),
+    ("side", "rank x <= 1 -> -x", "rank x < -5 -> -x", "bounded"),
+    ("side", "rank x\n", "rank x > 1 -> x\n", "bounded"),
+    ("side", "rank x\n", "rank x\nrank x > -5 -> 2 + x\n", "falls-2"),
+    ("side", "rank x\n", "rank x\nrank 3 - x\n", "falls-1"),
+    ("both", "1, -x", "1, x", "bounded"),
+    ("both", "1, -x", "1, -x/2", "falls-2"),
+    ("both", "-> 0, 0", "-> 1, 9", "falls-1"),
+    ("both", "-> 0, 0", "-> 2, 0", "falls-1"),
+]
+FAILING_OF_INTEGERS = [
+    ("map", "domain n != 0", "domain n != 0 and 0 < n and n < 1", "possible"),
+    ("subtracts-descends", "rank x", "rank x/2", "falls-1"),
+    ("contracts", "radius 1/2", "radius 1", "surrounds"),
+]
 FAILING_INTO = [("into", "radius 1", "radius 0", "constants")]
 # What joins two statements fails through the one or the other: (statement changed, from, to,
 # statement that fails, premise)
@@ -137,6 +160,9 @@ JOINS = [
     ("lyapunov", "on x < 1", "on x < 3/4", "settles", "enters"),
     ("escapes", "point 0", "point 1/3", "exactly", "same-point-1"),
     ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "exactly", "covers"),
+]
+JOINS_OF_INTEGERS = [
+    ("map", "integer n\n", "", "exactly", "covers"),
 ]
 JOINS_INTO = [
     ("at-once", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "into", "inside"),
@@ -154,7 +180,9 @@ JOINS_OF_SEVERAL = [
 ]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE])
+@pytest.mark.parametrize(
+    "text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE]
+)
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
@@ -192,6 +220,8 @@ def named(text: str, kind: str) -> str:
         *((PUSH, *row) for row in FAILING_OF_A_RELATION),
         *((SWITCH, *row) for row in FAILING_WITHOUT_INPUTS),
         *((NEST, *row) for row in FAILING_INTO),
+        *((COUNT, *row) for row in FAILING_WITH_RANKS),
+        *((WHOLE, *row) for row in FAILING_OF_INTEGERS),
     ],
 )
 def test_a_rule_fails_without_its_premise(
@@ -210,6 +240,7 @@ def test_a_rule_fails_without_its_premise(
         *((SUBTRACT, *row) for row in JOINS),
         *((NEST, *row) for row in JOINS_INTO),
         *((SCALE, *row) for row in JOINS_OF_SEVERAL),
+        *((WHOLE, *row) for row in JOINS_OF_INTEGERS),
     ],
 )
 def test_joined_statements_fail_without_what_joins_them(
@@ -259,6 +290,35 @@ def test_rejects_a_domain_on_which_nothing_is_refuted(line: str) -> None:
     name = "scale/exactly"
     assert searched(text)[name] == {"unknown": "no proof of the premise covers was found"}
     assert checked(text, searched(SCALE))[name][0] == "rejected"
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [("subtracts", "whole/subtracts-descends"), ("relation", "whole/related")]
+)
+def test_rejects_a_descent_for_integers_where_there_are_others(kind: str, name: str) -> None:
+    text = edited(WHOLE, kind, "integer n\n", "")
+    assert searched(text)[name] == {"unknown": "no proof of the premise falls-1 was found"}
+    assert checked(text, {**searched(WHOLE), **searched(text)})[name][0] != "certified"
+    proofs = searched(WHOLE)[name]["certified"]
+    statements = read(text)
+    falls = checker.premises_of(statements[name], statements)["falls-1"]
+    with pytest.raises(checker.Rejected) as info:
+        prove(falls, proofs["falls-1"], {})
+    assert info.value.kind is Kind.INTEGRAL
+
+
+def test_rejects_an_integer_that_is_an_input() -> None:
+    text = edited(PUSH, "relation", "over a", "over a\ninteger u")
+    _, reason = checked(text, searched(PUSH))["push/relation"]
+    assert refused(reason, (Kind.NO_VARIABLE, "push/relation"))
+
+
+@pytest.mark.parametrize("kind", ["inner", "middle"])
+def test_rejects_an_attraction_of_a_map_for_integers_alone(kind: str) -> None:
+    statements = read(edited(NEST, kind, "over a", "over a\ninteger a"))
+    with pytest.raises(checker.Rejected) as info:
+        checker.premises_of(statements["nest/into"], statements)
+    assert refused(info.value, (Kind.OTHER_MAP, "nest/into"))
 
 
 def test_rejects_an_escape_of_another_map_of_the_same_text() -> None:
@@ -352,6 +412,46 @@ def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
     with pytest.raises(checker.Rejected) as info:
         prove(enters, ["proof", [], ["close"]], {})
     assert refused(info.value, (Kind.VARIABLE_TWICE, "c"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "old", "new", "premise", "expected"),
+    [
+        ("map", "state x y", "state x rank_2", "bounded", (Kind.VARIABLE_TWICE, "rank_2")),
+        ("map", "over a", "over a rank_1", "falls-1", (Kind.VARIABLE_TWICE, "rank_1")),
+        ("descends", "stage x < 1", "stage rank_1 < 1", "stage-1-2", (Kind.UNDECLARED, "rank_1")),
+        (
+            "descends",
+            "rank 2*x, y\n",
+            "root h = sqrt(rank_1)\nrank 2*x, y\n",
+            "inside",
+            (Kind.UNDECLARED, "rank_1"),
+        ),
+    ],
+)
+def test_rejects_other_uses_of_the_names_of_what_is_at_least_the_rank(
+    kind: str, old: str, new: str, premise: str, expected: Expected
+) -> None:
+    text = edited(COUNT.replace("rank 2*x, y\n", "rank 2*x, y\nrank x, 0\n"), kind, old, new)
+    if "rank_2" in new:
+        text = (
+            text.replace("x/2, a*x^2", "x/2, x")
+            .replace("y", "rank_2")
+            .replace("2*x, rank_2", "x, x")
+        )
+    statements = read(text)
+    written = checker.premises_of(statements["count/descends"], statements)
+    with pytest.raises(checker.Rejected) as info:
+        prove(written[premise], ["proof", [], ["close"]], {})
+    assert refused(info.value, expected), info.value
+
+
+@pytest.mark.parametrize(("terms", "lines"), [(20_000, 1), (400, 200)])
+def test_rejects_a_rank_of_very_many_terms(terms: int, lines: int) -> None:
+    rank = "\n".join([f"rank {', '.join(['x'] * terms)}"] * lines)
+    text = edited(SUBTRACT, "descends", "rank x", rank)
+    _, reason = checked(text, searched(SUBTRACT))["demo/descends"]
+    assert refused(reason, Kind.WORK)
 
 
 def test_rejects_a_missing_or_left_over_premise() -> None:
@@ -450,6 +550,21 @@ MALFORMED = [
         "rank x",
         "rank x_next + x",
         (Kind.UNDECLARED, "x_next", "premise bounded of demo/descends"),
+    ),
+    ("descends", "rank x", "rank x\nrank x, x", Kind.VALUE),
+    ("descends", "rank x", "rank x, x\nrank x", Kind.VALUE),
+    ("descends", "rank x", "rank x\nrank (x > 0, x < 1) -> x", Kind.VALUE),
+    ("descends", "rank x", "rank x\nrank rank_1", Kind.VALUE),
+    ("descends", "rank x", "rank x\nrank rank_1 < 0 -> x", Kind.VALUE),
+    ("descends", "rank x", "rank x\nrank rank_2", (Kind.UNDECLARED, "rank_2")),
+    ("descends", "rank x", "rank x, rank_2 + x", Kind.VALUE),
+    ("descends", "rank x", "rank ()", Kind.TEXT),
+    ("descends", "rank x", "rank ()\nrank ()", Kind.TEXT),
+    (
+        "descends",
+        "rank x",
+        "root rank_1 = sqrt(x)\nrank x\nrank x",
+        (Kind.VARIABLE_TWICE, "rank_1", "premise bounded of demo/descends"),
     ),
     ("descends", "rank x", "rank z", (Kind.UNDECLARED, "z", "premise bounded of demo/descends")),
     (
@@ -553,6 +668,10 @@ MALFORMED = [
         (Kind.EARLIER, "lyapunov "),
     ),
     ("map", "state x", "state x iff", Kind.PIECE),
+    ("map", "over a", "over a\ninteger x", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger z", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger a x", (Kind.NO_VARIABLE, "demo/map")),
+    ("map", "over a", "over a\ninteger iff", (Kind.NO_VARIABLE, "demo/map.possible")),
     ("map", "over a", "over a implies", (Kind.NAME, "implies", "premise possible of demo/map")),
     ("escapes", "word 2", "word", (Kind.WORD, "demo/escapes")),
     ("escapes", "word 2", "word 3", Kind.INDEX),

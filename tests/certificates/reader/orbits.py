@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from itertools import repeat
 
@@ -21,6 +21,11 @@ def disjunction(parts: Iterable[Tree]) -> Tree:
     return reduce(lambda left, right: ("or", left, right), parts)
 
 
+def where(guards: Sequence[Tree], tree: Tree) -> Tree:
+    """What holds where a guard does, if there is one."""
+    return disjunction([*(("not", guard) for guard in guards), tree])
+
+
 def equal(left: Iterable[Tree], right: Iterable[Tree]) -> Tree:
     return conjunction(("=", a, b) for a, b in zip(left, right))
 
@@ -35,6 +40,7 @@ class Setting:
         self.inputs = self.map.names("input")
         self.parameters = self.map.one("over")
         self.state = self.map.one("state")
+        self.integers = [line for line in self.map.lines if line.word == "integer"]
         self.domain: Tree = statement.one("domain")
         self.space: Tree = self.map.one("space")
         self.pieces = self.map.all("piece")
@@ -68,7 +74,10 @@ class Setting:
     def params(self, *more: str) -> list[Line]:
         names = (*self.parameters, *(self.points if self.have else ()), *more)
         known = [Line("given", one) for one in self.have] or self.let_point()
-        return [Line("forall", names), Line("range", self.domain), *self.fixed, *known]
+        return [*self.head(*names), *known]
+
+    def head(self, *names: str) -> list[Line]:
+        return [Line("forall", names), *self.integers, Line("range", self.domain), *self.fixed]
 
     def at_state(self, *more: str) -> list[Line]:
         places = [
@@ -88,7 +97,7 @@ class Setting:
         ]
 
     def around_point(self) -> list[Line]:
-        lines = [Line("forall", self.parameters), Line("range", self.domain), *self.fixed]
+        lines = self.head(*self.parameters)
         space = renamed(self.space, dict(zip(self.state, self.points)))
         return [*lines, *self.let_point(), Line("show", conjunction([space, *self.have]))]
 
@@ -143,6 +152,7 @@ class Setting:
 
     def own_domain(self) -> Premises:
         lines = [
+            *self.integers,
             Line("exists", (*self.parameters, *self.state)),
             Line("with", self.domain),
             Line("show", self.space),
@@ -197,15 +207,39 @@ def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Pr
 
 def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
-    rank, stages = statement.one("rank"), statement.all("stage")
+    lines_of_rank, stages = statement.all("rank"), statement.all("stage")
     require(not any(names_in(stage) & {*setting.inputs} for stage in stages), "an input")
     premises = {**setting.own_domain(), **setting.inside()}
-    lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
+    size = len(lines_of_rank[0][1])
+    more = tuple(f"rank_{c}" for c in range(1, size + 1))
+    rank: list[Tree] = [("name", name) for name in more]
+    known: list[Tree] = []
+    for guards, terms in lines_of_rank:
+        require(len(terms) == size, "as many terms on each line")
+        used = [names_in(tree) for tree in (*guards, *terms)]
+        require(not any(names & {*more} for names in used), "a rank that names what it is below")
+        below = conjunction(("<=", term, one) for term, one in zip(terms, rank))
+        known.append(where(guards, below))
+    if len(lines_of_rank) == 1 and not lines_of_rank[0][0]:
+        rank, known, more = [*lines_of_rank[0][1]], [], ()
+    lines = [*setting.at_state(*more), *(Line("given", one) for one in known)]
+    lines.append(Line("show", conjunction((">=", one, ZERO) for one in rank)))
     premises |= [setting.premise("bounded", lines)]
+
+    def smaller(c: int, guards: tuple[Tree, ...], terms: tuple[Tree, ...]) -> Tree:
+        """Component c falls on this line and none before it grows, where the guard holds."""
+        next_ = [*map(setting.moved, terms)]
+        parts: list[Tree] = [("<=", after, one) for after, one in zip(next_[:c], rank)]
+        parts.append(("<=", next_[c], ("-", rank[c], ONE)))
+        return where([*map(setting.moved, guards)], conjunction(parts))
+
+    falls = disjunction(
+        conjunction(smaller(c, guards, terms) for guards, terms in lines_of_rank)
+        for c in range(size)
+    )
     for k in range(len(setting.pieces)):
         outside = ("not", disjunction(stages))
-        falls = ("<=", setting.moved(rank), ("-", rank, ONE))
-        lines = [*setting.step(k, outside), Line("show", falls)]
+        lines = [*setting.step(k, outside, *known, more=more), Line("show", falls)]
         premises |= [setting.premise(f"falls-{k + 1}", lines)]
     for i, stage in enumerate(stages):
         following = stages[min(i + 1, len(stages) - 1)]
@@ -289,8 +323,7 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
     given = Line("given", inside)
     here = [given]
     for guards, term in values:
-        reached = [*(("not", guard) for guard in guards), ("<=", term, value)]
-        here.append(Line("given", disjunction(reached)))
+        here.append(Line("given", where(guards, ("<=", term, value))))
     positive = [
         Line("given", (">=", value, ZERO)),
         Line("given", (">", ("+", ONE, value), ZERO)),
@@ -337,7 +370,7 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
         premises |= [setting.premise(f"stays-{k + 1}", lines)]
         for i, (guards, term) in enumerate(values):
             falls: Tree = ("<=", setting.moved(term), ("-", value, loss))
-            shown = disjunction([*(("not", setting.moved(one)) for one in guards), falls])
+            shown = where([*map(setting.moved, guards)], falls)
             lines = [*setting.step(k, *before, more=more), Line("show", shown)]
             premises |= [setting.premise(f"falls-{k + 1}-{i + 1}", lines)]
     return premises
@@ -392,7 +425,7 @@ def of_into(statement: Statement, statements: Mapping[str, Statement]) -> Premis
     first = Setting(descent, statements)
     second = Setting(statements[attraction.one("descent")], statements)
     other = around(attraction, statements)
-    for word in ("over", "state", "piece"):
+    for word in ("over", "integer", "state", "piece"):
         require(first.map.all(word) == second.map.all(word), "a map with other pieces")
     point, radius = other.one("point"), statement.one("radius")
     roots = other_roots(first, Setting(other, statements))[0]

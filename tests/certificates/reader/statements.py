@@ -25,9 +25,9 @@ ORDERS = {
     "(exists ((with|let) )*)?show ",
     "sharp": "sharp over domain (number )*holds ",
     "iterates": "forall integer (let )*iterates after ",
-    "map": "over domain state space (piece )+",
-    "relation": "over domain state input space (piece )+",
-    "descends": "(map|relation) domain (root )*rank (stage )+",
+    "map": "over (integer )?domain state space (piece )+",
+    "relation": "over (integer )?domain state input space (piece )+",
+    "descends": "(map|relation) domain (root )*(rank )+(stage )+",
     "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
     "unstable": "map domain (root )*point direction (have )*(value )+rate radius upper ",
@@ -38,7 +38,7 @@ ORDERS = {
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
-TERMS = ("rank", "rate", "radius", "size", "loss", "least", "upper")
+TERMS = ("rate", "radius", "size", "loss", "least", "upper")
 TUPLES = ("point", "weights", "start", "direction")
 OTHERS = {  # the kinds of statements that a line may name
     "map": ("map",),
@@ -130,7 +130,7 @@ def read_statement(
     scope = Scope(known, earlier, around=kinds[0] in ("lyapunov", "unstable"))
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
     statement = Statement(name, kinds[0], lines)
-    variables = {*statement.names("forall"), *statement.names("exists")}
+    variables = {name for word in ("forall", "exists", "over") for name in statement.names(word)}
     require(set(statement.names("integer")) <= variables, f"{name}: an integer is no variable")
     return statement
 
@@ -172,6 +172,9 @@ class Scope:
             *guard, term = self._arrow(text) if " -> " in text else [text]
             tree = require_term(self._tree(term))
             return tuple(require_formula(self._tree(one)) for one in guard), tree
+        if word == "rank":
+            *guard, terms = self._arrow(text) if " -> " in text else [text]
+            return tuple(require_formula(self._tree(one)) for one in guard), self._parts(terms)
         if word == "let":
             name, term = self._equation(text)
             tree = require_term(self._tree(term))

@@ -23,6 +23,7 @@ from juggleproof.certificates.store import DEFAULT
 from tests.certificates.checker.harness import Case
 from tests.certificates.checker.maps import (
     ASKED,
+    COUNT,
     DOUBLE,
     FLIP,
     NEST,
@@ -31,6 +32,7 @@ from tests.certificates.checker.maps import (
     SUBTRACT,
     SWITCH,
     TURN,
+    WHOLE,
     searched,
 )
 from tests.certificates.checker.rules import TABLES
@@ -169,7 +171,9 @@ def until(text: str) -> Iterator[str]:
     return ("\n\n".join(blocks[:k]) + "\n" for k in range(1, len(blocks) + 1))
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE])
+@pytest.mark.parametrize(
+    "text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE]
+)
 def test_changes_of_orbit_rules_have_the_checkers_outcome_hold(text: str) -> None:
     certificates = searched(text)
     assert by_reader(text, certificates) == "certified"

@@ -21,6 +21,7 @@ from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from tests.certificates.checker.maps import COUNT, WHOLE, searched
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import coqc
 from tests.proofs.coq.test_development import REALS
@@ -137,6 +138,18 @@ def test_rejects_a_changed_map(name: str, old: str, new: str, tmp_path: Path) ->
 def test_rejects_a_certificate_of_another_shape() -> None:
     with pytest.raises(NotWritten, match="a part of its certificate is not understood"):
         written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "says"),
+    [
+        (COUNT, "count/descends", "count/descends has a rank of several terms"),
+        (WHOLE, "whole/exactly", "whole/map has parameters that are integers"),
+    ],
+)
+def test_rejects_a_rule_that_is_not_written(text: str, name: str, says: str) -> None:
+    with pytest.raises(NotWritten, match=f"{says}, which is not written for Coq"):
+        theorem(name, checker.read_statements(text), searched(text))
 
 
 def test_rejects_another_map_with_the_certificates_of_one(tmp_path: Path) -> None:

@@ -62,6 +62,11 @@ SETTLED = {  # name: (text, exit code, first line)
         1,
         "unknown  not-fixed: 1 is no fixed point in the space",
     ),
+    "scaling": (  # one refutation for each of a > 1, a = 1, a = -1, a < -1
+        "over a\ndomain -3 < a and a < 3\nstate x\npiece a*x",
+        0,
+        f"proved   scaling: 0 {STABLE} if and only if 1 - a > 0 and a + 1 > 0",
+    ),
     "drift": (  # x + 1 at a = 0
         "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
         0,

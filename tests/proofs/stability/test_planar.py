@@ -1,0 +1,88 @@
+"""Maps of two and three variables: what is proved or refuted of them, and that it is not where the
+hypothesis is dropped.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from juggleproof import MapRule
+from juggleproof.proofs.stability.given import read_rows
+from juggleproof.proofs.stability.search import Proof, search_stability
+from tests.proofs.command import running
+
+STABLE, AWAY = "is stable and attracts every state", "is not stable"
+COMPETITION = "state x y\nspace x > 0 and y > 0\npiece 5/2*x/(1 + x + C*y), 5/2*y/(1 + y + C*x)"
+SETTLED = {  # name: (text, exit code, first line)
+    "spiral": (
+        "over b\ndomain 1 < b and b < 2\nstate x y\npiece x - b*y, x",
+        1,
+        f"refuted  spiral: (0, 0) {AWAY}",
+    ),
+    "spirals": (
+        "over b\ndomain 0 < b and b < 2\nstate x y\npiece x - b*y, x",
+        0,
+        f"proved   spirals: (0, 0) {STABLE} at least where 1 - b > 0",
+    ),
+    "saddle": (
+        "over a\ndomain 3/2 < a\nstate x y z\npiece y/2, z - x/2, a*z",
+        1,
+        f"refuted  saddle: (0, 0, 0) {AWAY}",
+    ),
+    "coexistence": (
+        COMPETITION.replace("C", "(1/4)"),
+        0,
+        f"proved   coexistence: (6/5, 6/5) {STABLE}",
+    ),
+    "exclusion": (COMPETITION.replace("C", "4"), 1, f"refuted  exclusion: (3/10, 3/10) {AWAY}"),
+}
+RECRUITMENT = (
+    ("over", "p"),
+    ("domain", "3/4 < p and p < 2"),
+    ("state", "x y"),
+    ("space", "x > 0 and y > 0"),
+    ("piece", "x/2 + p*y/(1 + y), x"),
+)
+
+
+@pytest.mark.parametrize("name", SETTLED)
+def test_a_map_of_several_variables_is_settled_as_it_behaves_holds(
+    name: str, tmp_path: Path
+) -> None:
+    text, code, line = SETTLED[name]
+    (tmp_path / f"{name}.map").write_text(text + "\n")
+    done = running.run("stability", str(tmp_path / f"{name}.map"))
+    assert (done.returncode, done.stderr, done.stdout.split("\n")[0]) == (code, "", line)
+
+
+def weaker(rule: MapRule, row: tuple[str, str]) -> MapRule:
+    """The rule with another line in place of that of the same keyword."""
+    return replace(rule, rows=tuple(row if one[0] == row[0] else one for one in rule.rows))
+
+
+@pytest.mark.parametrize(
+    "row", [("domain", "1/4 < p and p < 2"), ("upper", "1/4"), ("loss", "value"), ("radius", "p")]
+)
+def test_rejects_a_box_function_with_a_line_that_claims_more(row: tuple[str, str]) -> None:
+    found = search_stability(read_rows("recruitment", RECRUITMENT))
+    assert found.sentence == f"(2*p - 1, 2*p - 1) {STABLE}"
+    the_map, lyapunov = found.proof.rules
+    assert len([one for one in lyapunov.rows if one[0] == "value"]) == 4
+    proof = Proof()
+    assert not proof.add(the_map)
+    assert proof.add(weaker(lyapunov, row), (1,), 100_000)
+
+
+def test_rejects_a_growth_rate_that_is_too_large() -> None:
+    text = SETTLED["spiral"][0].split("\n")
+    found = search_stability(
+        read_rows("spiral", [(line.split()[0], line.partition(" ")[2]) for line in text])
+    )
+    the_map, unstable = found.proof.rules
+    for row in (("rate", "3"), ("domain", "1/2 < b and b < 2"), ("upper", "1/100")):
+        proof = Proof()
+        assert not proof.add(the_map)
+        assert proof.add(weaker(unstable, row), (1, 2), 100_000)
