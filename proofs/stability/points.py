@@ -10,12 +10,21 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from juggleproof.proofs.stability.given import Expr, Map, expression, holds, symbols, written
+from juggleproof.proofs.stability.given import (
+    Expr,
+    Map,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
 from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region
 
 PARAMETERS = 150  # samples
 VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables that are free
 MOST_VALUES = 100
+NEARLY = 1e-6  # of a state, in floats
 
 
 @dataclass(frozen=True)
@@ -32,11 +41,14 @@ class FixedPoint:
         """For which parameters it is a fixed point of the map."""
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
-        guard, _ = system.pieces[self.piece]
+        guard, images = system.pieces[self.piece]
         with np.errstate(all="ignore"):
             inside = np.logical_and(
                 holds(system.space, {**known, **states}), holds(guard, {**known, **states})
             )
+            for name, image in zip(system.state, images):
+                gap = np.abs(np.asarray(value(image, {**known, **states}), float) - states[name])
+                inside = inside & (gap <= NEARLY * (1 + np.abs(states[name])))
         return np.broadcast_to(inside, states[system.state[0]].shape)
 
     def stable_share(self, system: Map, parameters: Arrays) -> float:
@@ -94,6 +106,8 @@ def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list
     """
     try:
         equations = [one for one in map(sympy.expand, equations) if one != 0]
+        if any(one.free_symbols.isdisjoint(state) for one in equations):
+            return  # which `solve` would leave out
         found = sympy.solve(equations, state, dict=True) if equations else [{}]
     except NotImplementedError:
         return

@@ -144,11 +144,7 @@ def escape_rules(
 ) -> Iterator[MapRule]:
     """Statements `escapes` for periodic orbits along these words."""
     system = setting.system
-    seen = set()
     for word in itertools.islice(words, MOST_TRIED):
-        if word in seen:
-            continue
-        seen.add(word)
         for every in periodic_points(setting, word):
             start = next((one for one in every if _is_escape(setting, one, word)), None)
             if start is None:

@@ -74,6 +74,7 @@ BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
 SATURATED_BUDGET = 1_000_000
 ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
+GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
 MOST_REFUTED, MOST_RATES = 3, 6  # fixed points, and rates of growth from each
 EFFORTS = (1, 2, SQUARED)
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -545,7 +546,7 @@ def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
     nothing.
     """
     fixed = [(k,) for k in range(len(setting.system.pieces))]
-    return escaped(proof, setting, [*words_of_stray_orbits(setting), *fixed], log)
+    return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
 
 
 def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
@@ -570,8 +571,11 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
     """That orbits leave a neighbourhood of the point, or nothing."""
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
+    before = proof.work
     for rule in islice(rules(setting, name), MOST_RATES):
-        fault = proof.add(rule, EFFORTS, LOCAL_BUDGET)
+        if proof.work - before > GROWTH_WORK:
+            break
+        fault = proof.add(rule, EFFORTS, GROWTH_BUDGET)
         log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
         if not fault:
             return "is not stable"
@@ -622,7 +626,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
         return False
     best = found[0][1]
-    fault = proof.add(best, (1,))
+    fault = proof.add(best, *ROUNDS[0][:2])
     log(f"{function_of(best)}: {proof.why() or fault}")
     return not fault
 

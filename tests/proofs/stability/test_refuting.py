@@ -7,7 +7,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import sympy
 
+from juggleproof.proofs.stability.points import as_point
 from tests.proofs.command import running
 
 STABLE = "is stable and attracts every state"
@@ -54,6 +56,11 @@ SETTLED = {  # name: (text, first line)
         PHASE.format("0"),
         "refuted  somewhere: (-1/2) does not attract (-1), which is a fixed point",
     ),
+    "drift-beside-rest": (  # where the first variable drifts, the second may rest
+        "over h\ndomain 0 < h and h < 1\nstate x y\n"
+        "piece x - h*max(-1, min(1, x - y)), y - h*max(-1, min(1, y))",
+        f"proved   drift-beside-rest: (0, 0) {STABLE}",
+    ),
     "each-unstable": (
         SLOPE.format("2"),
         "refuted  each-unstable: (-b) is not stable; 0 is not stable; b is not stable",
@@ -62,9 +69,9 @@ SETTLED = {  # name: (text, first line)
         "state v\nspace 1 <= v and v <= 2\npiece v/2 + max(0, 1 - v)/v + 1/2",
         f"proved   bound: 1 {STABLE}",
     ),
-    "root-below": (  # the point is 2/(1 + sqrt(5)), as SymPy has it
+    "root": (  # without parameters
         "state x\nspace x > 0\npiece 1/(1 + x)",
-        f"proved   root-below: ((sqrt(5) - 1)/2) {STABLE}",
+        f"proved   root: ((sqrt(5) - 1)/2) {STABLE}",
     ),
 }
 
@@ -76,3 +83,11 @@ def test_a_map_is_refuted_where_it_has_the_hypothesis_holds(name: str, tmp_path:
     path.write_text(text + "\n")
     done = running.run("stability", str(path))
     assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
+
+
+def test_the_divisor_of_a_point_has_no_root_holds() -> None:
+    q = sympy.Symbol("q", real=True)
+    point = as_point((q / (q + sympy.sqrt(q + 1)), 1 / sympy.sqrt(q + 1)))
+    assert point is not None
+    assert point.roots == (("root_1", "q + 1"),)
+    assert point.terms == ("-q*(q - root_1)/(-q^2 + q + 1)", "root_1/(q + 1)")
