@@ -10,9 +10,14 @@ In reading order, each importing those before it only:
 - `domains`: for which parameters a fixed point can be stable.
 - `values`: Lyapunov functions by linear programs on samples, and the constants of their rule.
 - `norms`: polytope norms that piecewise affine maps contract.
+- `envelopes`: functions of one variable, by fractional linear involutions.
+- `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `by_sign`: proofs by cases of signs that a search of functions suggests.
-- `refuting`: periodic orbits in exact terms, and functions that grow.
+- `refuting`, `chetaev`: periodic orbits in exact terms, and functions that grow.
+- `certifying`: statements certified one after another, within counted work.
+- `settings`: a fixed point with a part of the domain.
+- `attracting`, `failing`: that the point is stable and attracts every state, or not.
 - `search`: all of it, in order, and the outcome.
 - `claiming`: the same as a claim of one's own.
 """

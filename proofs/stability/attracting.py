@@ -1,0 +1,135 @@
+"""That a point is stable and attracts every state: the candidates, those that fit samples best
+first, until one is certified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import (
+    BUDGET,
+    EFFORTS,
+    ENVELOPES,
+    MOST_WORK,
+    Proof,
+    Report,
+    function_of,
+    tried,
+)
+from juggleproof.proofs.stability.envelopes import envelope_rules
+from juggleproof.proofs.stability.given import (
+    atoms,
+    renamed,
+    written,
+)
+from juggleproof.proofs.stability.norms import is_affine, norm_rules
+from juggleproof.proofs.stability.part_metric import part_metric_rules
+from juggleproof.proofs.stability.samples import (
+    around,
+    region,
+)
+from juggleproof.proofs.stability.saturated import saturated_rules
+from juggleproof.proofs.stability.values import (
+    Function,
+    Setting,
+    equation_rules,
+    lyapunov_functions,
+    lyapunov_rules,
+    quadratic_templates,
+    sum_of_quotients,
+)
+
+SATURATED_BUDGET = 1_000_000
+ROUNDS = (  # efforts, budget, and how many of the candidates get it
+    ((1,), 20_000, 24),
+    ((1, 2), 50_000, 12),
+    (EFFORTS, 100_000, 6),
+    (EFFORTS, 400_000, 4),
+)
+MOST_BOXES, BOX_BUDGET = 3, 300_000
+
+
+def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether the point is certified to be stable and to attract every state."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    if is_affine(setting.system):
+        for rule in norm_rules(setting, name):
+            if not tried(proof, rule, EFFORTS, BUDGET, log):
+                return True
+        for rule, signs in saturated_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), SATURATED_BUDGET, log, signs):
+                return True
+        before = proof.work
+        for rule in equation_rules(setting, space, name):
+            if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
+                return True
+    if in_boxes(proof, setting, log):
+        return True
+    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
+    found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
+    before = proof.work
+    for count, (efforts, budget, most) in enumerate(ROUNDS):
+        for _, rule in found[:most]:
+            if proof.work - before < MOST_WORK and not tried(proof, rule, efforts, budget, log):
+                return True
+        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+            return True
+    if not found:
+        log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
+        return False
+    best = found[0][1]
+    fault = proof.add(best, *ROUNDS[0][:2])
+    log(f"{function_of(best)}: {proof.why() or fault}")
+    return not fault
+
+
+def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool:
+    """Whether the point of a map of one variable is certified, by an envelope, to be stable and to
+    attract every state; `closed`: with the loss of a multiplier that may be -1.
+    """
+    rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
+    return any(proof.add_all(one, (1, 2), log) for one in rules)
+
+
+def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same, by functions whose sublevel sets are boxes."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
+    return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
+
+
+def divisors(setting: Setting) -> list[str]:
+    """What is positive inside the space, for functions that grow without bound at its ends: each
+    of its strict bounds times the same at the point, which has no units, then their product.
+    """
+    system = setting.system
+    put = {name: f"{name}_point" for name in system.state}
+    found = []
+    for poly, strict in atoms(system.space):
+        text = written(poly)
+        if strict and poly.is_polynomial() and checker.names_in(text) & set(system.state):
+            found.append(text if text.isidentifier() else f"({text})")
+    several = ["*".join(found)] if len(found) > 1 else []
+    both = [f"{one}*{renamed(one, put)}" for one in found if setting.have]
+    return several + found + both
+
+
+def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
+    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
+    is simple and fits well.
+    """
+    system, point = setting.system, setting.point
+    tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
+    positive = divisors(setting)
+    templates = [
+        *enumerate(quadratic_templates(system, setting.piece, positive)),
+        *((0.0, template) for template in sum_of_quotients(system)),
+    ]
+    for kind, template in templates:
+        for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
+            function = Function(tuple(terms), template.parts, template.divisor)
+            for rank, rule in lyapunov_rules(setting, function, on, name):
+                yield rank + kind + len(" ".join(terms)) / 100, rule

@@ -1,0 +1,179 @@
+"""Statements that are certified one after another, each candidate within counted work."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import MapRule
+from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Proof as Premise
+from juggleproof.certificates.search.certificate import search_certificate, search_proof
+from juggleproof.certificates.search.closing import SQUARED
+from juggleproof.certificates.states import state_of
+from juggleproof.certificates.votes.z3 import vote_and_model
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
+from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability.by_sign import proof_by_signs
+from juggleproof.proofs.stability.given import (
+    ANYWHERE,
+    conjuncts,
+)
+
+BUDGET = 2_000_000  # counted work for a premise
+LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
+ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
+EFFORTS = (1, 2, SQUARED)
+MOST_WORK, SQUARES_COST = 4_000_000, 8  # on all candidates; of a unit at the effort of squares
+Report = Callable[[str], None]
+
+
+@dataclass
+class Proof:
+    """Statements with certificates, in order."""
+
+    rules: list[MapRule] = field(default_factory=list)
+    certificates: dict[str, Certificate] = field(default_factory=dict)
+    known: dict[str, checker.Statement] = field(default_factory=dict)
+    budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
+    open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
+    work: int = 0  # that was spent on premises
+
+    def add(
+        self,
+        rule: MapRule,
+        efforts: Sequence[int] = EFFORTS,
+        budget: int = BUDGET,
+        signs: Mapping[str, Sequence[str]] | None = None,
+    ) -> str:
+        """Certifies one more statement; the premise that is open, or nothing.  signs: for some
+        premises, polynomials whose signs are the cases of a proof.
+        """
+        text = "\n\n".join(one.text() for one in [*self.rules, rule])
+        proofs: dict[str, Premise] = {}
+        self.open = None
+        try:
+            statement = checker.read_statements(text)[rule.name]
+            premises = checker.premises_of(statement, self.known)
+            # those first that fail most often
+            for name in sorted(premises, key=lambda name: not name.startswith("falls")):
+                proof = None
+                if signs and name in signs:
+                    proof = proof_by_signs(premises[name], self.known, signs[name])
+                work = budget * self.budget // BUDGET
+                proof = proof or self.proof_of(premises[name], efforts, work)
+                if proof is None:
+                    self.open = statement.kind, name, premises[name]
+                    return f"no proof of the premise {name} was found"
+                proofs[name] = proof
+        except checker.Rejected as fault:
+            return str(fault)
+        found: Certificate = {"certified": {name: proofs[name] for name in premises}}
+        outcome, reason = checker.check_one(statement, found, self.known, self.known)
+        if outcome != "certified":
+            return str(reason)
+        self.rules.append(rule)
+        self.certificates[rule.name] = found
+        self.known[rule.name] = statement
+        return ""
+
+    def free_name(self, name: str) -> str:
+        """The name, with a number where a statement has it already."""
+        count = sum(one == name or one.startswith(f"{name}-") for one in self.known)
+        return f"{name}-{count + 1}" if count else name
+
+    def domain(self) -> str:
+        """For which parameters the last statement holds."""
+        return dict(self.rules[-1].rows)["domain"]
+
+    def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
+        """Certifies all of these statements, or none."""
+        kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
+        for rule in rules:
+            if dict(rule.rows).get("value"):
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
+            else:
+                fault = self.add(rule, efforts, LOCAL_BUDGET)
+            if fault:
+                self.rules, self.certificates, self.known = kept
+                return False
+        return True
+
+    def why(self) -> str:
+        """What Z3 says of the last premise without a proof, and its text."""
+        if self.open is None:
+            return ""
+        kind, name, premise = self.open
+        line = why(kind, name, premise, vote_and_model(premise), self.budget)
+        return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
+
+    def proof_of(
+        self, premise: checker.Statement, efforts: Sequence[int], budget: int
+    ) -> Premise | None:
+        """A proof of one premise, if one is found."""
+        if terms_of_pairs(premise) // 16 > budget:
+            return None  # the first program would be too large
+        for effort in efforts:
+            if effort == SQUARED and premise.get("exists"):
+                continue  # there are no squares to find
+            part, proof = Budget(budget), None
+            try:
+                proof = search_proof(premise, self.known, part, effort=effort)
+            except Exhausted:
+                pass
+            self.work += (budget - part.left) * (SQUARES_COST if effort == SQUARED else 1)
+            if proof is not None:
+                return proof
+        return None
+
+
+def terms_of_pairs(premise: checker.Statement) -> int:
+    """How many terms the products of two facts have that a premise without cases begins with."""
+    if premise.get("exists"):
+        return 0
+    unfolding = unfolded(premise)
+    state = state_of(unfolding).assume(unfolding.goal(False))
+    return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
+
+
+def tried(
+    proof: Proof,
+    rule: MapRule,
+    efforts: Sequence[int],
+    budget: int,
+    report: Report,
+    signs: Mapping[str, Sequence[str]] | None = None,
+) -> str:
+    """Tries to certify a candidate."""
+    fault = proof.add(rule, efforts, budget, signs)
+    report(f"{function_of(rule)}: {fault or 'certified'}")
+    return fault
+
+
+def function_of(rule: MapRule) -> str:
+    """The function of a candidate, and its loss."""
+    values = "; ".join(text for keyword, text in rule.rows if keyword == "value")
+    greatest = f"the greatest of {values}" if "; " in values else values
+    return f"V = {greatest}, loss {dict(rule.rows)['loss']}"
+
+
+def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
+    """What the domain asks of the parameters that the checker does not certify to hold on the given
+    one: a licence rests on samples, which miss an end point.
+    """
+    before, open_ = conjuncts(given), []
+    facts = [f"given {one}" for one in before]
+    for condition in conjuncts(domain):
+        if condition in before or condition == ANYWHERE:
+            continue
+        lines = [f"forall {' '.join(parameters)}", *facts, f"show {condition}"]
+        try:
+            statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
+            found = search_certificate(statement, {}, Budget(BUDGET))
+        except checker.Rejected:  # it divides by what may be 0
+            open_.append(condition)
+            continue
+        if checker.check_one(statement, found, {}, {})[0] != "certified":
+            open_.append(condition)
+    return " and ".join(open_)

@@ -1,0 +1,163 @@
+"""That a point is not stable, or does not attract every state; and a theorem that is sharp, of both
+parts of the domain.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report
+from juggleproof.proofs.stability.chetaev import chetaev_rules
+from juggleproof.proofs.stability.given import (
+    Map,
+    checker_text,
+    conjunction,
+    conjuncts,
+)
+from juggleproof.proofs.stability.points import FixedPoint
+from juggleproof.proofs.stability.refuting import (
+    escape_rules,
+    instability_rules,
+    short_words,
+    words_of_stray_orbits,
+)
+from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.values import (
+    Setting,
+)
+
+GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
+MOST_RATES = 6  # of growth
+Way = Callable[[Proof, Setting, Report], str]
+COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
+
+
+def complement(conditions: str) -> list[str]:
+    """Formulas of which one holds where the conditions do not: for each of them its boundary and
+    its strict outside.
+    """
+    parts = []
+    for condition in conjuncts(conditions):
+        node = checker.parse(condition)
+        if isinstance(node, ast.Compare) and not node.ops[1:] and type(node.ops[0]) in COMPLEMENTS:
+            left, right = checker_text(node.left), checker_text(node.comparators[0])
+            parts += [f"{left} {op} {right}" for op in COMPLEMENTS[type(node.ops[0])].split()]
+        else:
+            parts.append(f"not ({condition})")
+    return parts
+
+
+NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that name such a rule
+
+
+def outside_refuted(
+    proof: Proof, system: Map, fixed: FixedPoint, parts: Sequence[str], log: Report
+) -> list[tuple[str, str]]:
+    """The lines that name the refutations for all of these parts of the domain that have
+    parameters; nothing where one of them has none.
+    """
+    lines = []
+    for part in parts:
+        setting = setting_of(system, fixed, conjunction(system.domain, part))
+        if setting.count:
+            if not refuted(proof, setting, log):
+                return []
+            name = proof.rules[-1].name
+            lines.append((NAMED[proof.known[name].kind], name))
+    return lines
+
+
+def sharp(
+    proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
+) -> bool:
+    """Whether stability and attraction on one part of the domain, and their failure on the rest,
+    are put together.
+    """
+    system, name = setting.system, setting.system.name
+    rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
+        (
+            "descends",
+            (
+                ("map", f"{name}/map"),
+                ("domain", setting.domain),
+                ("rank", "0"),
+                ("stage", system.space),
+            ),
+        ),
+        ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
+    ]
+    if f"{name}/attracts" in proof.known:
+        rows = []
+    rows += [
+        ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
+    ]
+    for label, lines in rows:
+        if f"{name}/{label}" in proof.known:
+            continue
+        fault = proof.add(MapRule(f"{name}/{label}", lines))
+        if fault:
+            log(f"{label}: {fault}")
+            return False
+    return True
+
+
+def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """An orbit that samples tend to, or another fixed point, that the point does not attract, or
+    nothing.
+    """
+    fixed = [(k,) for k in range(len(setting.system.pieces))]
+    return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
+
+
+def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
+    """A short periodic orbit, stable or not, or nothing."""
+    return escaped(proof, setting, short_words(setting), log)
+
+
+def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> str:
+    """A periodic orbit along one of these words, or nothing."""
+    name = proof.free_name(f"{setting.system.name}/escapes")
+    for rule in escape_rules(setting, name, words):
+        fault = proof.add(rule)
+        said = dict(rule.rows)
+        log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
+        if not fault:
+            what = "periodic" if " " in said["word"] else "a fixed point"
+            return f"does not attract {in_brackets(said['start'])}, which is {what}"
+    return ""
+
+
+def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
+    """That orbits leave a neighbourhood of the point, or nothing."""
+    rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
+    name = proof.free_name(f"{setting.system.name}/unstable")
+    before = proof.work
+    for rule in islice(rules(setting, name), MOST_RATES):
+        if proof.work - before > GROWTH_WORK:
+            break
+        fault = proof.add(rule, EFFORTS, GROWTH_BUDGET)
+        log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
+        if not fault:
+            return "is not stable"
+    return ""
+
+
+def in_brackets(text: str) -> str:
+    """The text, in brackets where it is a sum or a list, or has a sign."""
+    return f"({text})" if " " in text or text.startswith("-") else text
+
+
+def refuted(
+    proof: Proof,
+    setting: Setting,
+    log: Report,
+    ways: Sequence[Way] = (by_orbit, by_growth, by_short_orbit),
+) -> str:
+    """How the point fails to be stable and to attract every state, for all parameters, or
+    nothing.
+    """
+    return next(filter(None, (way(proof, setting, log) for way in ways)), "")

@@ -1,0 +1,79 @@
+"""A fixed point with a part of the domain: what licenses divisions there, and samples of both."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import sympy
+
+from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.given import (
+    Map,
+    atoms,
+    conjunction,
+    expression,
+    renamed,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint
+from juggleproof.proofs.stability.samples import (
+    around,
+    licence,
+    region,
+    with_point_licences,
+)
+from juggleproof.proofs.stability.values import (
+    Setting,
+)
+
+STATES = 40  # samples for each of the parameters
+
+
+def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
+    """What premises are to know of a point whose terms are not simple: that it is a fixed point,
+    and on which side of the guard and of the bounds of the space it lies.
+    """
+    terms = [expression(term) for term in fixed.point.terms]
+    if all("/" not in written(t) or not t.free_symbols for t in terms) and not fixed.point.roots:
+        return ()
+    names = {name: f"{name}_point" for name in system.state}
+    lines = []
+    for name, image in zip(system.state, system.images[fixed.piece]):
+        above, below = sympy.fraction(sympy.together(image))
+        left = f"{name}_point" if below == 1 else f"{name}_point*({written(below)})"
+        lines.append(f"{left} = {written(above)}")
+    state = symbols(system.state)
+    if not sympy.Matrix(system.images[fixed.piece]).jacobian(state).free_symbols.isdisjoint(state):
+        for name, term in zip(system.state, terms):  # the equations have other solutions
+            above, below = sympy.fraction(term)
+            lines.append(f"{name}_point*({written(below)}) = {written(above)}")
+    guard, _ = system.pieces[fixed.piece]
+    points = setting.states.points
+    for poly, _ in atoms(conjunction(system.space, guard)):
+        if poly.free_symbols & set(symbols(system.state)):
+            at_point = points | {name: points[name + "_point"] for name in system.state}
+            with np.errstate(all="ignore"):
+                at = np.asarray(value(written(poly), at_point), float)
+                worst = float(np.min(at, initial=np.inf))
+            lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
+    return tuple(dict.fromkeys(renamed(line, names) for line in lines))
+
+
+def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
+    """The samples for a search over parameters in a domain; `by_samples`: where parameters are
+    positive at samples, they are taken to be.
+    """
+    point = fixed.point
+    domain = with_point_licences(domain, point)
+    parameters = region(domain, system.parameters, PARAMETERS)
+    for name in system.parameters:  # so that constants may divide by it
+        positive = conjunction(domain, licence(expression(name), domain))
+        if (parameters[name] > 0).all():
+            if by_samples or not beyond(domain, positive, system.parameters):
+                domain = positive
+    states = around(system, point, parameters, STATES)
+    bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
+    return replace(bare, have=known_of(system, fixed, bare))
