@@ -8,15 +8,20 @@ import ast
 from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
 
+import sympy
+
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report
+from juggleproof.certificates.search.certificate import search_certificate
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof, Report
 from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.given import (
     Map,
     checker_text,
     conjunction,
     conjuncts,
+    written,
 )
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.refuting import (
@@ -121,7 +126,10 @@ def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
 def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> str:
     """A periodic orbit along one of these words, or nothing."""
     name = proof.free_name(f"{setting.system.name}/escapes")
-    for rule in escape_rules(setting, name, words):
+    for count, rule in enumerate(escape_rules(setting, name, words)):
+        if not count and not is_fixed(setting):
+            log("it is not certified that the point is a fixed point")
+            return ""
         fault = proof.add(rule)
         said = dict(rule.rows)
         log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
@@ -129,6 +137,29 @@ def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], lo
             what = "periodic" if " " in said["word"] else "a fixed point"
             return f"does not attract {in_brackets(said['start'])}, which is {what}"
     return ""
+
+
+def is_fixed(setting: Setting) -> bool:
+    """Whether the checker accepts that the point is in the space, and a fixed point: what the rule
+    `escapes` concludes holds of any other state too.
+    """
+    system, (guard, _) = setting.system, setting.system.pieces[setting.piece]
+    lines = ["statement a/fixed"]
+    lines += [f"forall {' '.join(system.parameters)}"] if system.parameters else []
+    lines += [f"range {setting.domain}"]
+    lines += [f"root {name} = sqrt({under})" for name, under in setting.point.roots]
+    lines += [f"let {name} = {term}" for name, term in zip(system.state, setting.point.terms)]
+    shown = []
+    for name, image in zip(system.state, system.images[setting.piece]):
+        above, below = map(written, sympy.fraction(sympy.together(image)))
+        shown += [f"{below} != 0", f"{above} = {name}*({below})"]
+    lines += [f"show {conjunction(system.space, guard, *shown)}"]
+    try:
+        statement = checker.read_statements("\n".join(lines))["a/fixed"]
+        found = search_certificate(statement, {}, Budget(BUDGET))
+    except (checker.Rejected, Exhausted):
+        return False
+    return checker.check_one(statement, found, {}, {})[0] == "certified"
 
 
 def by_growth(proof: Proof, setting: Setting, log: Report) -> str:

@@ -4,12 +4,16 @@ divisors whose sign follows from bounds.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import sympy
 
-from juggleproof.proofs.stability.points import as_point
+from juggleproof.proofs.stability.failing import is_fixed
+from juggleproof.proofs.stability.given import read_rows
+from juggleproof.proofs.stability.points import as_point, fixed_points
+from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
 
 STABLE = "is stable and attracts every state"
@@ -91,3 +95,14 @@ def test_the_divisor_of_a_point_has_no_root_holds() -> None:
     assert point is not None
     assert point.roots == (("root_1", "q + 1"),)
     assert point.terms == ("-q*(q - root_1)/(-q^2 + q + 1)", "root_1/(q + 1)")
+
+
+def test_rejects_a_point_that_is_not_fixed() -> None:
+    """Of such a point `escapes` is true as well."""
+    rows = [("over", "a"), ("domain", "1 < a and a < 4"), ("state", "x")]
+    system = read_rows("rows", [*rows, ("space", "0 < x and x < 1"), ("piece", "a*x*(1 - x)")])
+    (fixed,) = fixed_points(system)
+    setting = setting_of(system, fixed, system.domain)
+    assert is_fixed(setting)
+    for term in ("1/2", "(a + 1)/(2*a)", "2"):
+        assert not is_fixed(replace(setting, point=replace(setting.point, terms=(term,))))
