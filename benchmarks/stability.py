@@ -107,7 +107,10 @@ def is_stable_by_program(matrices: Floats) -> bool:
     P = cvxpy.Variable((n, n), symmetric=True)
     falls = [A.T @ P @ A << P - MARGIN * np.eye(n) for A in matrices]
     problem = cvxpy.Problem(cvxpy.Minimize(0), [P >> np.eye(n), *falls])
-    problem.solve(solver=cvxpy.CLARABEL)
+    try:
+        problem.solve(solver=cvxpy.CLARABEL)
+    except cvxpy.SolverError:  # numbers that it cannot handle
+        return False
     return bool(problem.status == cvxpy.OPTIMAL)
 
 

@@ -471,7 +471,7 @@ apply Forall_cons.
     refine (Rules.escape_refutes (Map.f$a) States.coordinate
       (fun of_j => States.coordinate of_j ($around.point$a))
       (fun of_j => States.coordinate of_j ($within.Escape.point$a)) (Map.space$a) $period
-      ($within.Escape.start$a) ltac:(lia) ($within.$refutes$a of_out) _).
+      ($within.Escape.start$a) ltac:(lia) ($within.of_periodic$a of_out) _).
     pose proof (${P}_same_point_$k$a of_out) as $each_axis. intros []; [$back]. }
 """
 

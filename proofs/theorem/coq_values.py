@@ -148,7 +148,7 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         "each_far": "|".join(
             f"exact {_side('of_far', k, len(f.axes))}" for k in range(len(f.axes))
         ),
-        "value": value,
+        "value": value.replace("of_s", f.tuple(f.state)) if len(f.state) > 1 else value,
         "reached": "(Rle_refl _)" if is_plain else heres,
         "falls": "\n    ".join(falls),
         "function": f"{rules['system']} ({LYAPUNOV}.set$a) {parts} {losses}"

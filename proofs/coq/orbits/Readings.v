@@ -82,7 +82,8 @@ Ltac decidable := lazymatch goal with
 Ltac nonzero := lazymatch goal with
   | |- _ /\ _ => split; nonzero
   | |- _ <> 0 => first [assumption | apply Rgt_not_eq; lra | apply Rlt_not_eq; lra
-      | let zero := fresh in intro zero; match goal with apart : ?p <> 0 |- _ => apply apart; lra end]
+      | let zero := fresh in intro zero; match goal with apart : ?p <> 0 |- _ => apply apart; lra end
+      | let zero := fresh in intro zero; nra]
   end.
 
 Lemma bounded_by a c w : Rabs a <= c * w <-> - c * w <= a /\ a <= c * w.
