@@ -152,7 +152,8 @@ def row(path: Path) -> tuple[str, ...]:
 
 def line(cells: Sequence[str]) -> str:
     """A line of a table in Markdown."""
-    return f"| {' | '.join(cells)} |"
+    escaped = (cell.replace("|", "\\|") for cell in cells)
+    return f"| {' | '.join(escaped)} |"
 
 
 def outcomes(table: str) -> dict[str, str]:
@@ -162,7 +163,7 @@ def outcomes(table: str) -> dict[str, str]:
     'proved: (0, 0) is stable and attracts every state'
     """
     rows = [text.strip("| ").split(" | ") for text in table.splitlines()[2:]]
-    return {cells[0]: cells[2] for cells in rows}
+    return {cells[0]: cells[2].replace("\\|", "|") for cells in rows}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -129,7 +129,7 @@ def _theory(rules: Set[str]) -> str:
     if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
         modules["Lyapunov"] = "Lyapunov.v"
     if "relation" in rules:
-        modules |= {"Ranks": "Ranks.v", "Executions": "Relation.v"}
+        modules["Executions"] = "Relation.v"
     imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
     rows = ["From Coq Require Import Reals ZArith Lra Lia List.", "Open Scope R_scope.\n"]
     rows += [imports.sub("", text) for text in (PRELUDE, (ORBITS / "Readings.v").read_text())]
