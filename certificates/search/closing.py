@@ -89,7 +89,9 @@ def search_closing(
     uses, inside = with_uses(state, known, hints.uses if hints else ())
     node: Node | None = None
     if effort and len(inside.context.index) == 1:  # complete, but longer than what is close at hand
-        node = Closing(known, budget, 0).close(inside) or close_in_one_variable(inside, budget)
+        quick = Closing(known, budget, 0)
+        node = quick.close(inside) or quick.attempt(inside, FIRST)
+        node = node or close_in_one_variable(inside, budget)
     node = node or Closing(known, budget, effort).close(inside)
     for name, terms in reversed(uses):
         node = None if node is None else ("use", name, terms, {}, node)

@@ -108,8 +108,8 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
     assert len(names) > 40
     everything = ", ".join(f"@{name}" for name in asked)
     text = (
-        "From Juggleproof Require Rules Lists RulesInFull Lyapunov Relation Statements Existence"
-        " FromPhysics.\n"
+        "From Juggleproof Require Rules Ranks Lists RulesInFull Lyapunov Relation RelationRanks"
+        " Statements Existence FromPhysics.\n"
         f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
     )
     result = compiled(development, "Asked.v", text)
