@@ -17,6 +17,7 @@ test: $(VENV)/tools
 lint: $(VENV)/tools
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	@! git grep -nE '^(<{7}|>{7})( |$$)' || { echo "a conflict of a merge is left unsettled"; exit 1; }
 
 # The Coq development, all of it and in order, compiled on copies so that nothing is left beside the sources.
 coq:
