@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.numbers import (
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
 from juggleproof.certificates.search.one_variable import (
+    HOLDS,
     close_in_one_variable,
     dense_poly,
     dense_text,
@@ -547,7 +548,7 @@ def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node |
     poly, relation = state.facts[index]
     dense, modulus = dense_poly(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
-    if {">": sign > 0, ">=": sign >= 0, "=": sign == 0, "!=": sign != 0}[relation]:
+    if HOLDS[relation](sign):
         return None
     low, high, equation = _own_facts(state, adjoined)
     if sign == 0:

@@ -23,7 +23,7 @@ class Bound(NamedTuple):
     fact: int
 
 
-def bounds_of(state: State) -> dict[str, tuple[Bound, Bound]]:
+def box_of(state: State) -> dict[str, tuple[Bound, Bound]]:
     """The closest bounds of each variable that has both, by facts that are linear in it alone."""
     lows: dict[str, Bound] = {}
     highs: dict[str, Bound] = {}
@@ -61,7 +61,7 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
 
     Raises Exhausted where the budget ends.
     """
-    bounds = bounds_of(state)
+    bounds = box_of(state)
     for index, (poly, relation) in enumerate(state.facts):
         used = checker.variables_of(state.context, poly)
         names = [name for name in state.context.index if name in used]

@@ -12,8 +12,6 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     EFFORTS,
-    ENVELOPES,
-    MOST_WORK,
     Proof,
     Report,
     function_of,
@@ -21,6 +19,7 @@ from juggleproof.proofs.stability.certifying import (
 )
 from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
+    as_factor,
     atoms,
     renamed,
     written,
@@ -43,6 +42,8 @@ from juggleproof.proofs.stability.values import (
 )
 
 SATURATED_BUDGET = 1_000_000
+MOST_WORK = 4_000_000  # on all candidates of a kind
+ENVELOPES = 4  # that are tried
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
     ((1,), 20_000, 24),
     ((1, 2), 50_000, 12),
@@ -64,7 +65,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
         before = proof.work
         for rule in equation_rules(setting, space, name):
-            if proof.work - before < MOST_WORK and not tried(proof, rule, EFFORTS, BUDGET, log):
+            if proof.work - before >= MOST_WORK:
+                break
+            if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
     if in_boxes(proof, setting, log):
         return True
@@ -73,7 +76,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     before = proof.work
     for count, (efforts, budget, most) in enumerate(ROUNDS):
         for _, rule in found[:most]:
-            if proof.work - before < MOST_WORK and not tried(proof, rule, efforts, budget, log):
+            if proof.work - before >= MOST_WORK:
+                break
+            if not tried(proof, rule, efforts, budget, log):
                 return True
         if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
             return True
@@ -111,7 +116,7 @@ def divisors(setting: Setting) -> list[str]:
     for poly, strict in atoms(system.space):
         text = written(poly)
         if strict and poly.is_polynomial() and checker.names_in(text) & set(system.state):
-            found.append(text if text.isidentifier() else f"({text})")
+            found.append(as_factor(text))
     several = ["*".join(found)] if len(found) > 1 else []
     both = [f"{one}*{renamed(one, put)}" for one in found if setting.have]
     return several + found + both

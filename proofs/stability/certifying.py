@@ -22,10 +22,9 @@ from juggleproof.proofs.stability.given import (
 )
 
 BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, LOCAL_TRIED = 200_000, 3
-ENVELOPES, ENVELOPE_BUDGET = 4, 4_000_000  # that are tried, and counted work for a premise of one
+LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
 EFFORTS = (1, 2, SQUARED)
-MOST_WORK, SQUARES_COST = 4_000_000, 8  # on all candidates; of a unit at the effort of squares
+SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
 
 
@@ -167,13 +166,22 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
     for condition in conjuncts(domain):
         if condition in before or condition == ANYWHERE:
             continue
-        lines = [f"forall {' '.join(parameters)}", *facts, f"show {condition}"]
-        try:
-            statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
-            found = search_certificate(statement, {}, Budget(BUDGET))
-        except checker.Rejected:  # it divides by what may be 0
-            open_.append(condition)
-            continue
-        if checker.check_one(statement, found, {}, {})[0] != "certified":
+        if not is_certified([f"forall {' '.join(parameters)}", *facts, f"show {condition}"]):
             open_.append(condition)
     return " and ".join(open_)
+
+
+def where_open(given: str, domain: str, parameters: Sequence[str]) -> str:
+    """The same as the beginning of a sentence."""
+    where = beyond(given, domain, parameters)
+    return f"at least where {where}, " if where else ""
+
+
+def is_certified(lines: Sequence[str]) -> bool:
+    """Whether a certificate for the statement of these lines is found, and the checker takes it."""
+    try:
+        statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
+        found = search_certificate(statement, {}, Budget(BUDGET))
+    except (checker.Rejected, Exhausted):  # it divides by what may be 0, or is too large
+        return False
+    return checker.check_one(statement, found, {}, {})[0] == "certified"

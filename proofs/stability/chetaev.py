@@ -91,9 +91,8 @@ def _growth(setting: Setting, function: Function, radius: Floats) -> Floats:
     """The least W(f(s))/W(s) over states within the radius with W(s) > 0, for each parameter."""
     points = states(setting, radius)
     size = len(points["which"])
+    here, there = function.along(setting.system, points, size)
     with np.errstate(all="ignore"):
-        here = function.at(points, size)
-        there = function.at(after(setting.system, points), size)
         share = np.where(here > 0, there / here, np.inf)
     found = np.full(setting.count, np.inf)
     np.minimum.at(found, points["which"].astype(int), np.nan_to_num(share, nan=-np.inf))
@@ -155,18 +154,10 @@ def _rules(setting: Setting, function: Function, name: str) -> Iterator[MapRule]
                 function.at(_along(setting, corner, size), setting.count).max() / (size**2).min()
                 for corner in itertools.product(*[(Fraction(-1), Fraction(1))] * len(curve))
             )
-            yield MapRule(
-                name,
-                (
-                    ("map", name.rpartition("/")[0] + "/map"),
-                    ("domain", setting.domain),
-                    *(("root", f"{r} = sqrt({under})") for r, under in setting.point.roots),
-                    ("point", ", ".join(setting.point.terms)),
-                    ("direction", ", ".join(curve)),
-                    *(("have", line) for line in setting.have),
-                    *function.lines(),
-                    ("rate", f"1 + {more}"),
-                    ("radius", radius_text),
-                    ("upper", str(int(4 * most) + 1)),
-                ),
-            )
+            rows = [
+                ("direction", ", ".join(curve)),
+                ("rate", f"1 + {more}"),
+                ("radius", radius_text),
+                ("upper", str(int(4 * most) + 1)),
+            ]
+            yield setting.rule(name, function, rows)

@@ -18,6 +18,7 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Expr,
+    as_factor,
     atoms,
     conjunction,
     conjuncts,
@@ -31,7 +32,6 @@ from juggleproof.proofs.stability.samples import (
     Arrays,
     Floats,
     Samples,
-    after,
     around,
     region,
     with_licences,
@@ -66,12 +66,7 @@ class Envelope:
     def function(self, state: str) -> Function:
         """V = (s - e)^2/((s - l) (d - b (s - e))), which the involution leaves as it is."""
         other = self.reach if self.upper == "1" else self.upper
-        return Function((f"{state}_gap^2/({factor(self.lower)}*{factor(other)})",))
-
-
-def factor(text: str) -> str:
-    """The term as a factor."""
-    return text if text.isidentifier() else f"({text})"
+        return Function((f"{state}_gap^2/({as_factor(self.lower)}*{as_factor(other)})",))
 
 
 def envelopes(setting: Setting) -> Iterator[Envelope]:
@@ -216,9 +211,7 @@ def lyapunov_rules(
     (state,) = setting.system.state
     function = envelope.function(state)
     samples = states_of(setting, envelope)
-    with np.errstate(all="ignore"):
-        here = function.at(samples.points, len(samples.which))
-        there = function.at(after(setting.system, samples.points), len(samples.which))
+    here, there = function.along(setting.system, samples.points, len(samples.which))
     square = samples.points[f"{state}_gap"] ** 2
     if not len(here) or not (there < here).all() or closed and envelope.upper == "1":
         return
@@ -228,16 +221,16 @@ def lyapunov_rules(
     count, products = setting.count, setting.products
     order, size = (4, f"{state}_gap^2*value") if closed else (2, "value")
     near = room(setting, envelope) / 2
-    wide = f"1/(2*{factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
+    wide = f"1/(2*{as_factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
     for (_, radius), (_, least), (_, loss) in product(
         bounded_below(near, products, 1),
         bounded_below(samples.least(sizes, count), products, 1) if bounded else [(0.0, wide)],
         bounded_below(samples.least(shares, count), products),
     ):
-        far = f"{factor(loss)}*{factor(least)}*distance^{order}"
+        far = f"{as_factor(loss)}*{as_factor(least)}*distance^{order}"
         rows = [
             ("on", ANYWHERE),
-            ("loss", f"{factor(loss)}*{size}"),
+            ("loss", f"{as_factor(loss)}*{size}"),
             ("least", far if bounded else f"{far}/(1 + level)"),
             ("upper", steepness(setting, function, radius)),
             ("radius", radius),
@@ -319,7 +312,7 @@ def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
     radii = bounded_below(room(setting, envelope) / 2, setting.products, 1)
     if not radii or not steps:
         return []
-    rank = f"{factor(envelope.lower)}*{factor(inverse(steps[0][1]))}" if steps[0][1] else "0"
+    rank = f"{as_factor(envelope.lower)}*{as_factor(inverse(steps[0][1]))}" if steps[0][1] else "0"
     return [
         MapRule(
             f"{name}/descends",

@@ -12,9 +12,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.certificates.search.certificate import search_certificate
-from juggleproof.certificates.work import Budget, Exhausted
-from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof, Report
+from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
 from juggleproof.proofs.stability.chetaev import chetaev_rules
 from juggleproof.proofs.stability.given import (
     Map,
@@ -83,29 +81,26 @@ def sharp(
     are put together.
     """
     system, name = setting.system, setting.system.name
-    rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
-        (
-            "descends",
-            (
-                ("map", f"{name}/map"),
-                ("domain", setting.domain),
-                ("rank", "0"),
-                ("stage", system.space),
-            ),
+    descends = (
+        ("map", f"{name}/map"),
+        ("domain", setting.domain),
+        ("rank", "0"),
+        ("stage", system.space),
+    )
+    rules = [
+        MapRule(f"{name}/descends", descends),
+        MapRule(
+            f"{name}/attracts",
+            (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov")),
         ),
-        ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
     ]
     if f"{name}/attracts" in proof.known:
-        rows = []
-    rows += [
-        ("exactly", (("attraction", f"{name}/attracts"), *refutations)),
-    ]
-    for label, lines in rows:
-        if f"{name}/{label}" in proof.known:
-            continue
-        fault = proof.add(MapRule(f"{name}/{label}", lines))
+        rules = []
+    exactly = MapRule(f"{name}/exactly", (("attraction", f"{name}/attracts"), *refutations))
+    for rule in [*rules, exactly]:
+        fault = "" if rule.name in proof.known else proof.add(rule)
         if fault:
-            log(f"{label}: {fault}")
+            log(f"{rule.name}: {fault}")
             return False
     return True
 
@@ -144,8 +139,7 @@ def is_fixed(setting: Setting) -> bool:
     `escapes` concludes holds of any other state too.
     """
     system, (guard, _) = setting.system, setting.system.pieces[setting.piece]
-    lines = ["statement a/fixed"]
-    lines += [f"forall {' '.join(system.parameters)}"] if system.parameters else []
+    lines = [f"forall {' '.join(system.parameters)}"] if system.parameters else []
     lines += [f"range {setting.domain}"]
     lines += [f"root {name} = sqrt({under})" for name, under in setting.point.roots]
     lines += [f"let {name} = {term}" for name, term in zip(system.state, setting.point.terms)]
@@ -153,13 +147,7 @@ def is_fixed(setting: Setting) -> bool:
     for name, image in zip(system.state, system.images[setting.piece]):
         above, below = map(written, sympy.fraction(sympy.together(image)))
         shown += [f"{below} != 0", f"{above} = {name}*({below})"]
-    lines += [f"show {conjunction(system.space, guard, *shown)}"]
-    try:
-        statement = checker.read_statements("\n".join(lines))["a/fixed"]
-        found = search_certificate(statement, {}, Budget(BUDGET))
-    except (checker.Rejected, Exhausted):
-        return False
-    return checker.check_one(statement, found, {}, {})[0] == "certified"
+    return is_certified([*lines, f"show {conjunction(system.space, guard, *shown)}"])
 
 
 def by_growth(proof: Proof, setting: Setting, log: Report) -> str:

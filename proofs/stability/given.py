@@ -247,6 +247,11 @@ def conjunction(*parts: str) -> str:
     return " and ".join(one) or ANYWHERE
 
 
+def as_factor(text: str) -> str:
+    """The term as a factor."""
+    return text if text.isidentifier() else f"({text})"
+
+
 def negation(text: str) -> str:
     """The formula's negation: of one inequality, the other one.
 

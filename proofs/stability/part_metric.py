@@ -16,7 +16,7 @@ from fractions import Fraction
 import numpy as np
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, bounds, renamed, value
+from juggleproof.proofs.stability.given import Map, as_factor, bounds, renamed, value
 from juggleproof.proofs.stability.samples import Floats, Samples, after
 from juggleproof.proofs.stability.values import (
     Function,
@@ -51,7 +51,7 @@ def _over(system: Map, name: str, gap: str, bound: Mapping[str, str]) -> str:
     """The distance times that of the point to a bound, by that of the state."""
     if name not in bound:
         return gap
-    text = bound[name] if bound[name].isidentifier() else f"({bound[name]})"
+    text = as_factor(bound[name])
     return f"{renamed(text, {one: f'{one}_point' for one in system.state})}*({gap})/{text}"
 
 

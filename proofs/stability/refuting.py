@@ -24,7 +24,7 @@ from juggleproof.proofs.stability.samples import (
     with_point_licences,
     without_equations,
 )
-from juggleproof.proofs.stability.values import Setting, bounded_below
+from juggleproof.proofs.stability.values import Function, Setting, bounded_below
 
 LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first
@@ -212,21 +212,13 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     for side in ("+", "-"):
         for _, more in bounded_below(excess, setting.products):
             for radius in filter(grows(setting, more), _radii(setting, more)):
-                yield MapRule(
-                    name,
-                    (
-                        ("map", name.rpartition("/")[0] + "/map"),
-                        ("domain", setting.domain),
-                        *(("root", f"{r} = sqrt({under})") for r, under in setting.point.roots),
-                        ("point", setting.point.terms[0]),
-                        ("direction", f"{system.state[0]}_point {side} distance"),
-                        *(("have", line) for line in setting.have),
-                        ("value", f"{gap}^2"),
-                        ("rate", f"1 + {more}"),
-                        ("radius", radius),
-                        ("upper", f"({radius})^2"),
-                    ),
-                )
+                rows = [
+                    ("direction", f"{system.state[0]}_point {side} distance"),
+                    ("rate", f"1 + {more}"),
+                    ("radius", radius),
+                    ("upper", f"({radius})^2"),
+                ]
+                yield setting.rule(name, Function((f"{gap}^2",)), rows)
 
 
 def _radii(setting: Setting, more: str) -> list[str]:

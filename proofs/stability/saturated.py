@@ -12,7 +12,7 @@ import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
-from juggleproof.proofs.stability.samples import after, around, region
+from juggleproof.proofs.stability.samples import around, region
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
@@ -56,9 +56,7 @@ def rules_of(setting: Setting, term: str, on: str, name: str) -> Iterator[tuple[
     """
     system, samples, function = setting.system, setting.states, Function((term,))
     count = len(samples.which)
-    with np.errstate(all="ignore"):
-        here = function.at(samples.points, count)
-        there = function.at(after(system, samples.points), count)
+    here, there = function.along(system, samples.points, count)
     size = np.sum([samples.points[f"{one}_gap"] ** 2 for one in system.state], axis=0)
     fits = np.isfinite(here) & np.isfinite(there) & (size > 1e-10)
     shares, reach = np.full(count, np.inf), []

@@ -15,11 +15,11 @@ from juggleproof.proofs.stability.attracting import attracted, enveloped, in_box
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     LOCAL_BUDGET,
-    LOCAL_TRIED,
     Proof,
     Report,
     beyond,
     tried,
+    where_open,
 )
 from juggleproof.proofs.stability.domains import middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
@@ -53,6 +53,7 @@ from juggleproof.proofs.stability.values import (
 )
 
 MOST_REFUTED = 3  # fixed points
+LOCAL_TRIED = 3  # statements of states close to a point
 
 
 @dataclass
@@ -118,12 +119,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if not fixed.stable_share(system, parameters):
             break
         split = narrowed(system, fixed, parameters)
-        closed = narrowed(system, fixed, parameters, closed=True)
-        found = None
-        if closed != split:  # the multiplier is -1 at the end
-            found = settled(proof, system, fixed, closed, given, log, closed=True)
-        if found:
-            return Outcome(proof, *found, lines)
+        if len(system.state) == 1:
+            closed = narrowed(system, fixed, parameters, closed=True)
+            if closed != split:  # the multiplier is -1 at the end
+                found = settled(proof, system, fixed, closed, given, log, closed=True)
+                if found:
+                    return Outcome(proof, *found, lines)
         log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
         found = settled(proof, system, fixed, split, given, log)
         if found:
@@ -136,8 +137,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             setting = setting_of(system, fixed, system.domain)
             fault = refuted(proof, setting, log, ways)
             if fault:
-                where = beyond(given, proof.domain(), system.parameters)
-                at = f"at least where {where}, " if where else ""
+                at = where_open(given, proof.domain(), system.parameters)
                 faults.append(f"{at}{name_of(fixed)} {fault}")
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
@@ -175,12 +175,11 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
     for rule in islice(rules, LOCAL_TRIED):
         if not tried(proof, rule, (1, 2), LOCAL_BUDGET, log):
-            where = beyond(given, setting.domain, setting.system.parameters)
+            at = where_open(given, setting.domain, setting.system.parameters)
             on = with_bars(dict(rule.rows)["on"])
             for one, gap in gaps.items():
                 on = on.replace(f"|{one}|", f"|{gap}|")
             on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
-            at = f"at least where {where}, " if where else ""
             return f"{at}{name} is stable, and attracts every state with {on}"
     return ""
 
@@ -224,9 +223,8 @@ def settled(
     if not split:
         fault = by_orbit(proof, setting, log)
         if fault:
-            there = beyond(given, proof.domain(), system.parameters)
+            at = where_open(given, proof.domain(), system.parameters)
             more = near_by(proof, setting, name, given, log)
-            at = f"at least where {there}, " if there else ""
             return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
     if closed:
         if not enveloped(proof, setting, log, closed):
@@ -249,8 +247,8 @@ def settled(
         kinds = outside_refuted(proof, system, fixed, parts, log)
         if kinds and sharp(proof, setting, kinds, log):
             inside = beyond(system.domain, setting.domain, system.parameters)
-            divides = beyond(given, system.domain, system.parameters)
-            of = f", of all parameters with {divides}" if divides else ""
+            licences = beyond(given, system.domain, system.parameters)
+            of = f", of all parameters with {licences}" if licences else ""
             sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
             return "exactly", sentence
     return "stable", f"{name} is stable and attracts every state at least where {where}"

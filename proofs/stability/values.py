@@ -20,6 +20,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import (
     Map,
+    as_factor,
     atoms,
     bounds,
     expression,
@@ -134,7 +135,7 @@ def sum_of_quotients(system: Map) -> Iterator[Template]:
     low, _ = bounds(system)
     if not 1 < len(low) <= 2:
         return
-    under = [text if text.isidentifier() else f"({text})" for text in low.values()]
+    under = [as_factor(text) for text in low.values()]
     below = "*".join(under)
     yield Template(
         tuple(f"{form}*{by}" for form in products_of_gaps(system) for by in (*under, below)),
@@ -302,8 +303,7 @@ def power_products(
 
 
 def _power(text: str, exponent: int) -> str:
-    base = text if text.isidentifier() else f"({text})"
-    return base if exponent == 1 else f"{base}^{exponent}"
+    return as_factor(text) if exponent == 1 else f"{as_factor(text)}^{exponent}"
 
 
 def bounded_below(
@@ -368,6 +368,11 @@ class Function:
         found: Floats = np.max(parts, axis=0)
         return found
 
+    def along(self, system: Map, points: Arrays, count: int) -> tuple[Floats, Floats]:
+        """Its values at so many states, and at the next states."""
+        with np.errstate(all="ignore"):
+            return self.at(points, count), self.at(after(system, points), count)
+
     def lines(self) -> list[tuple[str, str]]:
         """The lines `value`."""
         guards = self.guards or ("",) * len(self.terms)
@@ -407,18 +412,20 @@ class Setting:
         return power_products(positive_factors(self.system, self.domain, known), known, self.count)
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
-        """A statement `lyapunov`."""
+        """A statement `lyapunov` or `unstable`; the rows but those that the point gives."""
+        own = {key: [row for row in rows if row[0] == key] for key in ("on", "direction")}
         return MapRule(
             name,
             (
                 ("map", name.rpartition("/")[0] + "/map"),
                 ("domain", self.domain),
                 *(("root", f"{root} = sqrt({under})") for root, under in self.point.roots),
-                *rows[:1],
+                *own["on"],
                 ("point", ", ".join(self.point.terms)),
+                *own["direction"],
                 *(("have", line) for line in self.have),
                 *function.lines(),
-                *rows[1:],
+                *(row for row in rows if row[0] not in own),
             ),
         )
 
@@ -431,9 +438,7 @@ def lyapunov_rules(
     """
     system, samples = setting.system, setting.states
     count = len(samples.which)
-    with np.errstate(all="ignore"):
-        here = function.at(samples.points, count)
-        there = function.at(after(system, samples.points), count)
+    here, there = function.along(system, samples.points, count)
     square = np.sum([samples.points[f"{name}_gap"] ** 2 for name in system.state], axis=0)
     fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
     samples = samples.where(fits)
@@ -447,8 +452,7 @@ def lyapunov_rules(
         total = " + ".join(f"{name}_gap^{order}" for name in system.state)
         total = total if len(system.state) == 1 else f"({total})"
         for rank, constant in bounded_below(least, setting.products):
-            bare = constant.isidentifier()
-            start = "" if constant == "1" else f"{constant}*" if bare else f"({constant})*"
+            start = "" if constant == "1" else f"{as_factor(constant)}*"
             divide = {0: "", 1: "/(1 + {})", 2: "/(1 + {})^2"}[power]
             rows = [
                 ("on", on),

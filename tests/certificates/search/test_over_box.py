@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.over_box import bounds_of, close_over_box
+from juggleproof.certificates.search.over_box import box_of, close_over_box
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
@@ -48,7 +48,7 @@ def test_a_minimum_over_a_box_is_proved_below_and_met_above_holds(
 
 def test_the_closest_bounds_are_taken_holds() -> None:
     one = state("x > 0 and 2*x >= 1 and x <= 3 and x < 2 and y >= 0 and z >= 1 and z <= 1", "xyz")
-    ((name, (low, high)),) = bounds_of(one).items()
+    ((name, (low, high)),) = box_of(one).items()
     assert name == "x" and (low.at, low.fact, high.at, high.fact) == (1 / 2, 1, 2, 3)
 
 
