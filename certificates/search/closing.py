@@ -147,21 +147,22 @@ class Closing:
         """The node for this state: at once, by its facts, or by the cases of a disjunction."""
         if state.closed:
             return ("close",)
-        if not state.choices:
+        known = {fact_key(*fact) for fact in state.facts} if state.choices else set()
+        sizes = {
+            index: sum(not contradicted(one, known) for one in alternatives)
+            for index, alternatives in enumerate(state.choices)
+            if not any(satisfied(one, known) for one in alternatives)
+        }
+        if not sizes:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
-        return node if node is not None else self.cases(state)
+        return node if node is not None else self.cases(state, sizes)
 
-    def cases(self, state: State) -> Node | None:
-        """Splits the last disjunction with the fewest alternatives that no fact contradicts at
-        sight.
+    def cases(self, state: State, sizes: Mapping[int, int]) -> Node | None:
+        """Splits the last of these disjunctions with the fewest alternatives that no fact
+        contradicts at sight; sizes: how many, by the number of the disjunction.
         """
-        known = {fact_key(poly, relation) for poly, relation in state.facts}
-        sizes = [
-            sum(not contradicted(one, known) for one in alternatives)
-            for alternatives in state.choices
-        ]
-        index = min(range(len(sizes)), key=lambda k: (sizes[k], len(state.choices[k]), -k))
+        index = min(sizes, key=lambda k: (sizes[k], len(state.choices[k]), -k))
         rest = state.branch()
         del rest.choices[index]
         nodes = []
@@ -456,6 +457,13 @@ CONTRARY = {
     "!=": ((1, "="),),
 }
 
+STRONGER = {
+    ">": ((1, ">"),),
+    ">=": ((1, ">"), (1, ">="), (1, "=")),
+    "=": ((1, "="),),
+    "!=": ((1, ">"), (-1, ">"), (1, "!=")),
+}
+
 
 def contradicted(formula: checker.Formula, known: set[FactKey]) -> bool:
     """Whether a fact among the known ones is the negation of the formula, or of a part of a
@@ -468,6 +476,18 @@ def contradicted(formula: checker.Formula, known: set[FactKey]) -> bool:
     return formula[0] == "atom" and any(
         fact_key(formula[1] if sign > 0 else -formula[1], relation) in known
         for sign, relation in CONTRARY[formula[2]]
+    )
+
+
+def satisfied(formula: checker.Formula, known: set[FactKey]) -> bool:
+    """Whether the formula follows from single facts among the known ones."""
+    if isinstance(formula, bool):
+        return formula
+    if formula[0] == "and":
+        return all(satisfied(part, known) for part in formula[1])
+    return formula[0] == "atom" and any(
+        fact_key(formula[1] if sign > 0 else -formula[1], relation) in known
+        for sign, relation in STRONGER[formula[2]]
     )
 
 

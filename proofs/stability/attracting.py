@@ -31,14 +31,16 @@ from juggleproof.proofs.stability.samples import (
     region,
 )
 from juggleproof.proofs.stability.saturated import saturated_rules
-from juggleproof.proofs.stability.values import (
+from juggleproof.proofs.stability.templates import (
     Function,
-    Setting,
-    equation_rules,
     lyapunov_functions,
-    lyapunov_rules,
     quadratic_templates,
     sum_of_quotients,
+)
+from juggleproof.proofs.stability.values import (
+    Setting,
+    equation_rules,
+    lyapunov_rules,
 )
 
 SATURATED_BUDGET = 1_000_000
@@ -134,7 +136,8 @@ def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, Ma
         *((0.0, template) for template in sum_of_quotients(system)),
     ]
     for kind, template in templates:
-        for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
+        for numbers in lyapunov_functions(template, system, setting.states.points, tests.points):
+            terms = template.terms(numbers)
             function = Function(tuple(terms), template.parts, template.divisor)
             for rank, rule in lyapunov_rules(setting, function, on, name):
                 yield rank + kind + len(" ".join(terms)) / 100, rule

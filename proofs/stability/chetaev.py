@@ -16,17 +16,19 @@ from numpy.typing import NDArray
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import holds, value
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.values import (
+from juggleproof.proofs.stability.templates import (
     Function,
-    Setting,
     Template,
     best_weights,
-    bounded_below,
-    derivatives,
-    lyapunov_form,
     products_of_gaps,
     rounded,
     signed,
+)
+from juggleproof.proofs.stability.values import (
+    Setting,
+    bounded_below,
+    derivatives,
+    lyapunov_form,
 )
 
 EACH = 60  # states at each of the parameters

@@ -37,8 +37,8 @@ from juggleproof.proofs.stability.samples import (
     with_licences,
     with_point_licences,
 )
+from juggleproof.proofs.stability.templates import Function
 from juggleproof.proofs.stability.values import (
-    Function,
     Setting,
     bounded_below,
     inverse,

@@ -29,9 +29,7 @@ from juggleproof.proofs.stability.refuting import (
     words_of_stray_orbits,
 )
 from juggleproof.proofs.stability.settings import setting_of
-from juggleproof.proofs.stability.values import (
-    Setting,
-)
+from juggleproof.proofs.stability.values import Setting
 
 GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
 MOST_RATES = 6  # of growth

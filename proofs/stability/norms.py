@@ -15,7 +15,12 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, holds, symbols
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.values import Function, Setting, derivatives, program, signed
+from juggleproof.proofs.stability.templates import (
+    Function,
+    program,
+    signed,
+)
+from juggleproof.proofs.stability.values import Setting, derivatives
 
 MOST_ROWS = 24
 CORNERS = 24  # parameters at which rows are carried back

@@ -18,11 +18,10 @@ import numpy as np
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, as_factor, bounds, renamed, value
 from juggleproof.proofs.stability.samples import Floats, Samples, after
+from juggleproof.proofs.stability.templates import Function, signed
 from juggleproof.proofs.stability.values import (
-    Function,
     Setting,
     bounded_below,
-    signed,
     small_balls,
 )
 

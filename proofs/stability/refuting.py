@@ -24,7 +24,8 @@ from juggleproof.proofs.stability.samples import (
     with_point_licences,
     without_equations,
 )
-from juggleproof.proofs.stability.values import Function, Setting, bounded_below
+from juggleproof.proofs.stability.templates import Function
+from juggleproof.proofs.stability.values import Setting, bounded_below
 
 LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first

@@ -13,14 +13,16 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
 from juggleproof.proofs.stability.samples import around, region
-from juggleproof.proofs.stability.values import (
+from juggleproof.proofs.stability.templates import (
     Function,
-    Setting,
     best_weights,
-    bounded_below,
     margins,
     quadratic_templates,
     rounded,
+)
+from juggleproof.proofs.stability.values import (
+    Setting,
+    bounded_below,
     small_balls,
 )
 

@@ -48,9 +48,7 @@ from juggleproof.proofs.stability.samples import (
     with_licences,
 )
 from juggleproof.proofs.stability.settings import setting_of
-from juggleproof.proofs.stability.values import (
-    Setting,
-)
+from juggleproof.proofs.stability.values import Setting
 
 MOST_REFUTED = 3  # fixed points
 LOCAL_TRIED = 3  # statements of states close to a point

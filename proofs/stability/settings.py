@@ -25,9 +25,7 @@ from juggleproof.proofs.stability.samples import (
     region,
     with_point_licences,
 )
-from juggleproof.proofs.stability.values import (
-    Setting,
-)
+from juggleproof.proofs.stability.values import Setting
 
 STATES = 40  # samples for each of the parameters
 

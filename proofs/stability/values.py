@@ -1,4 +1,5 @@
-"""Lyapunov functions by linear programs on samples, rounded to simple rationals.
+"""A point with a part of the domain and samples of both, and the statements that a function proves
+it stable and attracting: the constants of the rule `lyapunov`.
 
 Everything here is in floats and believed by nobody: what it proposes is a statement of the checker,
 for which certificates are then sought.
@@ -7,12 +8,12 @@ for which certificates are then sought.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-import highspy
 import numpy as np
 import sympy
 
@@ -22,243 +23,20 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     atoms,
-    bounds,
     expression,
     holds,
     symbols,
     value,
     written,
 )
-from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples, after
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples
+from juggleproof.proofs.stability.templates import Function, squares_of
 
-DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
-LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
 FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a number
 ORDERS = (2, 4)  # of the loss in the distance: 4 at a multiplier on the unit circle
 SMALLEST = 1e-5  # of a constant
-TURNS = 6  # of adding the samples that are missed
-
-
-@dataclass(frozen=True)
-class Template:
-    """A function V = sum of a_i b_i over a divisor: the b_i as text; where V has one part for each
-    piece, the guards, and the b_i of each part.
-    """
-
-    basis: tuple[str, ...]
-    divisor: str = "1"
-    parts: tuple[str, ...] = ()  # guards
-    bases: tuple[tuple[str, ...], ...] = ()
-
-    def columns(self, point: Arrays) -> Floats:
-        """The terms at each state, shape (states, unknowns)."""
-        size = len(next(iter(point.values())))
-        below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
-        blocks = []
-        guards = self.parts or ("0 < 1",)
-        for guard, basis in zip(guards, self.bases or (self.basis,) * len(guards)):
-            inside = np.broadcast_to(holds(guard, point), (size,))
-            for b in basis:
-                column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
-                blocks.append(np.where(inside, column / below, 0.0))
-        return np.stack(blocks, axis=1)
-
-    def every_term(self) -> list[str]:
-        """The b_i of all parts."""
-        return [b for basis in self.bases or (self.basis,) * max(1, len(self.parts)) for b in basis]
-
-    def terms(self, numbers: Sequence[Fraction]) -> list[str]:
-        """V as text, one term or one for each part."""
-        texts = []
-        start = 0
-        for basis in self.bases or (self.basis,):
-            parts = [
-                f"{signed(c)}*{b}" if c != 1 else b
-                for c, b in zip(numbers[start : start + len(basis)], basis)
-                if c
-            ]
-            start += len(basis)
-            total = " + ".join(parts) or "0"
-            texts.append(total if self.divisor == "1" else f"({total})/({self.divisor})")
-        return texts
-
-
-def squares_of(system: Map) -> list[str]:
-    """The squares of the distances to the point."""
-    return [f"{name}_gap^2" for name in system.state]
-
-
-def signed(number: Fraction) -> str:
-    return f"({number})" if number < 0 or number.denominator > 1 else str(number)
-
-
-def products_of_gaps(system: Map) -> tuple[str, ...]:
-    """The products of two distances to the point."""
-    gaps = [name + "_gap" for name in system.state]
-    pairs = itertools.combinations_with_replacement(gaps, 2)
-    return tuple(f"{a}^2" if a == b else f"{a}*{b}" for a, b in pairs)
-
-
-def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Iterator[Template]:
-    """Quadratic forms in the differences, of constant coefficients first, then of coefficients that
-    are linear in the parameters, of a part for each piece, and divided by what is positive.  piece:
-    the one that the point is in.
-    """
-    gaps = [name + "_gap" for name in system.state]
-    squares = products_of_gaps(system)
-    moving = tuple(f"{name}*{square}" for name in system.parameters for square in squares)
-    yield Template(squares)
-    for divisor in positive:
-        yield Template(squares, divisor)
-    if moving:
-        yield Template((*squares, *moving))
-    if len(system.pieces) > 1:
-        guards = tuple(guard for guard, _ in system.pieces)
-        whole = (*squares, *gaps, "1")
-        bases = tuple(squares if k == piece else whole for k in range(len(guards)))
-        yield Template(squares, "1", guards, (squares,) * len(guards))
-        yield Template(squares, "1", guards, bases)
-    quartic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 4))
-    cubic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 3))
-    if len(gaps) <= 2:
-        yield Template((*squares, *cubic, *quartic))
-        if moving and len(gaps) == 1:
-            more = tuple(f"{n}*{b}" for n in system.parameters for b in (*cubic, *quartic))
-            yield Template((*squares, *cubic, *quartic, *moving, *more))
-
-
-def sum_of_quotients(system: Map) -> Iterator[Template]:
-    """Quadratic forms in the differences, plus such forms over the distance of each state variable
-    to its lower bound.
-    """
-    low, _ = bounds(system)
-    if not 1 < len(low) <= 2:
-        return
-    under = [as_factor(text) for text in low.values()]
-    below = "*".join(under)
-    yield Template(
-        tuple(f"{form}*{by}" for form in products_of_gaps(system) for by in (*under, below)),
-        f"({below})",
-    )
-
-
-# -------------------------------------------------------------------------------------------------
-# The linear program.
-
-
-def margins(template: Template, system: Map, states: Arrays) -> tuple[Floats, Floats]:
-    """The rows that ask V(s) - V(f(s)) > 0 and V(s) > 0, scaled to length 1, and which states they
-    are of.
-    """
-    with np.errstate(all="ignore"):
-        here = template.columns(states)
-        there = template.columns(after(system, states))
-        rows = np.concatenate([here - there, here])
-        length = np.linalg.norm(rows, axis=1)
-        rows = rows / length[:, None]
-    fits = np.isfinite(rows).all(axis=1) & (length > 1e-30)
-    return rows[fits], np.tile(np.arange(len(here)), 2)[fits]
-
-
-def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
-    """Weights between -1 and 1 with the greatest least margin; then, where `simple`, those of least
-    sum that keep a quarter of it.  None where no margin is positive.
-    """
-    count, unknowns = rows.shape
-    found = program(
-        np.hstack([rows, -np.ones((count, 1))]),
-        np.zeros(count),
-        np.array([-1.0] * unknowns + [-1.0]),
-        np.array([1.0] * (unknowns + 1)),
-        np.array([0.0] * unknowns + [-1.0]),
-    )
-    if found is None or found[-1] < LEAST_MARGIN:
-        return None
-    if not simple:
-        return found[:-1]
-    sizes = np.block(
-        [
-            [rows, np.zeros_like(rows)],
-            [np.eye(unknowns), np.eye(unknowns)],
-            [-np.eye(unknowns), np.eye(unknowns)],
-        ]
-    )
-    least = np.concatenate([np.full(count, found[-1] / 4), np.zeros(2 * unknowns)])
-    sparse = program(
-        sizes,
-        least,
-        np.array([-1.0] * unknowns + [0.0] * unknowns),
-        np.ones(2 * unknowns),
-        np.array([0.0] * unknowns + [1.0] * unknowns),
-    )
-    return found[:-1] if sparse is None else sparse[:unknowns]
-
-
-def program(
-    matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
-) -> Floats | None:
-    """The point of least cost with matrix x >= least between the bounds."""
-    rows, columns = matrix.shape
-    model = highspy.HighsLp()
-    model.num_col_, model.num_row_ = columns, rows
-    model.col_cost_, model.col_lower_, model.col_upper_ = costs, low, high
-    model.row_lower_, model.row_upper_ = least, np.full(rows, highspy.kHighsInf)
-    at_row, at_column = np.nonzero(matrix)
-    model.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
-    model.a_matrix_.start_ = np.searchsorted(at_row, np.arange(rows + 1)).astype(np.int32)
-    model.a_matrix_.index_ = at_column.astype(np.int32)
-    model.a_matrix_.value_ = matrix[at_row, at_column]
-    solver = highspy.Highs()
-    for option, setting in (("output_flag", False), ("threads", 1), ("random_seed", 1)):
-        solver.setOptionValue(option, setting)
-    solver.passModel(model)
-    solver.run()
-    if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
-        return None
-    return np.array(solver.getSolution().col_value)
-
-
-def rounded(weights: Floats, rows: Floats) -> Iterator[list[Fraction]]:
-    """The weights as rationals, the simplest first, that keep every margin positive."""
-    largest = np.abs(weights).max()
-    seen = set()
-    for denominator in DENOMINATORS:
-        numbers = [Fraction(round(w / largest * denominator), denominator) for w in weights]
-        floats = np.array([float(n) for n in numbers])
-        if tuple(numbers) not in seen and (rows @ floats > 0).all():
-            seen.add(tuple(numbers))
-            yield numbers
-
-
-def lyapunov_functions(
-    template: Template, system: Map, states: Arrays, tests: Arrays
-) -> Iterator[list[str]]:
-    """Candidates for V as text, that fall at all samples but the point; simplest first."""
-    chosen, _ = margins(template, system, states)
-    every, _ = margins(template, system, tests)
-    if not len(chosen) or not len(every):
-        return
-    plain = np.array([float(b in squares_of(system)) for b in template.every_term()])
-    if (every @ plain > 0).all() and (chosen @ plain > 0).all():
-        yield template.terms([Fraction(int(one)) for one in plain])
-        return
-    for _ in range(TURNS):
-        weights = best_weights(chosen)
-        if weights is None:
-            return
-        missed = every @ weights <= 0
-        if not missed.any():
-            break
-        chosen = np.concatenate([chosen, every[missed][:200]])
-    else:
-        return
-    count = 0
-    for numbers in rounded(weights, every):
-        yield template.terms(numbers)
-        count += 1
-        if count == 2:
-            return
+LIMITS = ((3, (2, 4)), (6, (1, 4)), (9, (1, 2)), (math.inf, (0, 0)))  # of powers, and of their sum
 
 
 # -------------------------------------------------------------------------------------------------
@@ -288,11 +66,10 @@ def power_products(
     """Products of powers of the factors, the simplest first, as text and at the parameters."""
     values = [np.broadcast_to(np.asarray(value(f, parameters), float), (size,)) for f in factors]
     found = []
-    limit = 2 if len(factors) <= 3 else 1 if len(factors) <= 6 else 0
+    limit, total_limit = next(limits for most, limits in LIMITS if len(factors) <= most)
     every = itertools.product(range(-limit, limit + 1), repeat=len(factors))
-    for powers in sorted(every, key=lambda p: (sum(map(abs, p)), sum(p) < 0, p)):
-        if sum(map(abs, powers)) > 4:
-            continue
+    few = (powers for powers in every if sum(map(abs, powers)) <= total_limit)
+    for powers in sorted(few, key=lambda p: (sum(map(abs, p)), sum(p) < 0, p)):
         total = np.ones(size)
         for v, p in zip(values, powers):
             total = total * v**p
@@ -345,38 +122,6 @@ def _floor(number: float) -> Fraction:
     if number >= 1:
         return Fraction(int(min(number, 4.0)))
     return Fraction(1, 2 ** int(np.ceil(-np.log2(number))))
-
-
-# -------------------------------------------------------------------------------------------------
-# The statement.
-
-
-@dataclass(frozen=True)
-class Function:
-    """V: the greatest of the terms whose guard holds, without guards the greatest of all."""
-
-    terms: tuple[str, ...]
-    guards: tuple[str, ...] = ()
-    divisor: str = "1"
-
-    def at(self, points: Arrays, count: int) -> Floats:
-        """Its values at so many states."""
-        parts = [np.broadcast_to(np.asarray(value(t, points), float), (count,)) for t in self.terms]
-        if self.guards:
-            inside = [np.broadcast_to(holds(g, points), (count,)) for g in self.guards]
-            parts = [np.where(mask, v, -np.inf) for mask, v in zip(inside, parts)]
-        found: Floats = np.max(parts, axis=0)
-        return found
-
-    def along(self, system: Map, points: Arrays, count: int) -> tuple[Floats, Floats]:
-        """Its values at so many states, and at the next states."""
-        with np.errstate(all="ignore"):
-            return self.at(points, count), self.at(after(system, points), count)
-
-    def lines(self) -> list[tuple[str, str]]:
-        """The lines `value`."""
-        guards = self.guards or ("",) * len(self.terms)
-        return [("value", f"{g} -> {t}" if g else t) for g, t in zip(guards, self.terms)]
 
 
 @dataclass(frozen=True)
