@@ -42,8 +42,9 @@ from juggleproof.proofs.stability.values import (
     equation_rules,
     lyapunov_rules,
 )
+from juggleproof.proofs.stability.weighted_sums import weighted_sum_rules
 
-SATURATED_BUDGET = 1_000_000
+SIGNS_BUDGET = 1_000_000
 MOST_WORK = 4_000_000  # on all candidates of a kind
 ENVELOPES = 4  # that are tried
 ROUNDS = (  # efforts, budget, and how many of the candidates get it
@@ -62,8 +63,11 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+        for rule, signs in weighted_sum_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
+                return True
         for rule, signs in saturated_rules(setting, space, name):
-            if not tried(proof, rule, (1, 2), SATURATED_BUDGET, log, signs):
+            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
                 return True
         before = proof.work
         for rule in equation_rules(setting, space, name):

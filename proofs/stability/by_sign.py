@@ -16,7 +16,7 @@ from juggleproof.certificates.search.psatz.sums_of_squares import ProductsOfFact
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
-BUDGET = 200_000  # of counted work for a leaf
+BUDGET = 500_000  # of counted work for a leaf
 SHORT = 60_000  # of it, where there is something else to try
 SQUARES = 60_000  # of it, for sums of squares of higher degree
 RESERVED = ("value", "level", "distance")

@@ -88,16 +88,22 @@ class Proof:
 
     def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
         """Certifies all of these statements, or none."""
-        kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
+        count = len(self.rules)
         for rule in rules:
             if dict(rule.rows).get("value"):
                 fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
             else:
                 fault = self.add(rule, efforts, LOCAL_BUDGET)
             if fault:
-                self.rules, self.certificates, self.known = kept
+                self.keep(count)
                 return False
         return True
+
+    def keep(self, count: int) -> None:
+        """Leaves the first `count` statements only."""
+        for rule in self.rules[count:]:
+            del self.certificates[rule.name], self.known[rule.name]
+        del self.rules[count:]
 
     def why(self) -> str:
         """What Z3 says of the last premise without a proof, and its text."""

@@ -31,11 +31,12 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
     state = symbols(system.state)
     at = dict(zip(state, fixed.terms))
     guard, images = system.pieces[fixed.piece]
-    found = [
-        (poly.xreplace(at), strict)
-        for poly, strict in atoms(conjunction(system.space, guard))
-        if poly.free_symbols & set(state)
-    ]
+    space, found = atoms(system.space), []
+    for poly, strict in atoms(conjunction(system.space, guard)):
+        if poly.free_symbols & set(state):
+            term = poly.xreplace(at)
+            inside = strict or (poly, strict) not in space and jumps(system, fixed, term)
+            found.append((term, inside))
     matrix = sympy.Matrix(list(map(expression, images))).jacobian(state)
     matrix = matrix.xreplace(at).applyfunc(sympy.together)  # of smaller terms than what det makes
     if len(state) == 1:
@@ -46,6 +47,18 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
         found += [(1 - determinant, True), (1 - trace + determinant, True)]
         found += [(1 + trace + determinant, True)]
     return found
+
+
+def jumps(system: Map, fixed: FixedPoint, term: Expr) -> bool:
+    """Whether no other piece takes the point to itself too where the term, of a guard, is 0."""
+    at = dict(zip(symbols(system.state), fixed.terms))
+    for images in system.images[: fixed.piece] + system.images[fixed.piece + 1 :]:
+        gaps = [image.xreplace(at) - e for image, e in zip(images, fixed.terms)]
+        shares = [sympy.cancel(sympy.together(gap / term)) for gap in gaps]
+        zeros = sympy.numer(sympy.together(term))
+        if all(sympy.gcd(sympy.denom(one), zeros) == 1 for one in shares):
+            return False
+    return True
 
 
 def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = False) -> list[str]:

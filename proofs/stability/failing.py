@@ -137,15 +137,11 @@ def is_fixed(setting: Setting) -> bool:
     `escapes` concludes holds of any other state too.
     """
     system, (guard, _) = setting.system, setting.system.pieces[setting.piece]
-    lines = [f"forall {' '.join(system.parameters)}"] if system.parameters else []
-    lines += [f"range {setting.domain}"]
-    lines += [f"root {name} = sqrt({under})" for name, under in setting.point.roots]
-    lines += [f"let {name} = {term}" for name, term in zip(system.state, setting.point.terms)]
     shown = []
     for name, image in zip(system.state, system.images[setting.piece]):
         above, below = map(written, sympy.fraction(sympy.together(image)))
         shown += [f"{below} != 0", f"{above} = {name}*({below})"]
-    return is_certified([*lines, f"show {conjunction(system.space, guard, *shown)}"])
+    return is_certified([*setting.head, f"show {conjunction(system.space, guard, *shown)}"])
 
 
 def by_growth(proof: Proof, setting: Setting, log: Report) -> str:

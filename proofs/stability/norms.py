@@ -171,7 +171,8 @@ def norms(matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
         for start in first_rows(matrices[0]):
             rows = invariant_rows(matrices, start, rate)
             if rows is not None:
-                yield from itertools.islice(rounded_rows(rows, matrices), 1)
+                found = itertools.islice(rounded_rows(rows, matrices), 1)
+                yield from (one for one in found if 1 - one[1] > SLOWEST)
 
 
 def norm_rule(

@@ -242,6 +242,7 @@ def settled(
     if not where:
         return "stable", f"{name} is stable and attracts every state"
     for parts in ([negation(where)], complement(where)):
+        count = len(proof.rules)
         kinds = outside_refuted(proof, system, fixed, parts, log)
         if kinds and sharp(proof, setting, kinds, log):
             inside = beyond(system.domain, setting.domain, system.parameters)
@@ -249,4 +250,5 @@ def settled(
             of = f", of all parameters with {licences}" if licences else ""
             sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
             return "exactly", sentence
+        proof.keep(count)
     return "stable", f"{name} is stable and attracts every state at least where {where}"

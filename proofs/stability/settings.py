@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
-from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
@@ -56,7 +56,8 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
             with np.errstate(all="ignore"):
                 at = np.asarray(value(written(poly), at_point), float)
                 worst = float(np.min(at, initial=np.inf))
-            lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
+            strict = worst > 0 and is_certified([*setting.head, f"show {written(poly)} > 0"])
+            lines.append(f"{written(poly)} {'>' if strict else '>='} 0")
     return tuple(dict.fromkeys(renamed(line, names) for line in lines))
 
 

@@ -182,6 +182,11 @@ def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Ite
         bases = tuple(squares if k == piece else whole for k in range(len(guards)))
         yield Template(squares, "1", guards, (squares,) * len(guards))
         yield Template(squares, "1", guards, bases)
+        if moving:
+            more = (*whole, *(f"{name}*{one}" for name in system.parameters for one in whole))
+            both = (*squares, *moving)
+            bases = tuple(both if k == piece else more for k in range(len(guards)))
+            yield Template(squares, "1", guards, bases)
     quartic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 4))
     cubic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 3))
     if len(gaps) <= 2:

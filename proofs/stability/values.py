@@ -19,6 +19,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import is_certified
 from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
@@ -151,10 +152,23 @@ class Setting:
     @cached_property
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
-        known = self.constants
-        if not self.have:
-            known = {k: v for k, v in known.items() if not k.endswith("_point")}
+        known = dict(self.constants)
+        for name in self.system.state:
+            at = known.pop(f"{name}_point")
+            if self.have and (at > 0).all() and is_certified([*self.head, f"show {name} > 0"]):
+                known[f"{name}_point"] = at
         return power_products(positive_factors(self.system, self.domain, known), known, self.count)
+
+    @cached_property
+    def head(self) -> list[str]:
+        """How a statement of the point begins, in which the state's names stand for it."""
+        names = self.system.parameters
+        return [
+            *([f"forall {' '.join(names)}"] if names else []),
+            f"range {self.domain}",
+            *(f"root {name} = sqrt({under})" for name, under in self.point.roots),
+            *(f"let {name} = {term}" for name, term in zip(self.system.state, self.point.terms)),
+        ]
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
         """A statement `lyapunov` or `unstable`; the rows but those that the point gives."""

@@ -1,0 +1,88 @@
+"""Sums of absolute values with weights that depend on the parameters, up to the end of the domain
+where a map contracts no norm of constant coefficients; and what a map does that jumps.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from juggleproof.proofs.stability.given import Map, read_rows
+from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
+from juggleproof.proofs.stability.samples import region, with_licences
+from juggleproof.proofs.stability.search import Outcome, Proof, search_stability, setting_of
+from juggleproof.proofs.stability.templates import Sides
+from juggleproof.proofs.stability.weighted_sums import weighted_sum_rules
+
+
+def lozi(domain: str) -> Map:
+    """R. Lozi's map with b = 1/2 (Journal de Physique Colloques 39, 1978)."""
+    rows = [("over", "a"), ("domain", domain), ("state", "x y"), ("piece", "1 - a*abs(x) + y, x/2")]
+    return read_rows("lozi", rows)
+
+
+def integrator(domain: str) -> Map:
+    """A leaky integrator behind a comparator: it jumps at 0."""
+    rows = [("over", "p u"), ("domain", domain), ("state", "x")]
+    rows += [("piece", "x >= 0 -> p*x + u - 1"), ("piece", "x < 0 -> p*x + u + 1")]
+    return read_rows("integrator", rows)
+
+
+def proved(system: Map) -> Proof:
+    """What is certified of the map by such sums alone."""
+    system = with_licences(system)
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    points = [one for one in fixed_points(system) if one.exists(system, parameters).all()]
+    found = Proof()
+    assert not found.add(system.rule(f"{system.name}/map"))
+    setting = setting_of(system, points[0], system.domain)
+    rules = weighted_sum_rules(setting, system.space, f"{system.name}/lyapunov")
+    for rule, signs in islice(rules, 2):
+        if not found.add(rule, (1, 2), 200_000, signs):
+            break
+    return found
+
+
+@cache
+def found_of_lozi() -> Outcome:
+    """What is found of the map over the whole domain."""
+    return search_stability(lozi("0 < a and a < 1"))
+
+
+def test_a_map_of_lozi_is_stable_if_and_only_if_it_contracts_holds() -> None:
+    outcome = found_of_lozi()
+    assert outcome.verdict == "exactly"
+    assert outcome.sentence.endswith("attracts every state if and only if 1 - 2*a > 0")
+    assert len(str(outcome.proof.certificates)) < 70_000
+
+
+def test_no_statement_is_left_that_the_theorem_does_not_name_holds() -> None:
+    rules = {rule.name: rule for rule in found_of_lozi().proof.rules}
+    named = {text for rule in rules.values() for _, text in rule.rows}
+    assert set(rules) - named == {"lozi/exactly"}
+
+
+def test_rejects_a_map_of_lozi_beyond_where_it_contracts() -> None:
+    assert set(proved(lozi("1/2 <= a and a < 1")).known) == {"lozi/map"}
+
+
+def test_a_point_at_which_a_map_jumps_is_not_said_to_be_stable_holds() -> None:
+    """At u = 1 the point is 0, from whose left all states go to 2 and beyond."""
+    outcome = search_stability(integrator("0 < p and p < 1 and 0 < u and u < 2"))
+    assert outcome.verdict == "stable"
+    assert outcome.sentence.endswith("attracts every state at least where u - 1 > 0")
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_the_terms_at_samples_are_those_of_the_statement_holds(even: bool) -> None:
+    """max(0, t) and max(0, -t), or |t|, times 1 and a, at states of all signs."""
+    sides = Sides(("x_gap", "y_gap"), ("1", "a"), even)
+    rng = np.random.default_rng(5)
+    points = {name: rng.uniform(-1, 1, 40) for name in ("x_gap", "y_gap", "a")}
+    numbers = list(map(int, rng.integers(-5, 6, len(sides.every_term()))))
+    values = sides.function(list(map(Fraction, numbers))).at(points, 40)
+    assert np.allclose(sides.columns(points) @ numbers, values)
