@@ -14,6 +14,7 @@ In reading order, each importing those before it only:
 - `values`: a point with a part of the domain, and the constants of the rule `lyapunov`.
 - `norms`: polytope norms that piecewise affine maps contract.
 - `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
+- `entering`: boxes that every orbit enters.
 - `envelopes`: functions of one variable, by fractional linear involutions.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.

@@ -17,6 +17,7 @@ from juggleproof.proofs.stability.certifying import (
     function_of,
     tried,
 )
+from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
 from juggleproof.proofs.stability.envelopes import envelope_rules
 from juggleproof.proofs.stability.given import (
     as_factor,
@@ -57,7 +58,24 @@ MOST_BOXES, BOX_BUDGET = 3, 300_000
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
-    """Whether the point is certified to be stable and to attract every state."""
+    """Whether the point is certified to be stable and to attract every state, of the space or of a
+    box that all orbits enter.
+    """
+    if by_shape(proof, setting, log):
+        return True
+    boxes = boxes_of(setting.system)
+    if not boxes:
+        return by_samples(proof, setting, log)
+    inner = within(setting, boxes[-1])
+    if by_shape(proof, inner, log) or by_samples(proof, inner, log):
+        return proof.add_all(entering_rules(setting, boxes, setting.system.name), EFFORTS, log)
+    return False
+
+
+def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same by functions that the shape of the map suggests: for pieces that are affine, and for
+    sublevel sets that are boxes.
+    """
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
     if is_affine(setting.system):
         for rule in norm_rules(setting, name):
@@ -75,8 +93,12 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    if in_boxes(proof, setting, log):
-        return True
+    return in_boxes(proof, setting, log)
+
+
+def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same by functions that fit samples, those that are simple and fit well first."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     before = proof.work

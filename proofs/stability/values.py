@@ -136,6 +136,7 @@ class Setting:
     domain: str
     parameters: Arrays
     states: Samples
+    outer: str = ""  # the space of the map, where that of `system` is a part of it
 
     @cached_property
     def count(self) -> int:
@@ -241,10 +242,11 @@ def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     """
     system = setting.system
     n = len(system.state)
-    if n > 3 or setting.have and len(system.pieces) > 1:
-        return None
     state, names = symbols(system.state), [f"{one}_point" for one in system.state]
     matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
+    moving = not matrix.free_symbols.isdisjoint(state)
+    if n > 3 or moving and setting.have and len(system.pieces) > 1:
+        return None
     at = symbols(names) if setting.have else map(expression, setting.point.terms)
     matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
     entries = {
@@ -281,6 +283,10 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
     if found is None:
         return
     function, loss = Function(found[:1]), found[1]
+    samples = setting.states
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    if (there > here * (1 + 1e-9) + 1e-9).any():
+        return
     squares = " + ".join(squares_of(setting.system))
     for radius, upper in itertools.islice(small_balls(setting, function), 2):
         rows = [
@@ -319,7 +325,10 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
             for name, e, d in zip(setting.system.state, middle, direction):
                 states |= {name: e + size[which] * reach * d, name + "_point": e}
                 states[name + "_gap"] = size[which] * reach * d
-            inside = np.broadcast_to(holds(setting.system.space, states), (len(which),))
+            space = setting.system.space
+            inside = np.broadcast_to(holds(setting.outer or space, states), (len(which),))
+            if setting.outer and not np.all(holds(space, states)[inside]):
+                continue
             v = function.at(states, len(which))[inside]
         if not np.isfinite(v).all() or (v < -1e-12).any():
             continue

@@ -1,0 +1,59 @@
+"""Boxes that every orbit enters: what a map saturates to, and no more."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from juggleproof.proofs.stability.entering import boxes_of
+from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
+from juggleproof.proofs.stability.search import search_stability
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+CLIPPED = "max(-1, min(1, a*x + b*y))"
+BOXES = {
+    f"{CLIPPED}, x": ["x <= 1 and x >= -1", "x <= 1 and x >= -1 and y <= 1 and y >= -1"],
+    f"{CLIPPED}, a*y": ["x <= 1 and x >= -1"],  # a y is beyond no one term for a of both signs
+    "max(0, x - y), x/2 - 1": ["x >= 0", "x >= 0 and y >= -1"],
+    "max(0, 2 - 3*x) + 1, y/2": ["x >= 1", "x <= 1 and x >= 1"],
+    "max(a, x/2), y/2": ["x >= a"],
+    "x/2, y/2": [],
+    "x + y, max(-x, y)": [],
+}
+
+
+def planar(images: str, domain: str = "-1 < a and a < 1 and -1 < b and b < 1") -> Map:
+    return read_rows(
+        "planar", [("over", "a b"), ("domain", domain), ("state", "x y"), ("piece", images)]
+    )
+
+
+@pytest.mark.parametrize("images", BOXES)
+def test_the_bounds_of_images_are_those_of_the_pieces_holds(images: str) -> None:
+    assert boxes_of(planar(images)) == BOXES[images]
+
+
+@pytest.mark.parametrize("images", BOXES)
+def test_every_orbit_is_in_each_box_after_as_many_steps_holds(images: str) -> None:
+    system = planar(images)
+    rng = np.random.default_rng(2)
+    points = {name: rng.uniform(-9, 9, 500) for name in ("x", "y")}
+    points |= {name: rng.uniform(-1, 1, 500) for name in ("a", "b")}
+    for box in boxes_of(system):
+        points |= dict(zip(system.state, system.next(points)))
+        assert np.all(holds(box, points))
+
+
+def test_a_filter_that_saturates_comes_to_rest_wherever_the_linear_one_does_holds() -> None:
+    """P. M. Ebert, J. E. Mazo and M. G. Taylor (1969), in the whole triangle."""
+    outcome = search_stability(read_file(EXAMPLES / "saturated-filter.map"))
+    assert outcome.verdict == "stable"
+    assert outcome.sentence == "(0, 0) is stable and attracts every state"
+    assert "saturated-filter/descends" in outcome.proof.known
+
+
+def test_rejects_a_filter_beyond_the_triangle() -> None:
+    outcome = search_stability(planar(f"{CLIPPED}, x", "1/4 < a and a < 1 and 1 - a < b and b < 1"))
+    assert outcome.verdict == "refuted"
