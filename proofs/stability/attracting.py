@@ -15,6 +15,7 @@ from juggleproof.proofs.stability.certifying import (
     Proof,
     Report,
     function_of,
+    signs_of,
     tried,
 )
 from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
@@ -91,7 +92,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in equation_rules(setting, space, name):
             if proof.work - before >= MOST_WORK:
                 break
-            if not tried(proof, rule, EFFORTS, BUDGET, log):
+            if not tried(proof, rule, EFFORTS, BUDGET, log, signs_of(rule)):
                 return True
     return in_boxes(proof, setting, log)
 

@@ -156,6 +156,11 @@ def tried(
     return fault
 
 
+def signs_of(rule: MapRule) -> dict[str, list[str]]:
+    """The sign of a function of one term as the cases of the premise that it is not negative."""
+    return {"bounded": [text for keyword, text in rule.rows if keyword == "value"]}
+
+
 def function_of(rule: MapRule) -> str:
     """The function of a candidate, and its loss."""
     values = "; ".join(text for keyword, text in rule.rows if keyword == "value")
