@@ -1,8 +1,8 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
 the suite ignores it; no property fails because the machine is busy; tests that share what is costly
-run in one process, which checks the stored certificates once; no process compiles a module that
-another has compiled; coqc, which ends soon, collects less garbage.
+run in one process, which checks the stored certificates once, and no process compiles a module
+that another has compiled.
 """
 
 from __future__ import annotations
@@ -27,7 +27,6 @@ os.environ.setdefault(
     "NUMBA_CACHE_DIR", str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "machine-code")
 )
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-os.environ.setdefault("OCAMLRUNPARAM", "s=4M,o=1000")
 sys.dont_write_bytecode = False
 gc.set_threshold(50_000)  # as the command has it
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
