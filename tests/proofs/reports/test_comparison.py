@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache
+from operator import add, mul, sub, truediv
 from random import Random
 
 import pytest
@@ -265,6 +267,8 @@ def edits(latex: str, random: Random) -> Iterator[str]:
             yield latex[: place.start()] + place.expand(put) + latex[place.end() :]
 
 
+OPERATORS = {"+": add, "-": sub, "*": mul, "/": truediv, "^": pow}
+cancelled = cache(sympy.cancel)  # an edit leaves most relations as they were
 OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "=": "!=", "!=": "="}
 
 
@@ -276,9 +280,9 @@ def meaning(node: Node, known: set[str]) -> object:
         return tuple(meaning(entry, known) for entry in node.entries)
     if isinstance(node, Related):
         left, right = (node.right, node.left) if ">" in node.sign else (node.left, node.right)
-        apart = sympy.cancel(sympy_of(left, known) - sympy_of(right, known))
+        apart = cancelled(sympy_of(left, known) - sympy_of(right, known))
         if node.sign in ("=", "!="):
-            apart = min((apart, sympy.cancel(-apart)), key=str)
+            apart = min((apart, cancelled(-apart)), key=str)
         return (node.sign.replace(">", "<"), apart)
     if isinstance(node, Not):
         inner = node.of
@@ -290,7 +294,7 @@ def meaning(node: Node, known: set[str]) -> object:
     if isinstance(node, Implied):
         sides = (meaning(node.left, known), meaning(node.right, known))
         return (node.how, frozenset(sides) if node.how == "iff" else sides)
-    return sympy.cancel(sympy_of(node, known))
+    return cancelled(sympy_of(node, known))
 
 
 def sympy_of(node: Node, known: set[str]) -> sympy.Expr:
@@ -303,16 +307,10 @@ def sympy_of(node: Node, known: set[str]) -> sympy.Expr:
     if isinstance(node, Neg):
         return -sympy_of(node.of, known)
     if isinstance(node, Unary):
-        return sympy.Function(node.function)(sympy.cancel(sympy_of(node.of, known)))
+        return sympy.Function(node.function)(cancelled(sympy_of(node.of, known)))
     assert isinstance(node, Arithmetic)
     left, right = sympy_of(node.left, known), sympy_of(node.right, known)
-    return {
-        "+": left + right,
-        "-": left - right,
-        "*": left * right,
-        "/": left / right,
-        "^": left**right,
-    }[node.sign]
+    return OPERATORS[node.sign](left, right)
 
 
 def test_edits_of_the_print_are_noticed_holds() -> None:
