@@ -1,8 +1,7 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
 the suite ignores it; no property fails because the machine is busy; tests that share what is costly
-run in one process, which checks the stored certificates once, and no process compiles a module
-that another has compiled.
+run in one process, and no process compiles a module that another has compiled.
 """
 
 from __future__ import annotations
@@ -11,16 +10,11 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
-
-from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT
 
 os.environ["JUGGLEPROOF_CACHE"] = "off"
 os.environ.setdefault(
@@ -34,31 +28,6 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 settings.register_profile("suite", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("suite")
 pytest_plugins = ["pytester"]
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _store_is_checked_once() -> Iterator[None]:
-    """A folder with the very bytes of the store is not read again, which takes two seconds and is
-    done by every run on the paper.
-    """
-    check_folder, check_one = checker.check_folder, checker.check_one
-    of_store = cache(lambda: tuple(check_folder(str(DEFAULT))))
-
-    def content(folder: Path) -> list[bytes]:
-        return [(folder / name).read_bytes() for name in (checker.STATEMENTS, checker.CERTIFICATES)]
-
-    stored = content(DEFAULT)
-
-    def checked(folder: str, check: Any = check_one) -> list[tuple[str, str, str]]:
-        try:
-            same = check is check_one and content(Path(folder)) == stored
-        except OSError:
-            same = False
-        return list(of_store()) if same else check_folder(folder, check)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(checker, "check_folder", checked)
-        yield
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
