@@ -153,13 +153,12 @@ Ltac equivalent := split; let taken := fresh "of_taken" in
   intro taken; taken_apart taken; put_together.
 """
 
-# Words that Coq keeps for itself or that the written proofs use: a variable of such a name gets a
-# prime, which no name of a statement has.
-TAKEN = frozenset(
-    "as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set"
-    " Prop SProp Type then using where with by R IZR pow True False I eq_refl"
-    " State coordinate space on point weights S length nil pair conj INR".split()
-) | frozenset(re.findall(r"^(?:Lemma|Definition|Ltac) (\w+)", PRELUDE, re.MULTILINE))
+# Words that are no name in Coq: its keywords, and what `intros` may begin with.
+KEYWORDS = frozenset(
+    "as at by cofix else end exists exists2 fix for forall fun if IF in let match mod return then"
+    " until using where with Axiom CoFixpoint Definition Fixpoint Hypothesis Parameter Prop Set"
+    " SProp Theorem Type Variable".split()
+)
 
 
 class NotWritten(ClaimError):
@@ -173,10 +172,23 @@ class NotWritten(ClaimError):
 
 
 def coq_name(name: str) -> str:
-    """The name of a variable; names of hypotheses in the written proofs start with `of_`, and
-    lemmas with `statement_`, which no variable then does.
+    """The name of a variable: with a prime, which no other name of a written file has."""
+    return name + "'"
+
+
+def without_primes(text: str, beside: str = "") -> str:
+    """A text in which variables have no prime, but those whose name without it is a word of Coq, or
+    occurs in `beside` outside of comments.
+
+    >>> without_primes("forall x' R' in' : R, 0 < x'", "forall x' R' in' : R, 0 < x'")
+    "forall x R' in' : R, 0 < x"
     """
-    return name + "'" if name in TAKEN or name.startswith(("of_", "statement_")) else name
+    taken = KEYWORDS | {*re.findall(r"[\w']+", re.sub(r"\(\*.*?\*\)", "", beside, flags=re.DOTALL))}
+    return re.sub(
+        r"\b([A-Za-z]\w*)'(?!\w)",
+        lambda found: found[0] if found[1] in taken else found[1],
+        text,
+    )
 
 
 def polynomial(
