@@ -30,7 +30,7 @@ Lemma of_staged : ${all}forall of_s, {$staged} + {~ ($staged)}.
 Proof. intros$a of_s. ${open}cbv beta iota zeta delta [$stage_names]. decidable. Qed.
 
 Lemma of_rank_falls : ${all}Descent.domain$a -> forall $st$of_v, ${M}.space$a of_s ->
-  $step${above}(exists k, Rules.stage (Descent.stages$a) k of_s) \\/
+  $step${above}(exists of_k, Rules.stage (Descent.stages$a) of_k of_s) \\/
   $lower.
 Proof.
   intros$a of_dom $st$of_v of_there$by$of_high. $next

@@ -103,8 +103,8 @@ Qed.
 
 Lemma of_constants : ${all}Contraction.domain$a ->
   0 <= Contraction.rate$a /\\ Contraction.rate$a < 1 /\\ 0 < Contraction.radius$a /\\
-  0 < Contraction.size$a /\\ exists low high, 0 < low /\\
-  forall of_j, low <= States.coordinate of_j (Contraction.weights$a) <= high.
+  0 < Contraction.size$a /\\ exists of_low of_high, 0 < of_low /\\
+  forall of_j, of_low <= States.coordinate of_j (Contraction.weights$a) <= of_high.
 Proof.
   intros$a of_dom. destruct (${P}_constants$a of_dom) as $numbers.
   split; [exact (Rge_le _ _ of_least)|split; [exact of_most|]].

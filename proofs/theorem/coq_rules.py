@@ -66,16 +66,16 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
     own = [statements[one] for one in everything]
     frame = _frame(name, statements)
     head = [Template(texts.HEADER).substitute(name=name, M=frame.words["M"]), _theory(own)]
-    rows = [*states(frame, {frame.kind, *(one.kind for one in own)})]
+    space = "\n".join(states(frame, {frame.kind, *(one.kind for one in own)}))
     used = _uses(everything, certificates)
-    rows += [
+    rows = [
         lemmas(statement, certificates[one], statements)
         for one, statement in statements.items()
         if one in used
     ]
     rows += [*_chain_rows(name, frame, certificates), f"Print Assumptions {theorem_name(name)}."]
     body = "\n".join(rows)
-    return "\n".join([*head, without_primes(body, body), ""])
+    return "\n".join([*head, without_primes(f"{space}\n{body}", body), ""])
 
 
 def _frame(name: str, known: Known, around: str = "map") -> Frame:
