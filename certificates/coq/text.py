@@ -11,21 +11,22 @@ from math import lcm
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import monomials
+from juggleproof.certificates.coq.sums import SUMS
 from juggleproof.certificates.formulas import ClaimError
 
 Names = Mapping[str, int]  # {variable: its number}
 
-PRELUDE = """\
+PRELUDE = (
+    """\
 (* Written by juggleproof from stored certificates. Each lemma is the polynomial form of a
    statement, denominators cleared as its strict lines allow and every constant factor dropped, and
    is proved by its certificate: products of what is known to be positive are positive, and their
-   sum is 0 by ring. *)
+   sum is 0 by computation. *)
 
-From Coq Require Import Reals Lra Lia ZArith.
+From Coq Require Import Reals Lra Lia ZArith List.
+From Coq Require Ring_polynom InitialRing RealField.
 Open Scope R_scope.
 
-Lemma strict_and_zero a b : 0 < a -> b = 0 -> 0 < a + b. Proof. lra. Qed.
-Lemma zero_times m p : p = 0 -> m * p = 0. Proof. intros ->. ring. Qed.
 Lemma square_of_nonzero p : p <> 0 -> 0 < p ^ 2.
 Proof. intro apart. rewrite <- Rsqr_pow2. now apply Rlt_0_sqr. Qed.
 Lemma no_positive_zero s : 0 < s -> s = 0 -> False. Proof. lra. Qed.
@@ -151,7 +152,10 @@ Ltac put_together := lazymatch goal with
   end.
 Ltac equivalent := split; let taken := fresh "of_taken" in
   intro taken; taken_apart taken; put_together.
+
 """
+    + SUMS
+)
 
 # Words that are no name in Coq: its keywords, and what `intros` may begin with.
 KEYWORDS = frozenset(
@@ -192,11 +196,16 @@ def without_primes(text: str, beside: str = "") -> str:
 
 
 def polynomial(
-    names: Names, poly: checker.Poly, factor: int = 1, values: Mapping[str, str] | None = None
+    names: Names,
+    poly: checker.Poly,
+    factor: int = 1,
+    values: Mapping[str, str] | None = None,
+    number: str = "",
 ) -> str:
     """The numerator of a polynomial, its integer coefficients times the factor, as a sum of
     monomials, lexicographically from the largest down, where the last variable counts most;
-    `names` gives the number of each variable, `values` text to put in place of some.
+    `names` gives the number of each variable, `values` text to put in place of some, `number` what
+    stands before a number.
     """
     own = {name: coq_name(name) for name in names} | dict(values or {})
     rows = []
@@ -208,9 +217,16 @@ def polynomial(
             for name, i in names.items()
             if exponents[i]
         ]
-        size = [] if abs(coefficient) == 1 and powers else [str(abs(coefficient))]
+        size = [] if abs(coefficient) == 1 and powers else [f"{number}{numeral(abs(coefficient))}"]
         rows.append(("- " if coefficient < 0 else "+ ") + " * ".join([*size, *powers]))
-    return " ".join(rows).removeprefix("+ ") or "0"
+    return " ".join(rows).removeprefix("+ ") or f"{number}0"
+
+
+def numeral(number: int) -> str:
+    """A whole number that is not negative; a long one in hexadecimal digits, which Coq reads in a
+    time that grows with their number, not with its square.
+    """
+    return str(number) if number < 10**40 else hex(number)
 
 
 def atom(text: str, relation: str) -> str:

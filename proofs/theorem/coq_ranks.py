@@ -202,7 +202,7 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     lead_on = "".join(f"exact (of_stage_{k}$a {known})|" for k in stages[:-1])
     extra = f.extra_steps(own)
     rules = f.of_kind(kinds.DESCENT, own, extra=str(extra), **{k: str(n) for k, n in sizes.items()})
-    words = {"extra": extra, **sizes, **rules, **_by_lines(f, own)}
+    words: dict[str, str | int] = {"extra": extra, **sizes, **rules, **_by_lines(f, own)}
     yield f.fill(
         DESCENDS,
         own,
