@@ -10,13 +10,13 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.coq.text import (
     common_factor,
     conjunctive,
+    numeral,
     proposition,
 )
 from juggleproof.certificates.states import State
 
 Factors = list[tuple[str, bool]]  # a proof of the sign of each, and whether it is strict
 Weighed = tuple[Fraction, Factors, bool]  # a weight, factors, and whether all are strict
-Equation = tuple[str, str, Fraction]  # a proof, a cofactor's numerator, and what divides both
 Known = Mapping[str, checker.Statement]
 Hint = Any  # of a certificate, which anyone may have written: what does not fit, Coq refuses
 
@@ -83,18 +83,18 @@ class Branch:
         return [f"assert ({false} : False) by (clear - {name}; lra).", *self.assume(False, false)]
 
 
-def contradiction(weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ()) -> list[str]:
-    """The goal False, where positive products and multiples of equations have the sum 0: the signs
-    as one proof term, the sum being 0 by ring.
+def contradiction(weighed: Sequence[Weighed]) -> list[str]:
+    """The goal False, where positive products have the sum 0: the signs as one proof term, the sum
+    being 0 by ring.
     """
-    return [f"exact (no_positive_zero _ {positive_sum(weighed, cofactors)[0]}\n  ltac:(ring))."]
+    return [f"exact (no_positive_zero _ {positive_sum(weighed)[0]}\n  ltac:(ring))."]
 
 
-def positive_sum(weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ()) -> tuple[str, int]:
+def positive_sum(weighed: Sequence[Weighed]) -> tuple[str, int]:
     """(a proof that the sum of products is positive, what it was multiplied by to be whole); it is
     only >= 0 where no product is strict.
     """
-    scale = common_factor([weight for weight, _, _ in weighed] + [part for _, _, part in cofactors])
+    scale = common_factor([weight for weight, _, _ in weighed])
     terms = sorted(
         ((int(weight * scale), factors, strict) for weight, factors, strict in weighed),
         key=lambda entry: not entry[2],
@@ -104,9 +104,6 @@ def positive_sum(weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ())
     join = "Rplus_lt_le_0_compat" if strict else "Rplus_le_le_0_compat"
     for weight, factors, _ in terms[1:]:
         proof = f"({join} _ _ {proof}\n  {_nonnegative(weight, factors)})"
-    for name, cofactor, share in cofactors:
-        text = f"{int(share * scale)} * ({cofactor})"
-        proof = f"(strict_and_zero _ _ {proof}\n  (zero_times ({text}) _ {name}))"
     return proof, scale
 
 
@@ -122,14 +119,14 @@ def power(relation: str, name: str, exponent: int) -> tuple[str, bool]:
 
 def positive(weight: int, factors: Factors) -> str:
     """A proof that a product of positive factors is positive."""
-    proof = f"(IZR_lt 0 ({weight}) eq_refl)"
+    proof = f"(IZR_lt 0 ({numeral(weight)}) eq_refl)"
     for name, _ in factors:
         proof = f"(Rmult_lt_0_compat _ _ {proof} {name})"
     return proof
 
 
 def _nonnegative(weight: int, factors: Factors) -> str:
-    proof = f"(IZR_le 0 ({weight}) ltac:(discriminate))"
+    proof = f"(IZR_le 0 ({numeral(weight)}) ltac:(discriminate))"
     for name, strict in factors:
         proof = f"(Rmult_le_pos _ _ {proof} {f'(Rlt_le _ _ {name})' if strict else name})"
     return proof

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.lemmas import lemmas
-from juggleproof.certificates.coq.text import PRELUDE, NotWritten
+from juggleproof.certificates.coq.text import PRELUDE, NotWritten, without_primes
 from juggleproof.certificates.language import lemmas_of
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store, write_file
@@ -72,7 +72,8 @@ def export(store: Store, names: Iterable[str] | None = None) -> Export:
         try:
             if missing:
                 raise NotWritten(f"it rests on {min(missing)}, which is not written")
-            texts[name] = lemmas(statement, certificate, statements)
+            text = lemmas(statement, certificate, statements)
+            texts[name] = without_primes(text, text)
         except NotWritten as problem:
             reasons[name] = problem.reason
     return Export(texts, reasons, classes, needs)

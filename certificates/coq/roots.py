@@ -41,7 +41,7 @@ def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tupl
     branch = Branch(State(context), {}, [0])
     ends = [value_text(branch, end) for end in (low, high)]
 
-    def text(value: checker.Poly, at: str = "x") -> str:
+    def text(value: checker.Poly, at: str = "x'") -> str:
         return polynomial(branch.names, value, values={"x": at})
 
     function = at(x)
@@ -67,28 +67,28 @@ def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tupl
     )
     stated = (
         f"({text(function, ends[0])}) * ({text(function, ends[1])}) < 0 /\\\n"
-        f"  exists x : R, ({ends[0]} < x /\\ x < {ends[1]} /\\ {p} = 0) /\\\n"
-        f"  forall y : R, {ends[0]} < y -> y < {ends[1]} -> {p_of_y} = 0 -> y = x"
+        f"  exists x' : R, ({ends[0]} < x' /\\ x' < {ends[1]} /\\ {p} = 0) /\\\n"
+        f"  forall y' : R, {ends[0]} < y' -> y' < {ends[1]} -> {p_of_y} = 0 -> y' = x'"
     )
     rows = [
-        f"assert (of_one : forall x y : R, {between} -> {p} = 0 -> {p_of_y} = 0 -> y = x).",
+        f"assert (of_one : forall x' y' : R, {between} -> {p} = 0 -> {p_of_y} = 0 -> y' = x').",
         "{",
-        f"intros x y {' '.join(bounds)} of_x of_y.",
-        "destruct (Req_dec y x) as [of_same|of_apart]; [exact of_same|exfalso].",
+        f"intros x' y' {' '.join(bounds)} of_x of_y.",
+        "destruct (Req_dec y' x') as [of_same|of_apart]; [exact of_same|exfalso].",
         f"assert (of_quotient : {q} = 0).",
-        "{ apply (Rmult_eq_reg_l (x - y)); [|lra]. rewrite Rmult_0_r.",
+        "{ apply (Rmult_eq_reg_l (x' - y')); [|lra]. rewrite Rmult_0_r.",
         f"  transitivity (({p}) - ({p_of_y})); [ring|lra]. }}",
         *zeros,
         *excluded(branch, boxes),
         "}",
         "split; [lra|].",
-        f"destruct (crossing (fun x => {text(rising)}) {ends[0]} {ends[1]}",
+        f"destruct (crossing (fun x' => {text(rising)}) {ends[0]} {ends[1]}",
         "  ltac:(continuous) ltac:(lra) ltac:(lra) ltac:(lra))",
-        "  as (x & of_low & of_high & of_zero).",
+        "  as (x' & of_low & of_high & of_zero).",
         f"assert (of_x : {p} = 0) by lra.",
-        f"assert (x <> {ends[0]}) by (intros ->; lra).",
-        f"assert (x <> {ends[1]}) by (intros ->; lra).",
-        "exists x. split; [repeat split; lra|].",
-        "intros y of_below of_above of_y. apply (of_one x y); lra.",
+        f"assert (x' <> {ends[0]}) by (intros ->; lra).",
+        f"assert (x' <> {ends[1]}) by (intros ->; lra).",
+        "exists x'. split; [repeat split; lra|].",
+        "intros y' of_below of_above of_y. apply (of_one x' y'); lra.",
     ]
     return stated, rows

@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.boxes import boxes
-from juggleproof.certificates.coq.branch import (
-    Branch,
-    Equation,
-    Factors,
-    Weighed,
-    contradiction,
-    power,
-)
+from juggleproof.certificates.coq.branch import Branch
+from juggleproof.certificates.coq.psatz import psatz
 from juggleproof.certificates.coq.text import (
     NotWritten,
     coq_name,
@@ -24,7 +17,7 @@ from juggleproof.certificates.coq.text import (
     some,
 )
 from juggleproof.certificates.coq.transfer import Form, Transfer, nonzero, premise_proofs
-from juggleproof.certificates.nodes import Cofactor, Node, Power, Product
+from juggleproof.certificates.nodes import Node
 
 
 def shown(
@@ -103,33 +96,6 @@ def _integral(branch: Branch, index: int, node: Node) -> list[str]:
     return [*rows, *rest.assume(formula, stronger), *closed(rest, node)]
 
 
-def _psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofactor]) -> list[str]:
-    cofactors: list[Equation] = []
-    for index, text in equations:
-        cofactor = branch.poly(text)
-        share = Fraction(1, branch.state.facts[index][0].den * cofactor.den)
-        cofactors.append((branch.facts[index], polynomial(branch.names, cofactor), share))
-    return contradiction([_product(branch, *product) for product in products], cofactors)
-
-
-def _product(branch: Branch, coefficient: str, factors: Sequence[Power], root: str) -> Weighed:
-    """The weight of a product of numerators, its factors, and whether all are strict."""
-    weight, signed = Fraction(checker.rational(coefficient)), Factors()
-    for index, exponent in factors:
-        poly, relation = branch.state.facts[index]
-        weight /= poly.den**exponent
-        signed.append(power(relation, branch.facts[index], exponent))
-    square = branch.poly(root)
-    constant = square.constant()
-    if constant:
-        return weight * constant * constant, signed, all(strict for _, strict in signed)
-    return (
-        weight / square.den**2,
-        [*signed, (f"(pow2_ge_0 ({polynomial(branch.names, square)}))", False)],
-        False,
-    )
-
-
 def _use(
     branch: Branch,
     name: str,
@@ -195,7 +161,7 @@ def _use(
 
 RULES: dict[str, Callable[..., list[str]]] = {
     "close": _close,
-    "psatz": _psatz,
+    "psatz": psatz,
     "cases": _cases,
     "sign": _sign,
     "integral": _integral,

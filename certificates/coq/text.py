@@ -11,21 +11,22 @@ from math import lcm
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import monomials
+from juggleproof.certificates.coq.sums import SUMS
 from juggleproof.certificates.formulas import ClaimError
 
 Names = Mapping[str, int]  # {variable: its number}
 
-PRELUDE = """\
+PRELUDE = (
+    """\
 (* Written by juggleproof from stored certificates. Each lemma is the polynomial form of a
    statement, denominators cleared as its strict lines allow and every constant factor dropped, and
    is proved by its certificate: products of what is known to be positive are positive, and their
-   sum is 0 by ring. *)
+   sum is 0 by computation. *)
 
-From Coq Require Import Reals Lra Lia ZArith.
+From Coq Require Import Reals Lra Lia ZArith List.
+From Coq Require Ring_polynom InitialRing RealField.
 Open Scope R_scope.
 
-Lemma strict_and_zero a b : 0 < a -> b = 0 -> 0 < a + b. Proof. lra. Qed.
-Lemma zero_times m p : p = 0 -> m * p = 0. Proof. intros ->. ring. Qed.
 Lemma square_of_nonzero p : p <> 0 -> 0 < p ^ 2.
 Proof. intro apart. rewrite <- Rsqr_pow2. now apply Rlt_0_sqr. Qed.
 Lemma no_positive_zero s : 0 < s -> s = 0 -> False. Proof. lra. Qed.
@@ -151,15 +152,17 @@ Ltac put_together := lazymatch goal with
   end.
 Ltac equivalent := split; let taken := fresh "of_taken" in
   intro taken; taken_apart taken; put_together.
-"""
 
-# Words that Coq keeps for itself or that the written proofs use: a variable of such a name gets a
-# prime, which no name of a statement has.
-TAKEN = frozenset(
-    "as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set"
-    " Prop SProp Type then using where with by R IZR pow True False I eq_refl"
-    " State coordinate space on point weights S length nil pair conj INR".split()
-) | frozenset(re.findall(r"^(?:Lemma|Definition|Ltac) (\w+)", PRELUDE, re.MULTILINE))
+"""
+    + SUMS
+)
+
+# Words that are no name in Coq: its keywords, and what `intros` may begin with.
+KEYWORDS = frozenset(
+    "as at by cofix else end exists exists2 fix for forall fun if IF in let match mod return then"
+    " until using where with Axiom CoFixpoint Definition Fixpoint Hypothesis Parameter Prop Set"
+    " SProp Theorem Type Variable".split()
+)
 
 
 class NotWritten(ClaimError):
@@ -173,18 +176,36 @@ class NotWritten(ClaimError):
 
 
 def coq_name(name: str) -> str:
-    """The name of a variable; names of hypotheses in the written proofs start with `of_`, and
-    lemmas with `statement_`, which no variable then does.
+    """The name of a variable: with a prime, which no other name of a written file has."""
+    return name + "'"
+
+
+def without_primes(text: str, beside: str = "") -> str:
+    """A text in which variables have no prime, but those whose name without it is a word of Coq, or
+    occurs in `beside` outside of comments.
+
+    >>> without_primes("forall x' R' in' : R, 0 < x'", "forall x' R' in' : R, 0 < x'")
+    "forall x R' in' : R, 0 < x"
     """
-    return name + "'" if name in TAKEN or name.startswith(("of_", "statement_")) else name
+    taken = KEYWORDS | {*re.findall(r"[\w']+", re.sub(r"\(\*.*?\*\)", "", beside, flags=re.DOTALL))}
+    return re.sub(
+        r"\b([A-Za-z]\w*)'(?!\w)",
+        lambda found: found[0] if found[1] in taken else found[1],
+        text,
+    )
 
 
 def polynomial(
-    names: Names, poly: checker.Poly, factor: int = 1, values: Mapping[str, str] | None = None
+    names: Names,
+    poly: checker.Poly,
+    factor: int = 1,
+    values: Mapping[str, str] | None = None,
+    number: str = "",
 ) -> str:
     """The numerator of a polynomial, its integer coefficients times the factor, as a sum of
     monomials, lexicographically from the largest down, where the last variable counts most;
-    `names` gives the number of each variable, `values` text to put in place of some.
+    `names` gives the number of each variable, `values` text to put in place of some, `number` what
+    stands before a number.
     """
     own = {name: coq_name(name) for name in names} | dict(values or {})
     rows = []
@@ -196,9 +217,16 @@ def polynomial(
             for name, i in names.items()
             if exponents[i]
         ]
-        size = [] if abs(coefficient) == 1 and powers else [str(abs(coefficient))]
+        size = [] if abs(coefficient) == 1 and powers else [f"{number}{numeral(abs(coefficient))}"]
         rows.append(("- " if coefficient < 0 else "+ ") + " * ".join([*size, *powers]))
-    return " ".join(rows).removeprefix("+ ") or "0"
+    return " ".join(rows).removeprefix("+ ") or f"{number}0"
+
+
+def numeral(number: int) -> str:
+    """A whole number that is not negative; a long one in hexadecimal digits, which Coq reads in a
+    time that grows with their number, not with its square.
+    """
+    return str(number) if number < 10**40 else hex(number)
 
 
 def atom(text: str, relation: str) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 from string import Template
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.coq.text import without_primes
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.encoding import from_sympy
@@ -296,7 +297,7 @@ def statements(
         PINS,
         _theorems(theorem, other, physical),
     ]
-    return "\n".join(part.strip("\n") + "\n" for part in parts)
+    return without_primes("\n".join(part.strip("\n") + "\n" for part in parts))
 
 
 def current() -> str:

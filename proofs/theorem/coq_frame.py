@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
 from string import Template
 
 from juggleproof.certificates import checker
@@ -21,31 +22,37 @@ def theorem_name(name: str) -> str:
 
 class Frame:
     """The words in which a file speaks of its map or relation: parameters, state and inputs, bound
-    and applied.
+    and applied; kind: of which of the two it speaks, as a map may be taken for a relation.
+
+    A parameter that is an integer is bound as one, of type Z, and terms begin with the real number
+    that it is.
     """
 
-    def __init__(self, own: checker.Statement, known: Known) -> None:
+    def __init__(self, own: checker.Statement, known: Known, kind: str) -> None:
         (parameters,), (state,) = own.get("over"), own.get("state")
         self.known = known
-        self.kind = own.kind
+        self.kind = kind
         self.names = state
+        self.integers = [name for line in own.get("integer") for name in line]
         self.state = [*map(coq_name, state)]
         self.axes = [f"States.axis_{name}" for name in state]
         self.pieces = range(1, len(own.get("piece")) + 1)
         self.inputs = [coq_name(name) for line in own.get("input") for name in line]
-        names = " ".join(map(coq_name, parameters))
-        self.bound = f" ({names} : R)" if names else ""
+        names, binders = "".join(f" {coq_name(name)}" for name in parameters), []
+        for is_integer, group in groupby(parameters, self.integers.__contains__):
+            binders.append(f"{' '.join(map(coq_name, group))} : {'Z' if is_integer else 'R'}")
+        self.bound = "".join(f" ({one})" for one in binders)
         self.pattern = f"({self.state[0]} : State)"
         if len(state) > 1:
             self.pattern = f"'({self.tuple(self.state)} : State)"
-        arguments = f" {names}" if names else ""
         self.words = {
             **{
-                word: Template(text).substitute(a=arguments)
-                for word, text in kinds.WORDS[own.kind].items()
+                word: Template(text).substitute(a=names) for word, text in kinds.WORDS[kind].items()
             },
-            "a": arguments,
-            "all": f"forall {names} : R, " if names else "",
+            "a": names,
+            "all": f"forall{self.bound if len(binders) > 1 else f' {binders[0]}'}, "
+            if binders
+            else "",
             "open": opened("of_s", self.state),
             "opening": opened("of_s", self.state).replace(". ", "; "),
             "s": " ".join(self.state) if len(state) > 1 else "of_s",
@@ -95,8 +102,8 @@ class Frame:
         return f"Definition {name}{self.bound}{state} : {returns} :=\n  {body}."
 
     def lets(self, own: checker.Statement, parts: Sequence[str]) -> str:
-        """What texts name beside parameters and state, in order, as `let` of Coq: roots, and around
-        a point its coordinates, and the state less these.
+        """What texts name beside real parameters and state, in order, as `let` of Coq: integers as
+        real numbers, roots, and around a point its coordinates, and the state less these.
         """
         entries = [
             (name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")
@@ -123,7 +130,8 @@ class Frame:
             if name in used:
                 used |= names_of(node)
                 rows = f"let {coq_name(name)} := {value} in " + rows
-        return rows
+        whole = [coq_name(name) for name in self.integers if name in used]
+        return "".join(f"let {name} := IZR {name} in " for name in whole) + rows
 
     def by_pieces(
         self,
@@ -159,6 +167,22 @@ class Frame:
             "Proof. ${open}cbv beta iota zeta delta [guard_$k]. decidable. Qed.",
             own,
             k=k,
+        )
+
+    def guards(self, own: checker.Statement, keyword: str) -> Iterator[str]:
+        """The guards of the lines with this keyword, one for each number of a line from 0 on, and
+        none for other numbers.
+        """
+        cases = ""
+        for k, (guard, _) in enumerate(own.get(keyword), 1):
+            if guard:
+                yield self.define(own, f"guard_{k}", "Prop", *guard)
+                yield self.decided(own, k)
+            each = f"guard_{k}$a" if guard else "fun _ => True"
+            cases += self.fill(f"{k - 1}%nat => {each} | ", own)
+        yield (
+            f"Definition guards{self.bound} (of_i : nat) : State -> Prop :=\n"
+            f"  match of_i with {cases}_ => fun _ => False end."
         )
 
     def one_piece(self) -> str:

@@ -9,6 +9,8 @@ from __future__ import annotations
 WORDS = {
     "map": {
         "M": "Map",
+        "stable": "States.stable",
+        "attracting": "States.attracting",
         "F": "Map.f$a",
         "st": "of_s",
         "step": "",
@@ -23,6 +25,8 @@ WORDS = {
     },
     "relation": {
         "M": "Relation",
+        "stable": "States.executions_stable",
+        "attracting": "States.executions_attracting",
         "F": "Relation.next$a",
         "st": "of_s of_t",
         "step": "Relation.next$a of_s of_t -> ",
@@ -49,11 +53,13 @@ Definition attracting (space : State -> Prop) (f : State -> State) (e : State) :
     "relation": """\
 Definition execution (next : State -> State -> Prop) (x : nat -> State) : Prop :=
   forall n, next (x n) (x (S n)).
-Definition stable (space : State -> Prop) (next : State -> State -> Prop) (e : State) : Prop :=
+Definition executions_stable (space : State -> Prop) (next : State -> State -> Prop)
+    (e : State) : Prop :=
   forall epsilon, 0 < epsilon -> exists delta, 0 < delta /\\ forall x, execution next x ->
   space (x 0%nat) -> (forall j, Rabs (coordinate j (x 0%nat) - coordinate j e) < delta) ->
   forall n j, Rabs (coordinate j (x n) - coordinate j e) < epsilon.
-Definition attracting (space : State -> Prop) (next : State -> State -> Prop) (e : State) : Prop :=
+Definition executions_attracting (space : State -> Prop) (next : State -> State -> Prop)
+    (e : State) : Prop :=
   forall x, execution next x -> space (x 0%nat) ->
   forall epsilon, 0 < epsilon -> exists N, forall n, (N <= n)%nat ->
   forall j, Rabs (coordinate j (x n) - coordinate j e) < epsilon.""",
@@ -79,17 +85,44 @@ States.coordinate $e (Contraction.set$a)
 _PREMISES = """
     (of_set_kept$a of_dom) of_rate (of_closer$a of_dom)"""
 
+_PREMISES_OF_RANKS = """\
+(of_rank_bounded$a of_dom) (of_rank_falls$a of_dom)
+    (of_stages_lead_on$a of_dom) (of_last_stage_kept$a of_dom)"""
+_KEEPS = "(fun $st => of_map_keeps$a $st (${P}_inside$a of_dom))"
+_RANKS = "(Descent.guards$a) (Descent.ranks$a) $count $size"
+_BY_RANKS = {
+    "map": f"""\
+(Map.f$a) (Map.space$a) (Descent.stages$a)
+    {_RANKS} {_KEEPS}
+    {_PREMISES_OF_RANKS}""",
+    "relation": f"""\
+(Relation.next$a) (Relation.space$a)
+    {_KEEPS} (Descent.stages$a)
+    {_RANKS}
+    {_PREMISES_OF_RANKS}""",
+}
+# The least number that `$lates` say to be at least a rank of one component, less $extra.
+_LEFT = "(fun _ => INR of_n - INR $extra) of_n"
+
 DESCENT = {
     "map": {
-        "descent": """\
+        "descent": f"""\
 Rules.descent (Map.f$a) (Map.space$a) (Descent.rank$a) (Descent.stages$a)
-    (fun of_s => of_map_keeps$a of_s (${P}_inside$a of_dom))"""
+    {_KEEPS}
+    {_PREMISES_OF_RANKS}""",
+        "greatest": f"Ranks.greatest_descent {_BY_RANKS['map']} eq_refl of_s\n    {_LEFT}",
+        "lexicographic": f"Ranks.lexicographic_descent {_BY_RANKS['map']} of_s",
     },
     "relation": {
-        "descent": """\
+        "descent": f"""\
 Executions.relation_descent (Relation.next$a) (Relation.space$a)
-    (fun of_s of_t => of_map_keeps$a of_s of_t (${P}_inside$a of_dom))
-    (Descent.rank$a) (Descent.stages$a)"""
+    {_KEEPS} (Descent.rank$a) (Descent.stages$a)
+    {_PREMISES_OF_RANKS}""",
+        "greatest": f"""\
+RelationRanks.relation_greatest_descent {_BY_RANKS["relation"]} of_x
+    {_LEFT} eq_refl""",
+        "lexicographic": f"""\
+RelationRanks.relation_lexicographic_descent {_BY_RANKS["relation"]} of_x""",
     },
 }
 
@@ -174,19 +207,31 @@ rewrite <- (Nat.add_0_r of_n) in of_in.
     },
 }
 
-# The same pieces on a smaller space, in the module Inner.
+# The same pieces on a smaller space, in the module Inner, by what is spoken of on the larger space
+# and on the smaller.
 INTO = {
-    "map": {
+    ("map", "map"): {
         "into": "Lyapunov.into",
         "same_step": "Map.f$a of_s = Inner.Map.f$a of_s",
         "agree": """\
 intros of_s of_there of_within.
     destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same; symmetry;
-      [$images].""",
+      [$same].""",
     },
-    "relation": {
+    ("map", "relation"): {
+        "into": "Executions.map_into",
+        "same_step": "Inner.Relation.next$a of_s (Map.f$a of_s)",
+        "agree": """\
+intros of_s of_there of_within.
+    destruct (of_map_moves$a of_s of_map of_there) as $one_piece; rewrite of_same;
+      [$moves].""",
+    },
+    ("relation", "relation"): {
         "into": "Executions.relation_into",
         "same_step": "Relation.next$a of_s of_t -> Inner.Relation.next$a of_s of_t",
-        "agree": "exact (fun _ _ _ _ of_moves => of_moves).",
+        "agree": """\
+intros of_s of_t of_there of_within of_moves.
+    destruct of_moves as $one_piece;
+      [$moves].""",
     },
 }

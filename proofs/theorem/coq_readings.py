@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
+from itertools import groupby
 from math import prod
 from typing import NamedTuple
 
@@ -13,7 +14,13 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.coq import NotWritten, lemmas
 from juggleproof.certificates.coq.branch import Branch, Hint, Known
 from juggleproof.certificates.coq.lemmas import certified
-from juggleproof.certificates.coq.text import coq_name, lemma_name, polynomial, proposition
+from juggleproof.certificates.coq.text import (
+    conjoined,
+    coq_name,
+    lemma_name,
+    polynomial,
+    proposition,
+)
 from juggleproof.certificates.coq.transfer import Form, Transfer
 from juggleproof.certificates.states import State
 from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, names_of, term_of
@@ -78,13 +85,13 @@ class Reading:
         self.known = known
         self.shown = shown
         self.form = Form(statement)
-        if self.form.integers:
-            raise NotWritten("a premise is about integers")
         self.branch = Branch(State(self.form.unfolding.context), known, [0])
         self.walk = checker.Context()  # the values of names, line by line
         self.stated: list[str] = []  # what is stated, up to the line
         self.rows: list[str] = []
         self.universal: list[str] = []
+        self.integers: dict[str, str] = {}  # of the variables that are integers, the name in Z
+        self.whole: list[str] = []  # that these are integers
         self.assumed: list[str] = []  # names of the lines assumed, as they stand
         self.premises: list[str] = []  # and as polynomial formulas
         self.defined: set[str] = set()  # names that stand for terms
@@ -96,11 +103,9 @@ class Reading:
         """The lemmas."""
         name = self.statement.name
         for count, (keyword, said) in enumerate(self.statement.lines):
-            if keyword == "forall" and said:
-                self.stated.append(f"forall {' '.join(map(coq_name, said))} : R,")
-                self.rows.append(f"intros {' '.join(map(coq_name, said))}.")
-                self.universal += map(coq_name, said)
-                self._declare(said)
+            if keyword == "forall":
+                for is_integer, names in groupby(said, self.form.integers.__contains__):
+                    self._forall([*names], is_integer)
             elif keyword in ("range", "given"):
                 self._assume(said)
             elif keyword == "let":
@@ -116,6 +121,24 @@ class Reading:
         rows = ["Proof.", *self.rows, "Qed."]
         head = f"Lemma {reading_name(name)} :\n  " + "\n  ".join(self.stated) + "."
         return "\n".join([*self.before, head, *rows]) + "\n"
+
+    def _forall(self, names: Sequence[str], are_integers: bool) -> None:
+        own = [*map(coq_name, names)]
+        if are_integers:
+            for name, variable in zip(names, own):
+                self.integers[name], is_whole = self.branch.fresh(), self.branch.fresh()
+                self.stated.append(f"forall {variable} : Z, let {variable} := IZR {variable} in")
+                self.rows += [
+                    f"intros {self.integers[name]} {variable}.",
+                    f"assert ({is_whole} : whole {variable})"
+                    f" by exact (whole_constant {self.integers[name]}).",
+                ]
+                self.whole.append(is_whole)
+        else:
+            self.stated.append(f"forall {' '.join(own)} : R,")
+            self.rows.append(f"intros {' '.join(own)}.")
+        self.universal += own
+        self._declare(names)
 
     def _declare(self, names: Sequence[str]) -> None:
         for name in names:
@@ -194,7 +217,8 @@ class Reading:
             self.before.append(certified(part, proof, self.known))
             self.before.append(Reading(part, proof, self.known, self.shown).text())
             self.shown[text] = reading_name(name)
-        arguments = [*map(coq_name, self._variables()), *self.assumed]
+        variables = [self.integers.get(name) or coq_name(name) for name in self._variables()]
+        arguments = [*variables, *self.assumed]
         return f"({' '.join([self.shown[text], *arguments])})"
 
     def _variables(self) -> list[str]:
@@ -206,26 +230,34 @@ class Reading:
         (node,) = self.statement.get("show")
         self.stated.append(formula_of(node, 0))
         same = self._same(node, self.form.unfolding.goal(True))
-        applied = " ".join([lemma_name(self.statement.name), *self.universal, *self.premises])
-        self.rows.append(f"exact (proj2 {same} ({applied})).")
+        self.rows.append(f"exact (proj2 {same} ({self._applied()})).")
+
+    def _applied(self) -> str:
+        """The polynomial lemma for what is assumed."""
+        name = lemma_name(self.statement.name)
+        return " ".join([name, *self.universal, *self.whole, *self.premises])
 
     def _exhibit(self) -> None:
         """What exists, from the polynomial lemma."""
         names, own = [*map(coq_name, self.form.existential)], self.branch.fresh()
-        applied = " ".join([lemma_name(self.statement.name), *self.universal, *self.premises])
+        integers = self.form.whole(self.form.existential)
+        whole = [self.branch.fresh() for _ in integers]
+        applied = self._applied()
         self._declare(self.form.existential)
         nodes = [said for keyword, said in self.statement.lines if keyword in ("with", "show")]
         node = nodes[0] if len(nodes) == 1 else ast.BoolOp(ast.And(), nodes)
         formula, kept = self.form.unfolding.goal(True), self.branch.fresh()
-        self.stated.append(f"exists {' '.join(names)} : R, {formula_of(node, 0)}")
+        shown = " /\\ ".join([*integers, formula_of(node, 3 if integers else 0)])
+        self.stated.append(f"exists {' '.join(names)} : R, {shown}")
         self.rows += [
-            f"destruct ({applied}) as ({' & '.join([*names, own])}).",
+            f"destruct ({applied}) as ({' & '.join([*names, *whole, own])}).",
             f"pose proof {own} as {kept}.",
             *self.branch.assume(formula, kept),
         ]
         self.walk.license(formula)
         same = self._same(node, formula)
-        self.rows += [*(f"exists {name}." for name in names), f"exact (proj2 {same} {own})."]
+        proof = conjoined([*whole, f"(proj2 {same} {own})"])
+        self.rows += [*(f"exists {name}." for name in names), f"exact {proof}."]
 
     # -------------------------------------------------------------------------------------------
     # A formula as it stands, and the polynomial formula that it is.

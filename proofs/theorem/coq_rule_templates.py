@@ -88,61 +88,6 @@ NEXT = """\
 assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
   assert (of_next := of_map_keeps$a $st of_map of_there$by)."""
 
-DESCENT = """\
-Lemma of_rank_bounded : ${all}Descent.domain$a ->
-  forall of_s, ${M}.space$a of_s -> 0 <= Descent.rank$a of_s.
-Proof.
-  intros$a of_dom of_s of_there. ${open}exact (Rge_le _ _ (${P}_bounded$a $s of_dom of_there)).
-Qed.
-
-Lemma of_staged : ${all}forall of_s, {$staged} + {~ ($staged)}.
-Proof. intros$a of_s. ${open}cbv beta iota zeta delta [$stage_names]. decidable. Qed.
-
-Lemma of_rank_falls : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
-  $step(exists k, Rules.stage (Descent.stages$a) k of_s) \\/
-  Descent.rank$a $after <= Descent.rank$a of_s - 1.
-Proof.
-  intros$a of_dom $st of_there$by. $next
-  destruct (of_staged$a of_s) as [of_in|of_out]; [left|right].
-  { $in_a_stage }
-  $falls
-Qed.
-"""
-
-STAGE = """\
-Lemma of_stage_$k : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
-  ${step}Descent.stage_$k$a of_s -> Descent.stage_$following$a $after.
-Proof.
-  intros$a of_dom $st of_there$by of_in. $next
-  $leads
-Qed.
-"""
-
-DESCENDS = """\
-Lemma of_stages_lead_on : ${all}Descent.domain$a ->
-  forall of_k $st, (S of_k < length (Descent.stages$a))%nat -> ${M}.space$a of_s ->
-  ${step}Rules.stage (Descent.stages$a) of_k of_s ->
-  Rules.stage (Descent.stages$a) (S of_k) $after.
-Proof.
-  intros$a of_dom $each_stage $st of_less of_there$by of_in; [${lead_on}cbn in of_less; lia].
-Qed.
-
-Lemma of_last_stage_kept : ${all}Descent.domain$a -> forall $st, ${M}.space$a of_s ->
-  ${step}Rules.last_stage (Descent.stages$a) of_s -> Rules.last_stage (Descent.stages$a) $after.
-Proof.
-  intros$a of_dom $st of_there$by of_in. exact (of_stage_$last$a of_dom $st of_there$by of_in).
-Qed.
-
-Theorem $theorem : ${all}Descent.domain$a -> forall $orbit of_n, ${run}${M}.space$a $start ->
-  Descent.rank$a $start + INR $extra <= INR of_n -> Descent.stage_$last$a $at_n.
-Proof.
-  intros$a of_dom $orbit of_n$runs of_there of_late.
-  exact ($descent
-    (of_rank_bounded$a of_dom) (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom)
-    (of_last_stage_kept$a of_dom) $orbit of_n$runs of_there of_late).
-Qed.
-"""
-
 CONSTANTS = """\
 destruct (of_constants$a of_dom) as (of_rate & of_below_1 & of_radius & of_size & of_low & of_high
     & of_positive & of_between)."""
@@ -158,8 +103,8 @@ Qed.
 
 Lemma of_constants : ${all}Contraction.domain$a ->
   0 <= Contraction.rate$a /\\ Contraction.rate$a < 1 /\\ 0 < Contraction.radius$a /\\
-  0 < Contraction.size$a /\\ exists low high, 0 < low /\\
-  forall of_j, low <= States.coordinate of_j (Contraction.weights$a) <= high.
+  0 < Contraction.size$a /\\ exists of_low of_high, 0 < of_low /\\
+  forall of_j, of_low <= States.coordinate of_j (Contraction.weights$a) <= of_high.
 Proof.
   intros$a of_dom. destruct (${P}_constants$a of_dom) as $numbers.
   split; [exact (Rge_le _ _ of_least)|split; [exact of_most|]].
@@ -204,8 +149,8 @@ Qed.
 (* The point is fixed, stable, and attracts the set, at the rate. *)
 Theorem $theorem : ${all}Contraction.domain$a ->
   ${M}.space$a (Contraction.point$a) /\\ $is_fixed /\\
-  States.stable (${M}.space$a) ($F) (Contraction.point$a) /\\
-  States.attracting (Contraction.set$a) ($F) (Contraction.point$a) /\\
+  $stable (${M}.space$a) ($F) (Contraction.point$a) /\\
+  $attracting (Contraction.set$a) ($F) (Contraction.point$a) /\\
   forall of_n of_c $orbit, ${run}0 <= of_c ->
   Contraction.set$a $start -> Contraction.near$a of_c $start ->
   Contraction.near$a (Contraction.rate$a ^ of_n * of_c) $at_n.
@@ -241,8 +186,8 @@ Qed.
 Theorem $theorem : ${all}LyapunovFunction.domain$a ->
   ${M}.space$a (LyapunovFunction.point$a) /\\
   $is_fixed /\\
-  States.stable (${M}.space$a) ($F) (LyapunovFunction.point$a) /\\
-  States.attracting (LyapunovFunction.set$a) ($F) (LyapunovFunction.point$a).
+  $stable (${M}.space$a) ($F) (LyapunovFunction.point$a) /\\
+  $attracting (LyapunovFunction.set$a) ($F) (LyapunovFunction.point$a).
 Proof.
   intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
   assert (of_map : ${M}.domain$a) by exact (${P}_inside$a$E of_dom$H).
@@ -349,8 +294,8 @@ Qed.
 ATTRACTS = """\
 (* The point is stable and attracts every state$within_a_bound. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  States.stable (${M}.space$a) ($F) ($around.point$a) /\\
-  States.attracting (${M}.space$a) ($F) ($around.point$a)$bound.
+  $stable (${M}.space$a) ($F) ($around.point$a) /\\
+  $attracting (${M}.space$a) ($F) ($around.point$a)$bound.
 Proof.
   intros$a of_dom. assert (of_near : $around.domain$a) by exact (${P}_inside$a of_dom).
   destruct ($settles$a of_near) as (_ & _ & of_stays & $tends).
@@ -359,64 +304,74 @@ Proof.
     $around.set$a of_s).
   { intros of_s of_there of_in. split; [exact of_there|].
     ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
-  assert (of_enters : forall $orbit of_n, ${run}${M}.space$a $start ->
-    Descent.rank$a $start + INR $extra <= INR of_n -> $around.set$a $at_n).
-  { intros $orbit of_n$runs of_there of_late. exact (of_into _
-      $kept
-      ($descends$a of_dom $orbit of_n$runs of_there of_late)). }
   split; [exact of_stays|$split].
   { refine ($from_a_set
       ($around.set$a) _ of_tends).
     intros $orbit$runs of_there.
-    destruct (Rules.exceeded_by_a_number (Descent.rank$a $start + INR $extra)) as [of_n of_late].
-    exists of_n. exact (of_enters $orbit of_n$runs of_there of_late). }$bounded
+    destruct (of_last_stage_reached$a of_dom $orbit$runs of_there) as [of_n of_in].
+    exists of_n. exact (of_into _
+      $kept of_in). }$bounded
 Qed.
 """
 
 BOUND = """ /\\
-  forall $orbit of_n of_k, ${run}${M}.space$a $start ->
-  Descent.rank$a $start + INR $extra <= INR of_n ->
-  Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
+  forall $orbit$n, ${run}${M}.space$a $start ->
+  ${late}Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
     $at_n_k"""
 
 BOUNDED = """
-  { intros $orbit of_n of_k$runs of_there of_late.
-    pose proof (of_enters $orbit of_n$runs of_there of_late) as of_in.
+  { $by_then
+    pose proof (of_into _
+      $kept
+      $there) as of_in.
     destruct (of_constants$a of_near) as (_ & _ & _ & of_size & _).
     $approach }"""
+
+# The last stage from a number of steps on which a theorem tells, or which it says to exist.
+IN_TIME = {
+    True: {
+        "by_then": "intros $orbit$n$runs of_there$lates.",
+        "there": "($descends $orbit of_n$runs of_there$lates)",
+    },
+    False: {
+        "by_then": """\
+intros $orbit$n$runs of_there. destruct ($descends $orbit$runs of_there) as [of_N of_last].
+    exists of_N. intros of_n of_k of_late.""",
+        "there": "(of_last of_n of_late)",
+    },
+}
 
 INTO = """\
 (* The point is stable and attracts every state, on the larger space. *)
 Theorem $theorem : ${all}Descent.domain$a ->
-  States.stable (${M}.space$a) ($F) ($around.point$a) /\\
-  States.attracting (${M}.space$a) ($F) ($around.point$a).
+  $stable (${M}.space$a) ($F) ($around.point$a) /\\
+  $attracting (${M}.space$a) ($F) ($around.point$a).
 Proof.
   intros$a of_dom.
   assert (of_map : ${M}.domain$a) by exact (${descent}_inside$a of_dom).
   assert (of_inner : Inner.Descent.domain$a) by exact (${P}_inside$a of_dom).
-  assert (of_inner_map : Inner.${M}.domain$a) by exact (${inner}_inside$a of_inner).
-  assert (of_agree : forall $st, ${M}.space$a of_s -> Inner.${M}.space$a of_s ->
+  assert (of_inner_map : Inner.${N}.domain$a) by exact (${inner}_inside$a of_inner).
+  assert (of_agree : forall $st, ${M}.space$a of_s -> Inner.${N}.space$a of_s ->
     $same_step).
   { $agree }
   pose (of_keeps $st := of_map_keeps$a $st of_map).
-  pose (of_inner_keeps $st := Inner.of_map_keeps$a $st of_inner_map). split.
-  { refine (${into}_stability ($F) (Inner.$F) States.coordinate
-      (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${M}.space$a)
+  pose (of_inner_keeps $inner_st := Inner.of_map_keeps$a $inner_st of_inner_map). split.
+  { refine (${into}_stability ($F) (Inner.$G) States.coordinate
+      (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${N}.space$a)
       (Into.radius$a) of_keeps of_inner_keeps of_agree _ _ (proj1 ($attraction$a of_inner))).
     { exact (${P}_constants$a of_dom). }
     { intros of_s of_there of_close. pose proof $within as of_within.
       ${open}exact (${P}_surrounds$a $s of_dom of_there of_within). } }
-  refine (${into}_attraction ($F) (Inner.$F) States.coordinate
-    (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${M}.space$a)
+  refine (${into}_attraction ($F) (Inner.$G) States.coordinate
+    (fun of_j => States.coordinate of_j ($around.point$a)) (${M}.space$a) (Inner.${N}.space$a)
     of_keeps of_inner_keeps of_agree _ ($tends ($attraction$a of_inner))).
   assert (of_enters : forall of_s, ${M}.space$a of_s -> Descent.stage_$last$a of_s ->
-    Inner.${M}.space$a of_s).
+    Inner.${N}.space$a of_s).
   { intros of_s of_there of_in. ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
   intros $orbit$runs of_there.
-  destruct (Rules.exceeded_by_a_number (Descent.rank$a $start + INR $extra)) as [of_n of_late].
+  destruct (of_last_stage_reached$a of_dom $orbit$runs of_there) as [of_n of_in].
   exists of_n. exact (of_enters _
-    $kept
-    ($descends$a of_dom $orbit of_n$runs of_there of_late)).
+    $kept of_in).
 Qed.
 """
 

@@ -10,9 +10,9 @@ from pathlib import Path
 from string import Template
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, NotWritten, lemmas
+from juggleproof.certificates.coq import PRELUDE, lemmas
 from juggleproof.certificates.coq.branch import Known
-from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
+from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive, without_primes
 from juggleproof.certificates.language import lemmas_of, rests_on
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.proofs.theorem import coq_kinds as kinds
@@ -20,9 +20,16 @@ from juggleproof.proofs.theorem import coq_rule_templates as texts
 from juggleproof.proofs.theorem.coq_frame import (
     Frame,
     equal_states,
-    nested,
     opened,
     theorem_name,
+)
+from juggleproof.proofs.theorem.coq_ranks import (
+    NEXT,
+    descent_definitions,
+    descent_proofs,
+    has_end,
+    has_one_term,
+    times,
 )
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
 from juggleproof.proofs.theorem.coq_terms import coq_term
@@ -53,27 +60,30 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
     """The file of a certified theorem, which coqc accepts by itself.
 
     The certificates are those of the statement, of all that it rests on, and of the lemmas that
-    these use.  Raises NotWritten for a part of a certificate that is not written for Coq, and where
-    a map and a relation, or two relations of other inputs, are joined.
+    these use.  Raises NotWritten for a part of a certificate that is not written for Coq.
     """
     everything = [*_chain(name, statements, whole=True)]
     own = [statements[one] for one in everything]
-    if len({str(one.get("input")) for one in own if one.get("state")}) > 1:  # a map has none
-        raise NotWritten(
-            "it joins a map and a relation, or two relations; claim both with the same line `input`"
-        )
-    frame = Frame(own[0], statements)
-    rows = [Template(texts.HEADER).substitute(name=name, M=frame.words["M"])]
-    rows.append(_theory({one.kind for one in own}))
-    rows += states(frame)
+    frame = _frame(name, statements)
+    head = [Template(texts.HEADER).substitute(name=name, M=frame.words["M"]), _theory(own)]
+    space = "\n".join(states(frame, {frame.kind, *(one.kind for one in own)}))
     used = _uses(everything, certificates)
-    rows += [
+    rows = [
         lemmas(statement, certificates[one], statements)
         for one, statement in statements.items()
         if one in used
     ]
-    rows += _chain_rows(name, frame, certificates)
-    return "\n".join([*rows, f"Print Assumptions {theorem_name(name)}.", ""])
+    rows += [*_chain_rows(name, frame, certificates), f"Print Assumptions {theorem_name(name)}."]
+    body = "\n".join(rows)
+    return "\n".join([*head, without_primes(f"{space}\n{body}", body), ""])
+
+
+def _frame(name: str, known: Known, around: str = "map") -> Frame:
+    """The words for what a statement is about: for a map those of a relation where a relation is on
+    the space around.
+    """
+    own = known[_chain(name, known)[0]]
+    return Frame(own, known, "relation" if around == "relation" else own.kind)
 
 
 def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) -> Iterator[str]:
@@ -82,10 +92,11 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
     for one in _chain(name, f.known):
         own = f.known[one]
         if own.kind == "into":
+            inner = own.get("attraction")[0]
             yield "Module Inner.\n"
-            yield from _chain_rows(own.get("attraction")[0], f, certificates)
+            yield from _chain_rows(inner, _frame(inner, f.known, f.kind), certificates)
             yield "End Inner.\n"
-        define, prove = RULES[own.kind]
+        define, prove = RULES[f.kind if own.kind in ("map", "relation") else own.kind]
         yield f"(* {'-' * 60} {one} *)\n"
         if one in refuted:
             yield f"Module Refuted_{refuted.index(one) + 1}.\n"
@@ -123,13 +134,18 @@ def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[
     return used
 
 
-def _theory(rules: Set[str]) -> str:
+def _theory(statements: Sequence[checker.Statement]) -> str:
     """The lemmas of certificates, and what rules conclude for any map or relation."""
-    modules = {"Rules": "Rules.v"}
+    modules, rules = {"Rules": "Rules.v"}, {one.kind for one in statements}
+    has_ranks = any(one.kind == "descends" and not has_one_term(one) for one in statements)
     if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
         modules["Lyapunov"] = "Lyapunov.v"
+    if has_ranks:
+        modules["Ranks"] = "Ranks.v"
     if "relation" in rules:
         modules["Executions"] = "Relation.v"
+        if has_ranks:
+            modules["RelationRanks"] = "RelationRanks.v"
     imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
     rows = ["From Coq Require Import Reals ZArith Lra Lia List.", "Open Scope R_scope.\n"]
     rows += [imports.sub("", text) for text in (PRELUDE, (ORBITS / "Readings.v").read_text())]
@@ -145,7 +161,7 @@ def _theory(rules: Set[str]) -> str:
 # The rules, each by its definitions, and by what follows from its premises.
 
 
-def states(f: Frame) -> Iterator[str]:
+def states(f: Frame, rules: Set[str]) -> Iterator[str]:
     """The state, its coordinates, and what is stable and attracting."""
     axes = [axis.removeprefix("States.") for axis in f.axes]
     cases = " | ".join(f"{axis} => {name}" for axis, name in zip(axes, f.state))
@@ -153,16 +169,12 @@ def states(f: Frame) -> Iterator[str]:
     yield f"Definition State : Type := {' * '.join(['R'] * len(axes))}."
     yield f"Inductive axis : Set := {' | '.join(axes)}."
     yield f"Definition coordinate (of_j : axis) {f.pattern} : R :=\n  match of_j with {cases} end."
-    yield kinds.STABLE[f.kind]
+    yield from (text for kind, text in kinds.STABLE.items() if kind in rules)
     yield "End States.\n"
 
 
 def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Domain and space, and the map by its pieces."""
-    if own.get("integer"):
-        raise NotWritten(
-            f"{own.name} has parameters that are integers, which is not written for Coq"
-        )
     yield "Module Map.\nImport States."
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "space", "Prop", *own.get("space"))
@@ -251,62 +263,6 @@ def relation_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     yield _same_state(f, own)
 
 
-def descent_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """Rank and stages."""
-    yield f"Module Descent.\nImport States {f.words['M']}."
-    yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
-    (guards, terms), *more = own.get("rank")
-    if guards or more or len(terms) > 1:
-        raise NotWritten(f"{own.name} has a rank of several terms, which is not written for Coq")
-    yield f.define(own, "rank", "R", *terms)
-    stages = own.get("stage")
-    for k, stage in enumerate(stages, 1):
-        yield f.define(own, f"stage_{k}", "Prop", stage)
-    each = "".join(f"stage_{k}$a :: " for k in range(1, len(stages) + 1))
-    kind = f"{f.bound} : list (State -> Prop)"
-    yield f"Definition stages{kind} :=\n  ({f.fill(each, own)}nil)%list."
-    yield "End Descent."
-
-
-def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """Every orbit is in the last stage, from a step on that the rank tells."""
-    stages = range(1, len(own.get("stage")) + 1)
-    last, next_ = stages[-1], f.fill(texts.NEXT, own)
-    yield f.fill(
-        texts.DESCENT,
-        own,
-        next=next_,
-        staged=f.fill(" \\/ ".join(f"Descent.stage_{k}$a of_s" for k in stages), own),
-        stage_names=" ".join(f"Descent.stage_{k}" for k in stages),
-        in_a_stage=_in_a_stage(len(stages)),
-        falls=f.by_pieces(own, "falls", "of_dom of_there of_out of_g of_next"),
-    )
-    for k in stages:
-        leads = f.by_pieces(own, f"stage_{k}", "of_dom of_there of_in of_g of_next")
-        yield f.fill(texts.STAGE, own, k=k, next=next_, following=min(k + 1, last), leads=leads)
-    known = "of_dom $st of_there$by of_in"
-    lead_on = "".join(f"exact (of_stage_{k}$a {known})|" for k in stages[:-1])
-    yield f.fill(
-        texts.DESCENDS,
-        own,
-        each_stage=nested("of_k", len(stages) - 1),
-        lead_on=f.fill(lead_on, own),
-        last=last,
-        extra=f.extra_steps(own),
-        **f.of_kind(kinds.DESCENT, own),
-    )
-
-
-def _in_a_stage(count: int) -> str:
-    """Tactics that give the number of the stage which a state is in."""
-    cases = "|".join(f"exists {k}%nat; exact of_in" for k in range(count))
-    return (
-        f"destruct of_in as {disjunctive(['of_in'] * count)}; [{cases}]."
-        if count > 1
-        else f"{cases}."
-    )
-
-
 def contraction_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The set, the point, and the numbers of the norm."""
     yield f"Module Contraction.\nImport States {f.words['M']}."
@@ -346,7 +302,7 @@ def contraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         numbers=conjunctive(["of_least", "of_most", *each, "of_radius", "of_size"]),
         axes=" :: ".join([*f.axes, "nil"]),
         positive="|".join(f"exact {name}" for name in each),
-        next=f.fill(texts.NEXT, own),
+        next=f.fill(NEXT, own),
         closer=f.by_pieces(
             own,
             "closer",
@@ -367,20 +323,23 @@ def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable, and attracts every state; with a contraction within a bound."""
     descent, bounded = f.known[own.get("descent")[0]], bool(own.get("contraction"))
-    extra, words = f.extra_steps(descent), f.of_kind(kinds.ENTERED, own, _around(f, own))
+    words = f.of_kind(kinds.ENTERED, own, _around(f, own))
+    words |= times(f, descent, " of_k")
+    words["descends"] = f"{theorem_name(descent.name)}{f.words['a']} of_dom"
+    words |= {
+        word: f.fill(text, own, **words) for word, text in texts.IN_TIME[has_end(descent)].items()
+    }
     yield f.fill(
         texts.ATTRACTS,
         own,
         within_a_bound=", within a bound" * bounded,
-        bound=f.fill(texts.BOUND, own, extra=extra) * bounded,
+        bound=f.fill(texts.BOUND, own, **words) * bounded,
         settles=theorem_name((own.get("lyapunov") + own.get("contraction"))[0]),
         tends="of_tends & of_nearer" if bounded else "of_tends",
         split="split" * bounded,
-        bounded=f.fill(texts.BOUNDED, own, extra=extra, **words) * bounded,
-        extra=extra,
-        last=extra + 1,
+        bounded=f.fill(texts.BOUNDED, own, **words) * bounded,
+        last=f.extra_steps(descent) + 1,
         descent=reading_name(descent.name),
-        descends=theorem_name(descent.name),
         **words,
     )
 
@@ -456,24 +415,29 @@ def into_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state of the larger space."""
     descent, attraction = f.known[own.get("descent")[0]], f.known[own.get("attraction")[0]]
-    inner_descent, last = f.known[attraction.get("descent")[0]], f.extra_steps(descent) + 1
-    images = "|".join(
-        f.fill(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)", own)
-        for k in f.pieces
-    )
-    around, one_piece = _around(f, own), f.one_piece()
+    inner, around = _frame(attraction.name, f.known, f.kind), _around(f, own)
+    same, moves = [], []
+    image = "reflexivity" if f.kind == "map" else "exact of_same"
+    exists = "".join(f"exists {one if one in f.inputs else 0}; " for one in inner.inputs)
+    for k in f.pieces:
+        which = "right; " * (k - 1) + "left; " * (k < f.pieces[-1])
+        same.append(f"exact (Inner.of_map_is_{k}$a of_s of_inner_map of_within of_g)")
+        moves.append(f"{which}{exists}split; [exact of_g|{image}]")
+    pieces = {"one_piece": f.one_piece(), "same": "|".join(same), "moves": "|".join(moves)}
     words = f.of_kind(kinds.ENTERED, own, around)
-    words |= f.of_kind(kinds.INTO, own, around, one_piece=one_piece, images=images)
+    for word, text in kinds.INTO[f.kind, inner.kind].items():
+        words[word] = f.fill(f.fill(text, own, **pieces), own)
     yield f.fill(
         texts.INTO,
         own,
+        N=inner.words["M"],
+        G=inner.words["F"],
+        inner_st=inner.words["st"],
         tends=_tends(attraction),
         attraction=f"Inner.{theorem_name(attraction.name)}",
         descent=reading_name(descent.name),
-        inner=f"Inner.{reading_name(inner_descent.name)}",
-        descends=theorem_name(descent.name),
-        extra=last - 1,
-        last=last,
+        inner=f"Inner.{reading_name(attraction.get('descent')[0])}",
+        last=f.extra_steps(descent) + 1,
         within=conjoined([f"(within_one _ _ (of_close {axis}))" for axis in f.axes]),
         **words,
     )

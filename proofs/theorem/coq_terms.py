@@ -26,19 +26,19 @@ RELATIONS: dict[type, str] = {
 
 
 def coq_term(text: str) -> str:
-    """The Coq term of a text.
+    """The Coq term of a text, each name with a prime.
 
     >>> coq_term("alpha*w - (x + 1)^2/2")
-    'alpha * w - (x + 1) ^ 2 / 2'
+    "alpha' * w' - (x' + 1) ^ 2 / 2"
     """
     return term_of(checker.parse(text), 0)
 
 
 def coq_formula(text: str) -> str:
-    """The Coq proposition of a text.
+    """The Coq proposition of a text, each name with a prime.
 
-    >>> coq_formula("0 <= x and (x < w or not alpha*w = 1)")
-    '0 <= x /\\\\ (x < w \\\\/ ~ alpha * w = 1)'
+    >>> print(coq_formula("0 <= x and (x < w or not alpha*w = 1)"))
+    0 <= x' /\\ (x' < w' \\/ ~ alpha' * w' = 1)
     """
     return formula_of(checker.parse(text), 0)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
+from juggleproof.certificates.coq.text import conjoined, conjunctive, coq_name, disjunctive
 from juggleproof.proofs.theorem import coq_kinds as kinds
 from juggleproof.proofs.theorem import coq_rule_templates as texts
 from juggleproof.proofs.theorem.coq_frame import Frame, nested
@@ -55,18 +55,15 @@ def values_of(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Domain, point, the terms of the value with their guards, numbers, and what is near."""
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "point", "State", *own.get("point")[0], of_state=False)
-    guards = values = ""
-    for k, (guard, (term,)) in enumerate(own.get("value"), 1):
+    values = ""
+    for k, (_, (term,)) in enumerate(own.get("value"), 1):
         yield f.define(own, f"value_{k}", "R", term)
         values += f.fill(f"{k - 1}%nat => value_{k}$a | ", own)
-        if guard:
-            yield f.define(own, f"guard_{k}", "Prop", *guard)
-            yield f.decided(own, k)
-        each = f"guard_{k}$a" if guard else "fun _ => True"
-        guards += f.fill(f"{k - 1}%nat => {each} | ", own)
-    match = "(of_i : nat) : State -> {} :=\n  match of_i with {} end."
-    yield f"Definition guards{f.bound} " + match.format("Prop", guards + "_ => fun _ => False")
-    yield f"Definition values{f.bound} " + match.format("R", values + "_ => fun _ => 0")
+    yield from f.guards(own, "value")
+    yield (
+        f"Definition values{f.bound} (of_i : nat) : State -> R :=\n"
+        f"  match of_i with {values}_ => fun _ => 0 end."
+    )
     for name in ("upper", "radius"):
         yield f.define(own, name, "R", *own.get(name), of_state=False)
     yield f.fill(
@@ -76,13 +73,18 @@ def values_of(f: Frame, own: checker.Statement) -> Iterator[str]:
     )
 
 
+def _reals(*names: str) -> str:
+    """Variables of a definition beside parameters and state."""
+    return f" ({' '.join(map(coq_name, names))} : R)"
+
+
 def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The value, what it loses at least, and the set."""
     yield f"Module {LYAPUNOV}.\nImport States {f.words['M']}."
     yield from values_of(f, own)
     yield f.define(own, "on", "Prop", *own.get("on"))
-    yield f.define(own, "loss", "R", *own.get("loss"), more=" (value : R)")
-    both = " (distance level : R)"
+    yield f.define(own, "loss", "R", *own.get("loss"), more=_reals("value"))
+    both = _reals("distance", "level")
     yield f.define(own, "least", "R", *own.get("least"), of_state=False, more=both)
     bound = f"{f.bound} (of_s : State) : Prop"
     yield f.fill(f"Definition set{bound} := space$a of_s /\\ on$a of_s.", own)
@@ -185,7 +187,7 @@ def instability_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     yield from values_of(f, own)
     yield f.define(own, "rate", "R", *own.get("rate"), of_state=False)
     terms = own.get("direction")[0]
-    yield f.define(own, "direction", "State", *terms, of_state=False, more=" (distance : R)")
+    yield f.define(own, "direction", "State", *terms, of_state=False, more=_reals("distance"))
     yield f"End {CHETAEV}."
 
 

@@ -195,6 +195,105 @@ def origin_attracts_however_it_is_switched() -> list[MapRule]:
     ]
 
 
+@claim("counted")
+def origin_attracts_just_from_2() -> list[MapRule]:
+    """The second number runs down, then the first is divided by an integer n, and the second put
+    back: all tends to the origin just for n > 1.
+    """
+    over = (("over", "n"), ("integer", "n"), ("domain", "n > 0"), ("state", "x y"))
+    pieces = (
+        ("piece", "y >= 1 -> x, y - 1"),
+        ("piece", "y < 1 and x >= 1 -> x/n, x^2 - x"),
+        ("piece", "y < 1 and x < 1 -> x/n, y/2"),
+    )
+    map_, point = ("map", "counted/map"), ("point", "0, 0")
+    of, below_1 = (map_, ("domain", "n > 0 and n > 1")), "x < 1 and y < 1"
+    numbers = norm("1, 1", rate="1/2", radius="1/2", size="1")
+    start = (("start", "1, 0"), ("word", "2"))
+    return [
+        MapRule("map", (*over, ("space", "x >= 0 and y >= 0"), *pieces)),
+        MapRule("down", (*of, ("rank", "2*x, y"), ("stage", below_1))),
+        MapRule("near", (*of, ("on", below_1), point, *numbers)),
+        MapRule("all", (("descent", "counted/down"), ("contraction", "counted/near"))),
+        MapRule("stays", (map_, ("domain", "n > 0 and n = 1"), point, *start)),
+        MapRule("exactly", (("attraction", "counted/all"), ("escape", "counted/stays"))),
+    ]
+
+
+def steps(bound: str) -> tuple[tuple[str, str], ...]:
+    """A step towards 0 from outside of a bound, and a x within, for a state x."""
+    inside = f"-{bound} <= x and x <= {bound}"
+    outside = (("piece", f"x > {bound} -> x - 1"), ("piece", f"x < -{bound} -> x + 1"))
+    return (*outside, ("piece", f"{inside} -> a*x"))
+
+
+@claim("walked")
+def zero_attracts_from_both_sides() -> list[MapRule]:
+    """Steps towards 0, and a x within 1: as it is for any execution within, so for all orbits."""
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x"))
+    of, inside = (("relation", "walked/small"), ("domain", BELOW_1)), "-1 <= x and x <= 1"
+    set_, numbers = (("on", inside), ("point", "0")), norm("1", rate="a", radius="1", size="1")
+    rank = (("rank", "x"), ("rank", "x <= 1 -> -x"), ("stage", inside))
+    return [
+        MapRule("small", (*over, ("input", "u"), ("space", inside), *steps("1"))),
+        MapRule("near", (*of, *set_, *numbers)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", inside))),
+        MapRule("inner", (("descent", "walked/down"), ("contraction", "walked/near"))),
+        MapRule("large", (*over, ("space", "0 = 0"), *steps("1"))),
+        MapRule("falls", (("map", "walked/large"), ("domain", BELOW_1), *rank)),
+        MapRule(
+            "all",
+            (("descent", "walked/falls"), ("attraction", "walked/inner"), ("radius", "1/2")),
+        ),
+    ]
+
+
+@claim("drawn")
+def zero_attracts_executions_from_both_sides() -> list[MapRule]:
+    """The same within 2, as a relation of which the map is a part."""
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x"))
+    of, inside = (("map", "drawn/small"), ("domain", BELOW_1)), "-2 <= x and x <= 2"
+    set_, numbers = (("on", inside), ("point", "0")), norm("1", rate="a", radius="1", size="2")
+    rank = (("rank", "x > 2 -> 1, x"), ("rank", "x < -2 -> 1, -x"), ("rank", f"{inside} -> 0, 0"))
+    return [
+        MapRule("small", (*over, ("space", inside), *steps("2"))),
+        MapRule("near", (*of, *set_, *numbers)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", inside))),
+        MapRule("inner", (("descent", "drawn/down"), ("contraction", "drawn/near"))),
+        MapRule("large", (*over, ("input", "u v"), ("space", "0 = 0"), *steps("2"))),
+        MapRule(
+            "falls",
+            (("relation", "drawn/large"), ("domain", BELOW_1), *rank, ("stage", inside)),
+        ),
+        MapRule(
+            "all", (("descent", "drawn/falls"), ("attraction", "drawn/inner"), ("radius", "1/2"))
+        ),
+    ]
+
+
+# Words of Coq, and names that the files use, which are names of parameters in a claim.
+WORDS = (
+    "Axiom CoFixpoint Definition Fixpoint Hypothesis IF Parameter Prop SProp Set Theorem Variable"
+    " at by cofix end exists exists2 fix forall fun let match mod then until using where"
+    " R S O I Z e f k n s exp sin Rmax PI conj nat State Map space guard_1 of_s of_1 of_dom"
+)
+
+
+@claim("named")
+def any_name_is_one_in_coq() -> list[MapRule]:
+    """x -> x/2, of a state and parameters whose names mean something else in Coq."""
+    of = (("map", "named/map"), ("domain", "R > 0"))
+    state = (("state", "Type"), ("space", "0 <= Type and Type <= 1"), ("piece", "R > 0 -> Type/2"))
+    rank = (("rank", "Type"), ("rank", f"{WORDS.replace(' ', ' + ')} > 0 -> Type"))
+    set_ = (("on", "Type <= 1"), ("point", "0"))
+    return [
+        MapRule("map", (("over", WORDS), of[1], *state)),
+        MapRule("down", (*of, *rank, ("stage", "Type <= 1"))),
+        MapRule("near", (*of, *set_, *norm("1", rate="1/2", radius="1", size="1"))),
+        MapRule("all", (("descent", "named/down"), ("contraction", "named/near"))),
+    ]
+
+
 def norm(weights: str, rate: str, radius: str, size: str) -> tuple[tuple[str, str], ...]:
     """The numbers of a contraction."""
     return ("weights", weights), ("rate", rate), ("radius", radius), ("size", size)

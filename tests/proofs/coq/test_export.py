@@ -222,6 +222,30 @@ def test_an_earlier_statement_with_exists_is_used_in_coq(tmp_path: Path) -> None
     assert alone.returncode != 0 and "statement_t_next" in alone.stderr
 
 
+LONG = """
+statement t/squares
+forall x y
+show 10^70*x^2 - x*y + y^2 >= 0
+"""
+
+
+@pytest.mark.parametrize("share, returns", [(4, 0), (3, 1)])
+def test_squares_with_long_weights_are_added_one_by_one_in_coq(
+    share: int, returns: int, tmp_path: Path
+) -> None:
+    (statement,) = checker.read_statements(LONG).values()
+    squares = [["1", [], "y - x/2"], [f"{4 * 10**70 - 1}/{share}", [], "x"]]
+    entry: Any = {
+        "certified": ["proof", [], ["psatz", [product(0), *squares], []]],
+        "point": ["t/squares", [], {"x": "0", "y": "0"}, ["close"]],
+    }
+    accepted = checker.check_one(statement, entry, {}, {})[0] == "certified"
+    assert accepted is (returns == 0)
+    text = lemmas(statement, entry, {})
+    assert "sum_not_negative" in text and hex(10**70) in text
+    assert coq_of(tmp_path, text).returncode == returns
+
+
 def with_value(part: Any, name: str, value: str) -> Any:
     """Values found, with another one for a variable."""
     part[2][name] = value
