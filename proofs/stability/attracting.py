@@ -37,6 +37,7 @@ from juggleproof.proofs.stability.templates import (
     quadratic_templates,
     sum_of_quotients,
 )
+from juggleproof.proofs.stability.two_sided import two_sided_rules
 from juggleproof.proofs.stability.values import (
     Setting,
     equation_rules,
@@ -53,6 +54,7 @@ ROUNDS = (  # efforts, budget, and how many of the candidates get it
     (EFFORTS, 400_000, 4),
 )
 MOST_BOXES, BOX_BUDGET = 3, 300_000
+FIRST_BUDGET, INTERVAL_BUDGET = 40_000, 600_000
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -71,7 +73,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-    if in_boxes(proof, setting, log):
+    if in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET):
         return True
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
@@ -82,7 +84,10 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, efforts, budget, log):
                 return True
-        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+        if count == 1 and (
+            in_intervals(proof, setting, log, INTERVAL_BUDGET)
+            or any(enveloped(proof, setting, log, closed) for closed in (False, True))
+        ):
             return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
@@ -106,6 +111,13 @@ def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
     boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
     return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
+
+
+def in_intervals(proof: Proof, setting: Setting, log: Report, budget: int) -> bool:
+    """The same for a map of one variable, by functions whose sublevel sets are intervals."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    found = sorted(two_sided_rules(setting, space, name), key=lambda one: one[0])
+    return any(not tried(proof, rule, (1, 2), budget, log) for _, rule in found[:MOST_BOXES])
 
 
 def divisors(setting: Setting) -> list[str]:

@@ -158,8 +158,8 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     (state,) = symbols(system.state)
     name = f"{state}_point"
     known, lines = setting.constants, []
-    factors = sympy.factor_list(sympy.numer(sympy.together(system.images[0][0] - state)))[1]
-    for equation, _ in factors:
+    gap = sympy.together(system.images[setting.piece][0] - state)
+    for equation, _ in sympy.factor_list(sympy.numer(gap))[1]:
         if equation.has(state):
             term = equation.subs(state, sympy.Symbol(name, real=True))
             if np.allclose(value(written(term), known), 0):

@@ -19,6 +19,7 @@ from juggleproof.proofs.stability.given import (
     checker_text,
     conjunction,
     conjuncts,
+    negation,
     written,
 )
 from juggleproof.proofs.stability.points import FixedPoint
@@ -56,7 +57,25 @@ NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that
 
 
 def outside_refuted(
-    proof: Proof, system: Map, fixed: FixedPoint, parts: Sequence[str], log: Report
+    proof: Proof, system: Map, fixed: FixedPoint, conditions: str, log: Report
+) -> list[tuple[str, str]]:
+    """The lines that name the refutations for all parameters at which the conditions do not hold:
+    one, or those for the parts of `complement`; nothing where there are none.
+    """
+    whole, parts = negation(conditions), complement(conditions)
+    # with its boundary, no rate of growth is more than 1
+    orbits: tuple[Way, ...] = (by_orbit, by_short_orbit)
+    lines = parts != [whole] and parts_refuted(proof, system, fixed, [whole], orbits, log)
+    return lines or parts_refuted(proof, system, fixed, parts, WAYS, log)
+
+
+def parts_refuted(
+    proof: Proof,
+    system: Map,
+    fixed: FixedPoint,
+    parts: Sequence[str],
+    ways: Sequence[Way],
+    log: Report,
 ) -> list[tuple[str, str]]:
     """The lines that name the refutations for all of these parts of the domain that have
     parameters; nothing where one of them has none.
@@ -65,7 +84,7 @@ def outside_refuted(
     for part in parts:
         setting = setting_of(system, fixed, conjunction(system.domain, part))
         if setting.count:
-            if not refuted(proof, setting, log):
+            if not refuted(proof, setting, log, ways):
                 return []
             name = proof.rules[-1].name
             lines.append((NAMED[proof.known[name].kind], name))
@@ -172,9 +191,12 @@ def refuted(
     proof: Proof,
     setting: Setting,
     log: Report,
-    ways: Sequence[Way] = (by_orbit, by_growth, by_short_orbit),
+    ways: Sequence[Way],
 ) -> str:
     """How the point fails to be stable and to attract every state, for all parameters, or
     nothing.
     """
     return next(filter(None, (way(proof, setting, log) for way in ways)), "")
+
+
+WAYS: tuple[Way, ...] = (by_orbit, by_growth, by_short_orbit)

@@ -23,6 +23,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     atoms,
+    conjunction,
     expression,
     holds,
     symbols,
@@ -43,12 +44,17 @@ LIMITS = ((3, (2, 4)), (6, (1, 4)), (9, (1, 2)), (math.inf, (0, 0)))  # of power
 # Constants that depend on the parameters: a number times powers of what is positive on the domain.
 
 
-def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
-    """Terms in the parameters and in the point's names that are positive on the domain, those first
-    that are close to its ends.
+def positive_factors(system: Map, facts: str, parameters: Arrays) -> list[str]:
+    """Terms in the parameters that facts say to be positive, and such terms that are linear in the
+    point's names; those first that are close to the domain's ends.
     """
-    found = [written(sympy.numer(sympy.together(p))) for p, strict in atoms(domain) if strict]
-    found += [f"{name}_point" for name in system.state]
+    points = set(symbols([f"{name}_point" for name in system.state]))
+    found = [
+        written(numerator)
+        for term, strict in atoms(facts)
+        for numerator in [sympy.numer(sympy.together(term))]
+        if strict and sympy.Poly(numerator, *points).total_degree() <= 1
+    ]
     texts = []
     for text in dict.fromkeys(found):
         if not checker.names_in(text) <= parameters.keys():
@@ -154,7 +160,8 @@ class Setting:
         known = self.constants
         if not self.have:
             known = {k: v for k, v in known.items() if not k.endswith("_point")}
-        return power_products(positive_factors(self.system, self.domain, known), known, self.count)
+        facts = conjunction(self.domain, *self.have)
+        return power_products(positive_factors(self.system, facts, known), known, self.count)
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
         """A statement `lyapunov` or `unstable`; the rows but those that the point gives."""
