@@ -103,7 +103,8 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
     attract every state; `closed`: with the loss of a multiplier that may be -1.
     """
     rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
-    return any(proof.add_all(one, (1, 2), log) for one in rules)
+    signs = {"bounded": [f"{name}_gap" for name in setting.system.state]}
+    return any(proof.add_all(one, (1, 2), log, signs) for one in rules)
 
 
 def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:

@@ -63,7 +63,8 @@ class Proof:
                 if signs and name in signs:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
-                proof = proof or self.proof_of(premises[name], efforts, work)
+                each = efforts if name.startswith("falls") else (*efforts, *EFFORTS)
+                proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -92,12 +93,18 @@ class Proof:
         """For which parameters the last statement holds."""
         return dict(self.rules[-1].rows)["domain"]
 
-    def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
-        """Certifies all of these statements, or none."""
+    def add_all(
+        self,
+        rules: Sequence[MapRule],
+        efforts: Sequence[int],
+        report: Report,
+        signs: Mapping[str, Sequence[str]] | None = None,
+    ) -> bool:
+        """Certifies all of these statements, or none; signs: for premises of those with a V."""
         kept = self.rules.copy(), self.certificates.copy(), self.known.copy()
         for rule in rules:
             if dict(rule.rows).get("value"):
-                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report, signs)
             else:
                 fault = self.add(rule, efforts, LOCAL_BUDGET)
             if fault:

@@ -1,5 +1,5 @@
-"""Instability in two variables or more: Chetaev functions, linear in a cone or quadratic, W > 0 in a
-cone that ends at the point, where W grows by a rate until the orbit is farther than a radius.
+"""Instability in two variables or more: Chetaev functions, linear or quadratic, W > 0 in a cone
+that ends at the point, where W grows by a rate until the orbit is farther than a radius.
 
 Sources: LaSalle, The Stability of Dynamical Systems, SIAM 1976; of matrices that map a cone into
 itself or into its opposite, Berman and Plemmons, Nonnegative Matrices in the Mathematical Sciences,

@@ -28,7 +28,6 @@ from juggleproof.proofs.stability.failing import (
     WAYS,
     by_growth,
     by_orbit,
-    by_short_orbit,
     in_brackets,
     outside_refuted,
     refuted,
@@ -149,6 +148,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             middle = conjunction(inner, *middle_of(system, inner))
             for domain in dict.fromkeys((inner, middle)):
                 setting = setting_of(system, fixed, domain)
+                if not setting.count:
+                    continue
                 near = near_by(proof, setting, name_of(fixed), given, log)
                 if near:
                     sentence = f"{near}; of other states nothing was found"
@@ -220,6 +221,8 @@ def settled(
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
+    if not setting.count:
+        return None
     where = beyond(given, setting.domain, system.parameters)
     name = name_of(fixed)
     if not split:

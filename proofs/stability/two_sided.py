@@ -1,6 +1,9 @@
 """Maps of one variable: the distance to the point e above it, and below it the distance times a
-power of (e - l)/(s - l), for a lower bound l of the space: V = max(s - e, (e - s) ((e - l)/(s - l))^k),
-the same with an upper bound.  Of degree less than the squares of these.
+power of (e - l)/(s - l), for a lower bound l of the space, or the same with an upper bound:
+
+    V = max(s - e, (e - s) ((e - l)/(s - l))^k),
+
+of degree less than the squares of these.
 """
 
 from __future__ import annotations
