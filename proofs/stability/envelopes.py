@@ -28,6 +28,7 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
+from juggleproof.proofs.stability.points import NEARLY
 from juggleproof.proofs.stability.samples import (
     Arrays,
     Floats,
@@ -162,7 +163,7 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     for equation, _ in sympy.factor_list(sympy.numer(gap))[1]:
         if equation.has(state):
             term = equation.subs(state, sympy.Symbol(name, real=True))
-            if np.allclose(value(written(term), known), 0):
+            if np.median(np.abs(value(written(term), known))) < NEARLY:
                 lines.append(f"{written(term)} = 0")
     for bound, strict in atoms(system.space):
         if bound.has(state):

@@ -67,7 +67,7 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
             continue
         terms = (t if w == 1 else f"{signed(w)}*{t}" for w, t in zip(weights, texts))
         function = Function(tuple(terms), divisor="*".join(low.values()) if kind else "1")
-        best = sorted(rows_of(setting, function, min(weights)), key=lambda one: one[0])[:2]
+        best = sorted(_rows(setting, function, min(weights)), key=lambda one: one[0])[:2]
         for rank, rows in best if best[:1] and best[0][0] < WORST else ():
             yield (
                 rank + kind + len(set(weights)) / 4,
@@ -114,7 +114,7 @@ def _weights(setting: Setting, texts: Sequence[str]) -> tuple[Fraction, ...]:
     return tuple(weights) if best[0] == 1 else ()
 
 
-def rows_of(
+def _rows(
     setting: Setting, function: Function, smallest: Fraction
 ) -> Iterator[tuple[float, list[tuple[str, str]]]]:
     """The lines but `on` and `value`, for several shapes of the loss."""

@@ -1,42 +1,64 @@
-"""Maps of one variable: the distance to the point e above it, and below it the distance times a
-power of (e - l)/(s - l), for a lower bound l of the space, or the same with an upper bound:
+"""Maps of one variable: Lyapunov functions of degree less than the squares of the distance to the
+point e. Above it the distance, and below it the distance times a power of (e - l)/(s - l), for a
+lower bound l of the space, or the same with an upper bound:
 
-    V = max(s - e, (e - s) ((e - l)/(s - l))^k),
+    V = max(s - e, (e - s) ((e - l)/(s - l))^k);
 
-of degree less than the squares of these.
+and the size of (s - e) - f''(e) (s - e)^2/4, which the map f leaves as it is to second order where
+f'(e) = -1.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
 from itertools import product
 
 import numpy as np
+import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.envelopes import SIZES, equation_of
-from juggleproof.proofs.stability.given import as_factor, bounds, holds, renamed
-from juggleproof.proofs.stability.part_metric import rows_of
+from juggleproof.proofs.stability.given import (
+    as_factor,
+    bounds,
+    expression,
+    holds,
+    renamed,
+    symbols,
+    written,
+)
 from juggleproof.proofs.stability.samples import Samples, ends_of
 from juggleproof.proofs.stability.templates import Function
-from juggleproof.proofs.stability.values import Setting
+from juggleproof.proofs.stability.values import Setting, bounded_below, small_balls
 
 POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function
+CLOSE = 1e-6  # of the distance to an end, what is not looked at
+FAR = 1e4  # times the rounding of the point
+SLOPES = ("1", "1/2", "1/4", "1/8")  # of a lower bound of V
 
 
-def two_sided_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
+def two_sided_rules(
+    setting: Setting, on: str, name: str, closed: bool
+) -> Iterator[tuple[float, MapRule]]:
     """Statements `lyapunov` that samples do not refute, each with a number that is small where it
-    is simple and fits well.
+    is simple and fits well.  closed: the multiplier is -1 at some of the parameters.
     """
-    system = setting.system
-    if len(system.state) > 1:
+    if len(setting.system.state) > 1:
         return
     if setting.point.roots:
         setting = replace(setting, have=equation_of(setting))
     setting = replace(setting, states=states_of(setting))
+    for kind, function in functions(setting):
+        best = sorted(constants(setting, function, closed), key=lambda one: one[0])
+        for rank, rows in best[:TRIED]:
+            yield rank + kind, setting.rule(name, function, [("on", on), *rows])
+
+
+def functions(setting: Setting) -> Iterator[tuple[float, Function]]:
+    """The functions to try, each with a number that is small where it is simple."""
+    system = setting.system
     (state,) = system.state
     sides = [
         [(distance(state, gap, bound.get(state, ""), power), power, bound) for power in POWERS]
@@ -45,10 +67,13 @@ def two_sided_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[floa
     for over, under in product(*sides):
         if over[0] and under[0]:
             used = [as_factor(bound[state]) for _, power, bound in (over, under) if power]
-            function = Function((over[0], under[0]), divisor="*".join(used) or "1")
-            best = sorted(rows_of(setting, function, Fraction(1)), key=lambda one: one[0])
-            for rank, rows in best[:TRIED]:
-                yield rank + over[1] + under[1], setting.rule(name, function, [("on", on), *rows])
+            yield over[1] + under[1], Function((over[0], under[0]), divisor="*".join(used) or "1")
+    (symbol,), (at_point,) = symbols([state]), symbols([f"{state}_point"])
+    bend = -sympy.diff(system.images[setting.piece][0], symbol, 2) / 4
+    bend = bend.subs(symbol, at_point if setting.have else expression(setting.point.terms[0]))
+    if bend.is_polynomial() and bend != 0:
+        term = f"{state}_gap + {as_factor(written(bend))}*{state}_gap^2"
+        yield 1, Function((term, f"-({term})"))
 
 
 def distance(state: str, gap: str, bound: str, power: int) -> str:
@@ -62,6 +87,37 @@ def distance(state: str, gap: str, bound: str, power: int) -> str:
     return f"{at_point}{to}*({gap})/{as_factor(bound)}{to}" if bound else ""
 
 
+def constants(
+    setting: Setting, function: Function, closed: bool
+) -> Iterator[tuple[float, list[tuple[str, str]]]]:
+    """The lines but `on` and `value`, for several losses: V times a constant, divided by 1 + V, or
+    times (s - e)^2 where `closed`.
+    """
+    samples, (state,) = setting.states, setting.system.state
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    size = np.abs(samples.points[f"{state}_gap"])
+    slope = next((one for one in SLOPES if (here >= float(sympy.Rational(one)) * size).all()), "")
+    radius, upper = next(small_balls(setting, function), ("", ""))
+    if not slope or not radius or not (there < here).all():
+        return
+    far = "" if slope == "1" else f"({slope})*"
+    shares = (here - there) / here
+    for k, (loss, least, scale) in enumerate(
+        [(f"{state}_gap^2*value", f"{far}distance^3", 1 / size**2)]
+        if closed
+        else [
+            ("value", f"{far}distance", np.ones(len(here))),
+            ("value/(1 + value)", f"{far}distance/(1 + level)", 1 + here),
+        ]
+    ):
+        for rank, constant in bounded_below(
+            samples.least(shares * scale, setting.count), setting.products
+        ):
+            start = "" if constant == "1" else f"({constant})*"
+            rows = [("loss", start + loss), ("least", start + least)]
+            yield rank + k / 4, [*rows, ("upper", upper), ("radius", radius)]
+
+
 def states_of(setting: Setting) -> Samples:
     """States of the space at distances of all sizes from the point and from the ends of the space,
     in units of the point's distance to an end.
@@ -70,9 +126,12 @@ def states_of(setting: Setting) -> Samples:
     point = setting.constants[f"{state}_point"]
     reach = [end - point for end in ends_of(setting.system.space, state) if end is not None]
     reach += [-one for one in reach or [np.ones(setting.count)]]
-    gaps = np.concatenate([np.outer(one, [*SIZES, *(1 - SIZES)]) for one in reach], axis=1)
+    sizes = [one for one in (*SIZES, *(1 - SIZES)) if abs(one) > CLOSE]
+    gaps = np.concatenate([np.outer(one, sizes) for one in reach], axis=1)
     which = np.repeat(np.arange(setting.count), gaps.shape[1])
     points = {name: values[which] for name, values in setting.constants.items()}
     points |= {f"{state}_gap": gaps.ravel(), state: gaps.ravel() + point[which]}
     inside = np.broadcast_to(holds(setting.system.space, points), which.shape)
-    return Samples(points, which).where(inside)
+    at = {name: setting.constants[name] for name in setting.system.parameters}
+    rounding = np.abs(setting.system.next({**at, state: point})[0] - point)
+    return Samples(points, which).where(inside & (np.abs(gaps.ravel()) > FAR * rounding[which]))
