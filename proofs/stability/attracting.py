@@ -114,14 +114,10 @@ def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
     return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
 
 
-def in_intervals(
-    proof: Proof, setting: Setting, log: Report, budget: int, closed: bool = False
-) -> bool:
-    """The same for a map of one variable, by functions whose sublevel sets are intervals; `closed`:
-    as for `enveloped`.
-    """
+def in_intervals(proof: Proof, setting: Setting, log: Report, budget: int) -> bool:
+    """The same for a map of one variable, by functions whose sublevel sets are intervals."""
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    found = sorted(two_sided_rules(setting, space, name, closed), key=lambda one: one[0])
+    found = sorted(two_sided_rules(setting, space, name), key=lambda one: one[0])
     return any(not tried(proof, rule, (1, 2), budget, log) for _, rule in found[:MOST_BOXES])
 
 

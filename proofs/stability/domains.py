@@ -99,7 +99,9 @@ def without_root(term: Expr, parameters: Arrays) -> Expr:
             np.sign(np.asarray(sympy.lambdify(names, one, "numpy")(*parameters.values())))
             for one in (term, norm)
         ]
-    return next((s * norm for s in (1, -1) if np.array_equal(signs[0], s * signs[1])), sympy.Integer(1))
+    return next(
+        (s * norm for s in (1, -1) if np.array_equal(signs[0], s * signs[1])), sympy.Integer(1)
+    )
 
 
 def middle_of(system: Map, domain: str) -> list[str]:

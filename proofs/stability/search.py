@@ -11,13 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.attracting import (
-    INTERVAL_BUDGET,
-    attracted,
-    enveloped,
-    in_boxes,
-    in_intervals,
-)
+from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     LOCAL_BUDGET,
@@ -238,10 +232,7 @@ def settled(
             more = near_by(proof, setting, name, given, log)
             return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
     if closed:
-        if not (
-            in_intervals(proof, setting, log, INTERVAL_BUDGET, closed)
-            or enveloped(proof, setting, log, closed)
-        ):
+        if not enveloped(proof, setting, log, closed):
             return None
     elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)

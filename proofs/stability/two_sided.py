@@ -1,11 +1,9 @@
-"""Maps of one variable: Lyapunov functions of degree less than the squares of the distance to the
-point e. Above it the distance, and below it the distance times a power of (e - l)/(s - l), for a
-lower bound l of the space, or the same with an upper bound:
+"""Maps of one variable: the distance to the point e above it, and below it the distance times a
+power of (e - l)/(s - l), for a lower bound l of the space, or the same with an upper bound:
 
-    V = max(s - e, (e - s) ((e - l)/(s - l))^k);
+    V = max(s - e, (e - s) ((e - l)/(s - l))^k),
 
-and the size of (s - e) - f''(e) (s - e)^2/4, which the map f leaves as it is to second order where
-f'(e) = -1.
+of degree less than the squares of these.
 """
 
 from __future__ import annotations
@@ -15,18 +13,14 @@ from dataclasses import replace
 from itertools import product
 
 import numpy as np
-import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.envelopes import SIZES, equation_of
 from juggleproof.proofs.stability.given import (
     as_factor,
     bounds,
-    expression,
     holds,
     renamed,
-    symbols,
-    written,
 )
 from juggleproof.proofs.stability.samples import Samples, ends_of
 from juggleproof.proofs.stability.templates import Function
@@ -36,14 +30,11 @@ POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function
 CLOSE = 1e-6  # of the distance to an end, what is not looked at
 FAR = 1e4  # times the rounding of the point
-SLOPES = ("1", "1/2", "1/4", "1/8")  # of a lower bound of V
 
 
-def two_sided_rules(
-    setting: Setting, on: str, name: str, closed: bool
-) -> Iterator[tuple[float, MapRule]]:
+def two_sided_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
     """Statements `lyapunov` that samples do not refute, each with a number that is small where it
-    is simple and fits well.  closed: the multiplier is -1 at some of the parameters.
+    is simple and fits well.
     """
     if len(setting.system.state) > 1:
         return
@@ -51,7 +42,7 @@ def two_sided_rules(
         setting = replace(setting, have=equation_of(setting))
     setting = replace(setting, states=states_of(setting))
     for kind, function in functions(setting):
-        best = sorted(constants(setting, function, closed), key=lambda one: one[0])
+        best = sorted(constants(setting, function), key=lambda one: one[0])
         for rank, rows in best[:TRIED]:
             yield rank + kind, setting.rule(name, function, [("on", on), *rows])
 
@@ -68,12 +59,6 @@ def functions(setting: Setting) -> Iterator[tuple[float, Function]]:
         if over[0] and under[0]:
             used = [as_factor(bound[state]) for _, power, bound in (over, under) if power]
             yield over[1] + under[1], Function((over[0], under[0]), divisor="*".join(used) or "1")
-    (symbol,), (at_point,) = symbols([state]), symbols([f"{state}_point"])
-    bend = -sympy.diff(system.images[setting.piece][0], symbol, 2) / 4
-    bend = bend.subs(symbol, at_point if setting.have else expression(setting.point.terms[0]))
-    if bend.is_polynomial() and bend != 0:
-        term = f"{state}_gap + {as_factor(written(bend))}*{state}_gap^2"
-        yield 1, Function((term, f"-({term})"))
 
 
 def distance(state: str, gap: str, bound: str, power: int) -> str:
@@ -88,34 +73,25 @@ def distance(state: str, gap: str, bound: str, power: int) -> str:
 
 
 def constants(
-    setting: Setting, function: Function, closed: bool
+    setting: Setting, function: Function
 ) -> Iterator[tuple[float, list[tuple[str, str]]]]:
-    """The lines but `on` and `value`, for several losses: V times a constant, divided by 1 + V, or
-    times (s - e)^2 where `closed`.
-    """
-    samples, (state,) = setting.states, setting.system.state
+    """The lines but `on` and `value`, for losses of a share of V and of V/(1 + V)."""
+    samples = setting.states
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    size = np.abs(samples.points[f"{state}_gap"])
-    slope = next((one for one in SLOPES if (here >= float(sympy.Rational(one)) * size).all()), "")
     radius, upper = next(small_balls(setting, function), ("", ""))
-    if not slope or not radius or not (there < here).all():
+    if not radius or not (there < here).all():
         return
-    far = "" if slope == "1" else f"({slope})*"
-    shares = (here - there) / here
-    for k, (loss, least, scale) in enumerate(
-        [(f"{state}_gap^2*value", f"{far}distance^3", 1 / size**2)]
-        if closed
-        else [
-            ("value", f"{far}distance", np.ones(len(here))),
-            ("value/(1 + value)", f"{far}distance/(1 + level)", 1 + here),
-        ]
-    ):
-        for rank, constant in bounded_below(
-            samples.least(shares * scale, setting.count), setting.products
-        ):
+    for power, divide in enumerate(("", "/(1 + {})")):
+        least = samples.least((here - there) / here * (1 + here) ** power, setting.count)
+        for rank, constant in bounded_below(least, setting.products):
             start = "" if constant == "1" else f"({constant})*"
-            rows = [("loss", start + loss), ("least", start + least)]
-            yield rank + k / 4, [*rows, ("upper", upper), ("radius", radius)]
+            rows = [
+                ("loss", start + "value" + divide.format("value")),
+                ("least", start + "distance" + divide.format("level")),
+                ("upper", upper),
+                ("radius", radius),
+            ]
+            yield rank + power / 4, rows
 
 
 def states_of(setting: Setting) -> Samples:
