@@ -63,7 +63,7 @@ class Proof:
                 if signs and name in signs:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
-                each = efforts if name.startswith("falls") else (*efforts, *EFFORTS)
+                each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
                 proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]

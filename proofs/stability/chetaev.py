@@ -51,20 +51,19 @@ SHARE = 0.5  # of the growth that samples leave
 
 def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     """Statements `unstable` for a point that has a multiplier outside the unit circle at all
-    samples of the parameters: W linear in a cone, then of constant coefficients, then linear in
-    the parameters, then the solution of a discrete Lyapunov equation.
+    samples of the parameters, for each of the functions.
     """
     multipliers = np.abs(np.linalg.eigvals(derivatives(setting))).max(axis=1)
     if multipliers.min() <= 1:
         return
-    for function in itertools.chain(cone_functions(setting), functions(setting)):
+    for function in functions(setting):
         yield from _rules(setting, function, name)
 
 
 def cone_functions(setting: Setting) -> Iterator[Function]:
     """Linear forms W = |l g| of the distances g to the point, in an orthant of these and in its
     opposite, which the derivative A there maps into each other or into themselves: for z = 1 or -1
-    and the signs t of the orthant l = -t adj(z A - 1), so that l z A = l - det(z A - 1) t.
+    and the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
     """
     system, count = setting.system, setting.count
     state = symbols(system.state)
@@ -79,12 +78,17 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
         turned = z * derivatives(setting) * np.outer([first, *rest], [first, *rest])
         if first < 0 or (turned < 0).any():
             continue
-        form = -signs * (z * matrix - sympy.eye(size)).adjugate()
-        numbers = [
-            np.broadcast_to(np.asarray(value(written(one), setting.constants), float), count)
-            for one in form
-        ]
-        if all((s * v > 0).all() for s, v in zip(signs, numbers)):
+        form = signs * (z * matrix - sympy.eye(size)).adjugate()
+        numbers = np.stack(
+            [
+                s
+                * np.broadcast_to(np.asarray(value(written(one), setting.constants), float), count)
+                for s, one in zip(signs, form)
+            ]
+        )
+        if (numbers < 0).all():
+            form, numbers = -form, -numbers
+        if (numbers > 0).all():
             terms = [f"{as_factor(written(one))}*{gap}" for one, gap in zip(form, gaps)]
             cones = [
                 conjunction(*(f"{gap} {'>=' if s > 0 else '<='} 0" for s, gap in zip(one, gaps)))
@@ -95,7 +99,10 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
 
 
 def functions(setting: Setting) -> Iterator[Function]:
-    """Quadratic forms W with W(f(s)) > W(s) at samples close to the point."""
+    """Functions W with W(f(s)) > W(s) at samples close to the point: quadratic forms of constant
+    coefficients, linear forms in a cone, quadratic forms of coefficients linear in the parameters,
+    and the solution of a discrete Lyapunov equation.
+    """
     forms = products_of_gaps(setting.system)
     moving = tuple(f"{name}*{one}" for name in setting.system.parameters for one in forms)
     near = states(setting, np.full(setting.count, SMALL))
@@ -110,6 +117,8 @@ def functions(setting: Setting) -> Iterator[Function]:
                 Function(tuple(template.terms(numbers)))
                 for numbers in itertools.islice(rounded(weights, rows), 2)
             )
+        if basis == forms:
+            yield from cone_functions(setting)
     form = lyapunov_form(setting)
     if form is not None:
         yield Function((f"-({form[0]})",))
