@@ -11,6 +11,7 @@ In reading order, each importing those before it only:
 - `values`: Lyapunov functions by linear programs on samples, and the constants of their rule.
 - `norms`: polytope norms that piecewise affine maps contract.
 - `envelopes`: functions of one variable, by fractional linear involutions.
+- `two_sided`: functions of one variable, a distance on each side of the point.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `by_sign`: proofs by cases of signs that a search of functions suggests.

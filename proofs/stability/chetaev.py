@@ -72,10 +72,10 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
         at = [expression(term) for term in setting.point.terms]
     matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
     matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
-    gaps, size = [f"{one}_gap" for one in system.state], len(state)
+    gaps, size, slopes = [f"{one}_gap" for one in system.state], len(state), derivatives(setting)
     for z, (first, *rest) in itertools.product((1, -1), itertools.product((1, -1), repeat=size)):
         signs = sympy.Matrix([[first, *rest]])
-        turned = z * derivatives(setting) * np.outer([first, *rest], [first, *rest])
+        turned = z * slopes * np.outer([first, *rest], [first, *rest])
         if first < 0 or (turned < 0).any():
             continue
         form = signs * (z * matrix - sympy.eye(size)).adjugate()

@@ -63,10 +63,11 @@ def outside_refuted(
     one, or those for the parts of `complement`; nothing where there are none.
     """
     whole, parts = negation(conditions), complement(conditions)
-    # with its boundary, no rate of growth is more than 1
-    orbits: tuple[Way, ...] = (by_orbit, by_short_orbit)
-    lines = parts != [whole] and parts_refuted(proof, system, fixed, [whole], orbits, log)
-    return lines or parts_refuted(proof, system, fixed, parts, WAYS, log)
+    if parts != [whole]:  # the whole has the boundary, where no rate of growth is more than 1
+        lines = parts_refuted(proof, system, fixed, [whole], (by_orbit, by_short_orbit), log)
+        if lines:
+            return lines
+    return parts_refuted(proof, system, fixed, parts, WAYS, log)
 
 
 def parts_refuted(
