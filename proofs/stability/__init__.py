@@ -16,6 +16,7 @@ In reading order, each importing those before it only:
 - `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
 - `entering`: boxes that every orbit enters.
 - `envelopes`: functions of one variable, by fractional linear involutions.
+- `two_sided`: functions of one variable, a distance on each side of the point.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `refuting`, `chetaev`: periodic orbits in exact terms, and functions that grow.

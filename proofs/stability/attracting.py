@@ -39,6 +39,7 @@ from juggleproof.proofs.stability.templates import (
     quadratic_templates,
     sum_of_quotients,
 )
+from juggleproof.proofs.stability.two_sided import two_sided_rules
 from juggleproof.proofs.stability.values import (
     Setting,
     equation_rules,
@@ -56,6 +57,7 @@ ROUNDS = (  # efforts, budget, and how many of the candidates get it
     (EFFORTS, 400_000, 4),
 )
 MOST_BOXES, BOX_BUDGET = 3, 300_000
+FIRST_BUDGET, INTERVAL_BUDGET = 40_000, 600_000
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -94,7 +96,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, EFFORTS, BUDGET, log, signs_of(rule)):
                 return True
-    return in_boxes(proof, setting, log)
+    return in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET)
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -109,7 +111,10 @@ def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, efforts, budget, log):
                 return True
-        if count == 1 and any(enveloped(proof, setting, log, closed) for closed in (False, True)):
+        if count == 1 and (
+            in_intervals(proof, setting, log, INTERVAL_BUDGET)
+            or any(enveloped(proof, setting, log, closed) for closed in (False, True))
+        ):
             return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
@@ -125,7 +130,8 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
     attract every state; `closed`: with the loss of a multiplier that may be -1.
     """
     rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
-    return any(proof.add_all(one, (1, 2), log) for one in rules)
+    signs = {"bounded": [f"{name}_gap" for name in setting.system.state]}
+    return any(proof.add_all(one, (1, 2), log, signs) for one in rules)
 
 
 def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -133,6 +139,13 @@ def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
     boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
     return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
+
+
+def in_intervals(proof: Proof, setting: Setting, log: Report, budget: int) -> bool:
+    """The same for a map of one variable, by functions whose sublevel sets are intervals."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    found = sorted(two_sided_rules(setting, space, name), key=lambda one: one[0])
+    return any(not tried(proof, rule, (1, 2), budget, log) for _, rule in found[:MOST_BOXES])
 
 
 def divisors(setting: Setting) -> list[str]:

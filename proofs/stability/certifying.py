@@ -23,6 +23,7 @@ from juggleproof.proofs.stability.given import (
 
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
+MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refutations and in part
 EFFORTS = (1, 2, SQUARED)
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
@@ -38,6 +39,7 @@ class Proof:
     budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
     work: int = 0  # that was spent on premises
+    most: int = MOST_WORK  # of it
 
     def add(
         self,
@@ -61,7 +63,8 @@ class Proof:
                 if signs and name in signs:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
-                proof = proof or self.proof_of(premises[name], efforts, work)
+                each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
+                proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
                     return f"no proof of the premise {name} was found"
@@ -77,6 +80,10 @@ class Proof:
         self.known[rule.name] = statement
         return ""
 
+    def grant(self, work: int) -> None:
+        """Lets so much more work be spent, which grows with the budget."""
+        self.most = max(self.most, self.work + work * self.budget // BUDGET)
+
     def free_name(self, name: str) -> str:
         """The name, with a number where a statement has it already."""
         count = sum(one == name or one.startswith(f"{name}-") for one in self.known)
@@ -86,12 +93,18 @@ class Proof:
         """For which parameters the last statement holds."""
         return dict(self.rules[-1].rows)["domain"]
 
-    def add_all(self, rules: Sequence[MapRule], efforts: Sequence[int], report: Report) -> bool:
-        """Certifies all of these statements, or none."""
+    def add_all(
+        self,
+        rules: Sequence[MapRule],
+        efforts: Sequence[int],
+        report: Report,
+        signs: Mapping[str, Sequence[str]] | None = None,
+    ) -> bool:
+        """Certifies all of these statements, or none; signs: for premises of those with a V."""
         count = len(self.rules)
         for rule in rules:
             if dict(rule.rows).get("value"):
-                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report)
+                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report, signs)
             else:
                 fault = self.add(rule, efforts, LOCAL_BUDGET)
             if fault:
@@ -120,6 +133,8 @@ class Proof:
         if terms_of_pairs(premise) // 16 > budget:
             return None  # the first program would be too large
         for effort in efforts:
+            if self.work >= self.most:
+                return None
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
             part, proof = Budget(budget), None

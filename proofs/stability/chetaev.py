@@ -1,7 +1,9 @@
-"""Instability in two variables or more: quadratic Chetaev functions, W > 0 in a cone that ends at
-the point, where W grows by a rate until the orbit is farther than a radius.
+"""Instability in two variables or more: Chetaev functions, linear or quadratic, W > 0 in a cone
+that ends at the point, where W grows by a rate until the orbit is farther than a radius.
 
-Source: LaSalle, The Stability of Dynamical Systems, SIAM 1976.
+Sources: LaSalle, The Stability of Dynamical Systems, SIAM 1976; of matrices that map a cone into
+itself or into its opposite, Berman and Plemmons, Nonnegative Matrices in the Mathematical Sciences,
+SIAM 1994.
 """
 
 from __future__ import annotations
@@ -11,10 +13,19 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
+import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import holds, value
+from juggleproof.proofs.stability.given import (
+    as_factor,
+    conjunction,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
 from juggleproof.proofs.stability.templates import (
     Function,
@@ -40,8 +51,7 @@ SHARE = 0.5  # of the growth that samples leave
 
 def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     """Statements `unstable` for a point that has a multiplier outside the unit circle at all
-    samples of the parameters: W of constant coefficients, then linear in the parameters, then the
-    solution of a discrete Lyapunov equation.
+    samples of the parameters, for each of the functions.
     """
     multipliers = np.abs(np.linalg.eigvals(derivatives(setting))).max(axis=1)
     if multipliers.min() <= 1:
@@ -50,8 +60,49 @@ def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
         yield from _rules(setting, function, name)
 
 
+def cone_functions(setting: Setting) -> Iterator[Function]:
+    """Linear forms W = |l g| of the distances g to the point, in an orthant of these and in its
+    opposite, which the derivative A there maps into each other or into themselves: for z = 1 or -1
+    and the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
+    """
+    system, count = setting.system, setting.count
+    state = symbols(system.state)
+    at = symbols([f"{one}_point" for one in system.state])
+    if not setting.have:
+        at = [expression(term) for term in setting.point.terms]
+    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
+    matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
+    gaps, size, slopes = [f"{one}_gap" for one in system.state], len(state), derivatives(setting)
+    for z, (first, *rest) in itertools.product((1, -1), itertools.product((1, -1), repeat=size)):
+        signs = sympy.Matrix([[first, *rest]])
+        turned = z * slopes * np.outer([first, *rest], [first, *rest])
+        if first < 0 or (turned < 0).any():
+            continue
+        form = signs * (z * matrix - sympy.eye(size)).adjugate()
+        numbers = np.stack(
+            [
+                s
+                * np.broadcast_to(np.asarray(value(written(one), setting.constants), float), count)
+                for s, one in zip(signs, form)
+            ]
+        )
+        if (numbers < 0).all():
+            form, numbers = -form, -numbers
+        if (numbers > 0).all():
+            terms = [f"{as_factor(written(one))}*{gap}" for one, gap in zip(form, gaps)]
+            cones = [
+                conjunction(*(f"{gap} {'>=' if s > 0 else '<='} 0" for s, gap in zip(one, gaps)))
+                for one in (signs, -signs)
+            ]
+            total = " + ".join(terms)
+            yield Function((total, f"-({total})"), tuple(cones))
+
+
 def functions(setting: Setting) -> Iterator[Function]:
-    """Quadratic forms W with W(f(s)) > W(s) at samples close to the point."""
+    """Functions W with W(f(s)) > W(s) at samples close to the point: quadratic forms of constant
+    coefficients, linear forms in a cone, quadratic forms of coefficients linear in the parameters,
+    and the solution of a discrete Lyapunov equation.
+    """
     forms = products_of_gaps(setting.system)
     moving = tuple(f"{name}*{one}" for name in setting.system.parameters for one in forms)
     near = states(setting, np.full(setting.count, SMALL))
@@ -66,6 +117,8 @@ def functions(setting: Setting) -> Iterator[Function]:
                 Function(tuple(template.terms(numbers)))
                 for numbers in itertools.islice(rounded(weights, rows), 2)
             )
+        if basis == forms:
+            yield from cone_functions(setting)
     form = lyapunov_form(setting)
     if form is not None:
         yield Function((f"-({form[0]})",))

@@ -67,8 +67,9 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
     """
     rows = []
     for term, strict in conditions(system, fixed, closed):
-        if not term.free_symbols or any(not p.exp.is_Integer for p in term.atoms(sympy.Pow)):
+        if not term.free_symbols:
             continue
+        term = without_root(term, parameters)
         above, below = sympy.fraction(sympy.together(term))
         sign = 1
         parts: list[Expr] = []
@@ -85,6 +86,35 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
             product = sympy.expand(sign * sympy.prod(parts))
             rows.append(f"{written(product)} {'>' if strict else '>='} 0")
     return list(dict.fromkeys(rows))
+
+
+def without_root(term: Expr, parameters: Arrays) -> Expr:
+    """A polynomial that has the sign of a term a + b sqrt(u) at all samples: a^2 - b^2 u, or this
+    times -1; 1 where there is none.
+    """
+    under = {power.base for power in term.atoms(sympy.Pow) if not power.exp.is_Integer}
+    if not under:
+        return term
+    root = sympy.Dummy("root", real=True)
+    (base, *others) = under
+    named = term.replace(
+        lambda e: e.is_Pow and e.base == base and not e.exp.is_Integer,
+        lambda e: root ** (2 * e.exp),
+    )
+    if others or not named.is_rational_function():
+        return sympy.Integer(1)
+    above, below = sympy.fraction(sympy.together(named))
+    linear = sympy.rem(sympy.expand(above * below), root**2 - base, root)
+    norm = sympy.expand(sympy.rem(linear * linear.subs(root, -root), root**2 - base, root))
+    names = symbols(parameters)
+    with np.errstate(all="ignore"):
+        signs = [
+            np.sign(np.asarray(sympy.lambdify(names, one, "numpy")(*parameters.values())))
+            for one in (term, norm)
+        ]
+    return next(
+        (s * norm for s in (1, -1) if np.array_equal(signs[0], s * signs[1])), sympy.Integer(1)
+    )
 
 
 def middle_of(system: Map, domain: str) -> list[str]:

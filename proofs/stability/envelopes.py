@@ -28,6 +28,7 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
+from juggleproof.proofs.stability.points import NEARLY
 from juggleproof.proofs.stability.samples import (
     Arrays,
     Floats,
@@ -158,11 +159,11 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     (state,) = symbols(system.state)
     name = f"{state}_point"
     known, lines = setting.constants, []
-    factors = sympy.factor_list(sympy.numer(sympy.together(system.images[0][0] - state)))[1]
-    for equation, _ in factors:
+    gap = sympy.together(system.images[setting.piece][0] - state)
+    for equation, _ in sympy.factor_list(sympy.numer(gap))[1]:
         if equation.has(state):
             term = equation.subs(state, sympy.Symbol(name, real=True))
-            if np.allclose(value(written(term), known), 0):
+            if np.median(np.abs(value(written(term), known))) < NEARLY:
                 lines.append(f"{written(term)} = 0")
     for bound, strict in atoms(system.space):
         if bound.has(state):

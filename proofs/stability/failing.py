@@ -5,7 +5,7 @@ parts of the domain.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 import sympy
@@ -19,6 +19,7 @@ from juggleproof.proofs.stability.given import (
     checker_text,
     conjunction,
     conjuncts,
+    negation,
     written,
 )
 from juggleproof.proofs.stability.points import FixedPoint
@@ -31,7 +32,7 @@ from juggleproof.proofs.stability.refuting import (
 from juggleproof.proofs.stability.settings import setting_of
 from juggleproof.proofs.stability.values import Setting
 
-GROWTH_BUDGET, GROWTH_WORK = 400_000, 2_000_000  # for instability
+GROWTH_ROUNDS, GROWTH_WORK = (((1, 2), 50_000), (EFFORTS, 400_000)), 2_000_000  # for instability
 MOST_RATES = 6  # of growth
 Way = Callable[[Proof, Setting, Report], str]
 COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
@@ -55,8 +56,13 @@ def complement(conditions: str) -> list[str]:
 NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that name such a rule
 
 
-def outside_refuted(
-    proof: Proof, system: Map, fixed: FixedPoint, parts: Sequence[str], log: Report
+def parts_refuted(
+    proof: Proof,
+    system: Map,
+    fixed: FixedPoint,
+    parts: Sequence[str],
+    ways: Sequence[Way],
+    log: Report,
 ) -> list[tuple[str, str]]:
     """The lines that name the refutations for all of these parts of the domain that have
     parameters; nothing where one of them has none.
@@ -65,7 +71,7 @@ def outside_refuted(
     for part in parts:
         setting = setting_of(system, fixed, conjunction(system.domain, part))
         if setting.count:
-            if not refuted(proof, setting, log):
+            if not refuted(proof, setting, log, ways):
                 return []
             name = proof.rules[-1].name
             lines.append((NAMED[proof.known[name].kind], name))
@@ -149,13 +155,15 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
     before = proof.work
-    for rule in islice(rules(setting, name), MOST_RATES):
-        if proof.work - before > GROWTH_WORK:
-            break
-        fault = proof.add(rule, EFFORTS, GROWTH_BUDGET)
-        log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
-        if not fault:
-            return "is not stable"
+    found = list(islice(rules(setting, name), MOST_RATES))
+    for efforts, budget in GROWTH_ROUNDS:
+        for rule in found:
+            if proof.work - before > GROWTH_WORK:
+                return ""
+            fault = proof.add(rule, efforts, budget)
+            log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
+            if not fault:
+                return "is not stable"
     return ""
 
 
@@ -168,9 +176,22 @@ def refuted(
     proof: Proof,
     setting: Setting,
     log: Report,
-    ways: Sequence[Way] = (by_orbit, by_growth, by_short_orbit),
+    ways: Sequence[Way],
 ) -> str:
     """How the point fails to be stable and to attract every state, for all parameters, or
     nothing.
     """
     return next(filter(None, (way(proof, setting, log) for way in ways)), "")
+
+
+WAYS: tuple[Way, ...] = (by_orbit, by_growth, by_short_orbit)
+
+
+def outsides(conditions: str) -> Iterator[tuple[Sequence[str], Sequence[Way]]]:
+    """Formulas of which one holds where the conditions do not, with the ways to refute them: as a
+    whole, which has the boundary, where no rate of growth is more than 1; then as parts.
+    """
+    whole, parts = negation(conditions), complement(conditions)
+    if parts != [whole]:
+        yield [whole], (by_orbit, by_short_orbit)
+    yield parts, WAYS

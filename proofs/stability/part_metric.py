@@ -59,7 +59,7 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
     is simple and fits well.
     """
     if len(setting.system.state) == 1:
-        return  # of which quadratic functions do as well
+        return  # of which `two_sided` has more
     low, _ = bounds(setting.system)
     for kind, texts in enumerate(distances(setting)):
         weights = _weights(setting, texts)

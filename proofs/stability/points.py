@@ -108,6 +108,9 @@ def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list
         equations = [one for one in map(sympy.expand, equations) if one != 0]
         if any(one.free_symbols.isdisjoint(state) for one in equations):
             return  # which `solve` would leave out
+        if len(state) == 1 and equations:
+            yield from ([(root,)] for root in roots_of(equations[0], state[0]))
+            return
         found = sympy.solve(equations, state, dict=True) if equations else [{}]
     except NotImplementedError:
         return
@@ -119,6 +122,22 @@ def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list
             tuple(sympy.cancel(t.subs(dict(zip(free, chosen)))) if free else t for t in terms)
             for chosen in itertools.islice(values, MOST_VALUES)
         ]
+
+
+def roots_of(equation: Expr, variable: Expr) -> Iterator[Expr]:
+    """The zeros of a polynomial's irreducible factors of degree 1 and 2."""
+    for factor, _ in sympy.factor_list(equation)[1]:
+        coefficients = sympy.Poly(factor, variable).all_coeffs()
+        if len(coefficients) == 2:
+            yield sympy.cancel(-coefficients[1] / coefficients[0])
+        elif len(coefficients) == 3:
+            a, b, c = coefficients
+            number, factors = sympy.factor_list(b**2 - 4 * a * c)
+            outer, inner = sympy.sqrt(abs(number)).as_coeff_Mul()
+            outer *= sympy.prod(one ** (power // 2) for one, power in factors)
+            under = sympy.sign(number) * inner**2 * sympy.prod(p for p, n in factors if n % 2)
+            root = outer * sympy.sqrt(sympy.expand(under))
+            yield from (sympy.together((-b + sign * root) / (2 * a)) for sign in (-1, 1))
 
 
 def as_point(terms: tuple[Expr, ...]) -> Point | None:

@@ -15,6 +15,8 @@ from juggleproof.proofs.stability.attracting import attracted, enveloped, in_box
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     LOCAL_BUDGET,
+    MORE_WORK,
+    MOST_WORK,
     Proof,
     Report,
     beyond,
@@ -23,12 +25,12 @@ from juggleproof.proofs.stability.certifying import (
 )
 from juggleproof.proofs.stability.domains import middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
+    WAYS,
     by_growth,
     by_orbit,
-    by_short_orbit,
-    complement,
     in_brackets,
-    outside_refuted,
+    outsides,
+    parts_refuted,
     refuted,
     sharp,
 )
@@ -87,7 +89,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     given, guards = system.domain, [guard for guard, _ in system.pieces]
     system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
-    proof = Proof(budget=budget)
+    proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
     if not all(map(len, parameters.values())):
         hint = "; put in what an equation fixes" if " = " in given else ""
         none = f"no parameters were found in the domain {given}{hint}"
@@ -128,8 +130,9 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if found:
             return Outcome(proof, *found, lines)
     faults = []
+    proof.grant(MORE_WORK)
     # of several fixed points it says little that one does not attract another
-    ways = (by_growth, by_orbit) if len(every) > 1 else (by_orbit, by_growth, by_short_orbit)
+    ways = (by_growth, by_orbit) if len(every) > 1 else WAYS
     for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             setting = setting_of(system, fixed, system.domain)
@@ -139,12 +142,15 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                 faults.append(f"{at}{name_of(fixed)} {fault}")
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
+    proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
             inner = conjunction(system.domain, *narrowed(system, fixed, parameters))
             middle = conjunction(inner, *middle_of(system, inner))
             for domain in dict.fromkeys((inner, middle)):
                 setting = setting_of(system, fixed, domain)
+                if not setting.count:
+                    continue
                 near = near_by(proof, setting, name_of(fixed), given, log)
                 if near:
                     sentence = f"{near}; of other states nothing was found"
@@ -216,6 +222,8 @@ def settled(
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
+    if not setting.count:
+        return None
     where = beyond(given, setting.domain, system.parameters)
     name = name_of(fixed)
     if not split:
@@ -241,14 +249,18 @@ def settled(
         setting, where = smaller, beyond(given, smaller.domain, system.parameters)
     if not where:
         return "stable", f"{name} is stable and attracts every state"
-    for parts in ([negation(where)], complement(where)):
-        count = len(proof.rules)
-        kinds = outside_refuted(proof, system, fixed, parts, log)
+    proof.grant(MORE_WORK)
+    licences, count, kinds = beyond(given, system.domain, system.parameters), len(proof.rules), []
+    for parts, ways in outsides(where):
+        kinds = parts_refuted(proof, system, fixed, parts, ways, log)
         if kinds and sharp(proof, setting, kinds, log):
             inside = beyond(system.domain, setting.domain, system.parameters)
-            licences = beyond(given, system.domain, system.parameters)
             of = f", of all parameters with {licences}" if licences else ""
             sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
             return "exactly", sentence
         proof.keep(count)
+    outside = replace(system, domain=conjunction(system.domain, negation(where)))
+    if not kinds and not licences and not proof.add(without_fixed_point(outside)):
+        sentence = f"{name} is stable and attracts every state where {where}"
+        return "exactly", f"{sentence}; elsewhere no state of the space is a fixed point"
     return "stable", f"{name} is stable and attracts every state at least where {where}"

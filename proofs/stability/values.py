@@ -19,11 +19,11 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import is_certified
 from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     atoms,
+    conjunction,
     expression,
     holds,
     symbols,
@@ -44,12 +44,17 @@ LIMITS = ((3, (2, 4)), (6, (1, 4)), (9, (1, 2)), (math.inf, (0, 0)))  # of power
 # Constants that depend on the parameters: a number times powers of what is positive on the domain.
 
 
-def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
-    """Terms in the parameters and in the point's names that are positive on the domain, those first
-    that are close to its ends.
+def positive_factors(system: Map, facts: str, parameters: Arrays) -> list[str]:
+    """Terms in the parameters that facts say to be positive, and such terms that are linear in the
+    point's names; those first that are close to the domain's ends.
     """
-    found = [written(sympy.numer(sympy.together(p))) for p, strict in atoms(domain) if strict]
-    found += [f"{name}_point" for name in system.state]
+    points = set(symbols([f"{name}_point" for name in system.state]))
+    found = [
+        written(numerator)
+        for term, strict in atoms(facts)
+        for numerator in [sympy.numer(sympy.together(term))]
+        if strict and sympy.Poly(numerator, *points).total_degree() <= 1
+    ]
     texts = []
     for text in dict.fromkeys(found):
         if not checker.names_in(text) <= parameters.keys():
@@ -153,12 +158,11 @@ class Setting:
     @cached_property
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
-        known = dict(self.constants)
-        for name in self.system.state:
-            at = known.pop(f"{name}_point")
-            if self.have and (at > 0).all() and is_certified([*self.head, f"show {name} > 0"]):
-                known[f"{name}_point"] = at
-        return power_products(positive_factors(self.system, self.domain, known), known, self.count)
+        known = self.constants
+        if not self.have:
+            known = {k: v for k, v in known.items() if not k.endswith("_point")}
+        facts = conjunction(self.domain, *self.have)
+        return power_products(positive_factors(self.system, facts, known), known, self.count)
 
     @cached_property
     def head(self) -> list[str]:

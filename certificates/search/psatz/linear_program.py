@@ -157,7 +157,7 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
     places = np.concatenate(program.places)
     if program.rewritings:
         try:
-            forms = normal_forms(keys, program)
+            forms = normal_forms(keys, program, budget)
         except RecursionError:
             return None
         lengths = np.array([len(form) for form in forms])
@@ -190,10 +190,11 @@ def counted(counts: Keys) -> Keys:
 Form = dict[int, int]  # the key of a monomial -> its coefficient
 
 
-def normal_forms(keys: Keys, program: Program) -> list[Form]:
+def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
     """The monomials modulo the equations, all times one positive number.
 
-    Raises RecursionError where too many equations are used one after another.
+    Raises RecursionError where too many equations are used one after another, and Exhausted where
+    the budget ends.
     """
     rules = []
     for leading, own, values in program.rewritings:
@@ -220,6 +221,8 @@ def normal_forms(keys: Keys, program: Program) -> list[Form]:
                         for move, moves, c in tail
                     ]
                     scale = lcm(*(own for own, _, _ in parts))
+                    size = sum(len(form) for _, form, _ in parts)
+                    budget.spend(size * (1 + scale.bit_length() // 64) // 8)
                     total: Form = {}
                     for own, form, c in parts:
                         for k, value in form.items():

@@ -70,7 +70,8 @@ SETTLED = {  # name: (text, exit code, first line)
     "drift": (  # x + 1 at a = 0
         "over a\ndomain 0 <= a and a <= 1\nstate x\npiece (1 - a)*x + 1",
         0,
-        f"proved   drift: 1/a {STABLE} at least where a > 0",
+        f"proved   drift: 1/a {STABLE} where a > 0; elsewhere no state of the space is a fixed"
+        " point",
     ),
     "two-points": (
         "state x\npiece x <= 1 -> x/2\npiece x > 1 -> x/3 + 4",

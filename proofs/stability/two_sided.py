@@ -1,0 +1,113 @@
+"""Maps of one variable: the distance to the point e above it, and below it the distance times a
+power of (e - l)/(s - l), for a lower bound l of the space, or the same with an upper bound:
+
+    V = max(s - e, (e - s) ((e - l)/(s - l))^k),
+
+of degree less than the squares of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.envelopes import SIZES, equation_of
+from juggleproof.proofs.stability.given import (
+    as_factor,
+    bounds,
+    holds,
+    renamed,
+)
+from juggleproof.proofs.stability.samples import Samples, ends_of
+from juggleproof.proofs.stability.templates import Function
+from juggleproof.proofs.stability.values import Setting, bounded_below, small_balls
+
+POWERS = (0, 1, 2)
+TRIED = 2  # losses of a function
+CLOSE = 1e-6  # of the distance to an end, what is not looked at
+FAR = 1e4  # times the rounding of the point
+
+
+def two_sided_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
+    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
+    is simple and fits well.
+    """
+    if len(setting.system.state) > 1:
+        return
+    if setting.point.roots:
+        setting = replace(setting, have=equation_of(setting))
+    setting = replace(setting, states=states_of(setting))
+    for kind, function in functions(setting):
+        best = sorted(constants(setting, function), key=lambda one: one[0])
+        for rank, rows in best[:TRIED]:
+            yield rank + kind, setting.rule(name, function, [("on", on), *rows])
+
+
+def functions(setting: Setting) -> Iterator[tuple[float, Function]]:
+    """The functions to try, each with a number that is small where it is simple."""
+    system = setting.system
+    (state,) = system.state
+    sides = [
+        [(distance(state, gap, bound.get(state, ""), power), power, bound) for power in POWERS]
+        for gap, bound in zip((f"{state}_gap", f"-{state}_gap"), reversed(bounds(system)))
+    ]
+    for over, under in product(*sides):
+        if over[0] and under[0]:
+            used = [as_factor(bound[state]) for _, power, bound in (over, under) if power]
+            yield over[1] + under[1], Function((over[0], under[0]), divisor="*".join(used) or "1")
+
+
+def distance(state: str, gap: str, bound: str, power: int) -> str:
+    """The distance, times a power of that of the point to the bound by that of the state; nothing
+    where there is no bound.
+    """
+    if not power:
+        return gap
+    at_point = as_factor(renamed(bound, {state: f"{state}_point"}))
+    to = "" if power == 1 else f"^{power}"
+    return f"{at_point}{to}*({gap})/{as_factor(bound)}{to}" if bound else ""
+
+
+def constants(
+    setting: Setting, function: Function
+) -> Iterator[tuple[float, list[tuple[str, str]]]]:
+    """The lines but `on` and `value`, for losses of a share of V and of V/(1 + V)."""
+    samples = setting.states
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    radius, upper = next(small_balls(setting, function), ("", ""))
+    if not radius or not (there < here).all():
+        return
+    for power, divide in enumerate(("", "/(1 + {})")):
+        least = samples.least((here - there) / here * (1 + here) ** power, setting.count)
+        for rank, constant in bounded_below(least, setting.products):
+            start = "" if constant == "1" else f"({constant})*"
+            rows = [
+                ("loss", start + "value" + divide.format("value")),
+                ("least", start + "distance" + divide.format("level")),
+                ("upper", upper),
+                ("radius", radius),
+            ]
+            yield rank + power / 4, rows
+
+
+def states_of(setting: Setting) -> Samples:
+    """States of the space at distances of all sizes from the point and from the ends of the space,
+    in units of the point's distance to an end.
+    """
+    (state,) = setting.system.state
+    point = setting.constants[f"{state}_point"]
+    reach = [end - point for end in ends_of(setting.system.space, state) if end is not None]
+    reach += [-one for one in reach or [np.ones(setting.count)]]
+    sizes = [one for one in (*SIZES, *(1 - SIZES)) if abs(one) > CLOSE]
+    gaps = np.concatenate([np.outer(one, sizes) for one in reach], axis=1)
+    which = np.repeat(np.arange(setting.count), gaps.shape[1])
+    points = {name: values[which] for name, values in setting.constants.items()}
+    points |= {f"{state}_gap": gaps.ravel(), state: gaps.ravel() + point[which]}
+    inside = np.broadcast_to(holds(setting.system.space, points), which.shape)
+    at = {name: setting.constants[name] for name in setting.system.parameters}
+    rounding = np.abs(setting.system.next({**at, state: point})[0] - point)
+    return Samples(points, which).where(inside & (np.abs(gaps.ravel()) > FAR * rounding[which]))

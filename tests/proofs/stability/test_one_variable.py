@@ -1,0 +1,158 @@
+"""Maps of one variable are proved stable by the distances on both sides of the point, and sharp
+conditions by what fails outside: each with the same map where that is not so.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+
+from juggleproof.certificates.algebra.polynomials import Packing, Ring
+from juggleproof.certificates.search.psatz.linear_program import Program, normal_forms
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.stability.certifying import Proof
+from juggleproof.proofs.stability.chetaev import cone_functions
+from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.given import Map, read_rows
+from juggleproof.proofs.stability.points import PARAMETERS, fixed_points, roots_of
+from juggleproof.proofs.stability.samples import region
+from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.two_sided import two_sided_rules
+from juggleproof.proofs.stability.values import Setting
+from tests.proofs.command import running
+
+STABLE = "is stable and attracts every state"
+CONVERTER = (
+    "over k\ndomain {}\nstate v\nspace 22 <= v and v <= 29\n"
+    "piece 0.88*v + 25/22*max(0, min(1, 1/2 - k*(v - 25)))^2*33*(33 - v)/v"
+)
+SIGMOID = "over r\ndomain r > 2\nstate x\nspace x >= {}\npiece r*x^2/(1 + x^2)"
+HARVEST = "over r h\ndomain r > 1 and {}\nstate x\nspace x > 0\npiece (1 - h)*r*x/(1 + x)"
+MOMENTUM = "over h m\ndomain {} and 0 <= m and m < 1\nstate x y\npiece (1 - h)*(x + m*(x - y)), x"
+LOGISTIC = "state x\nspace 0 < x and x < 1\npiece {}*x*(1 - x)"
+SETTLED = {  # name: (text, first line)
+    "converter": (CONVERTER.format("0 < k and k < 0.03"), f"proved   converter: 25 {STABLE}"),
+    "threshold": (SIGMOID.format(1), f"proved   threshold: ((r + sqrt(r^2 - 4))/2) {STABLE}"),
+    "below-it": (
+        SIGMOID.format(0),
+        "refuted  below-it: ((r + sqrt(r^2 - 4))/2) does not attract 0, which is a fixed point",
+    ),
+    "harvest": (
+        HARVEST.format("0 < h and h < 1"),
+        f"proved   harvest: (-h*r + r - 1) {STABLE} where -h*r + r - 1 > 0; elsewhere no state of"
+        " the space is a fixed point",
+    ),
+    "all-harvested": (
+        HARVEST.format("(1 - h)*r <= 1 and 0 < h and h < 1"),
+        "refuted  all-harvested: no state of the space is a fixed point",
+    ),
+    "peak": (
+        "over r\ndomain 1 < r and r < 10\nstate x\nspace x > 0\npiece r*x/(1 + x^2)",
+        f"proved   peak: sqrt(r - 1) {STABLE}",
+    ),
+    "momentum": (
+        MOMENTUM.format("0 < h and h < 2"),
+        f"proved   momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0",
+    ),
+    "too-long-steps": (
+        MOMENTUM.format("7/4 <= h and h < 2 and m >= 1/2"),
+        "refuted  too-long-steps: (0, 0) is not stable",
+    ),
+    "logistic-inside": (LOGISTIC.format("2.99"), f"proved   logistic-inside: 199/299 {STABLE}"),
+    "logistic-at-end": (LOGISTIC.format("3"), f"proved   logistic-at-end: 2/3 {STABLE}"),
+    "logistic-by-name": (
+        "over a\ndomain a = 3\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)",
+        f"proved   logistic-by-name: ((a - 1)/a) {STABLE}",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SETTLED)
+def test_a_map_is_settled_on_both_sides_of_its_condition_holds(name: str, tmp_path: Path) -> None:
+    text, line = SETTLED[name]
+    path = tmp_path / f"{name}.map"
+    path.write_text(text + "\n")
+    done = running.run("stability", str(path))
+    assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
+
+
+@pytest.mark.parametrize("text", [LOGISTIC.format("3.01"), CONVERTER.format("1/8 < k and k < 1/7")])
+def test_rejects_a_point_beyond_its_condition(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "beyond.map"
+    path.write_text(text + "\n")
+    assert not running.run("stability", str(path)).stdout.startswith("proved")
+
+
+def system_of(text: str) -> Map:
+    rows = [(line.split()[0], line.partition(" ")[2]) for line in text.splitlines()]
+    return read_rows("one", rows)
+
+
+def setting_at(text: str) -> Setting:
+    system = system_of(text)
+    return setting_of(system, fixed_points(system)[0], system.domain)
+
+
+@pytest.mark.parametrize(("step", "fits"), [("1/2", True), ("3/2", False)])
+def test_rejects_distances_that_grow(step: str, fits: bool) -> None:
+    """The multiplier at the point is 1 - 2 h for a step h, 0 or -2."""
+    text = f"state x\nspace x > 0\npiece x - {step}*(x - 4/x)"
+    assert bool(list(two_sided_rules(setting_at(text), "0 < 1", "one/lyapunov"))) is fits
+
+
+def test_a_condition_with_a_square_root_is_a_polynomial_holds() -> None:
+    """The multiplier at (sqrt(4 s + 1) - 1)/(2 s) is 1 - sqrt(4 s + 1)."""
+    text = "over s\ndomain 0 < s and s < {}\nstate p\nspace 0 <= p and p <= 1\npiece 1 - s*p^2"
+    for end, rows in (("1", ["3 - 4*s > 0"]), ("1/2", [])):
+        system = system_of(text.format(end))
+        (fixed,) = fixed_points(system)
+        assert narrowed(system, fixed, region(system.domain, ("s",), PARAMETERS)) == rows
+
+
+def test_linear_forms_grow_in_a_cone_that_is_kept_holds() -> None:
+    """(x, y) -> (-(3 x + y), -(x + 3 y)) keeps x, y >= 0 up to the sign, with x + y 4 times."""
+    (function,) = cone_functions(setting_at("state x y\npiece -3*x - y, -x - 3*y"))
+    here = {name: np.array([v]) for name, v in (("x_gap", 1.0), ("y_gap", 2.0))}
+    there = {name: np.array([v]) for name, v in (("x_gap", -5.0), ("y_gap", -7.0))}
+    assert function.at(there, 1)[0] == 4 * function.at(here, 1)[0] > 0
+
+
+def test_rejects_a_cone_that_is_turned() -> None:
+    assert not list(cone_functions(setting_at("state x y\npiece 2*y, -2*x")))
+
+
+@pytest.mark.parametrize(
+    "text", ["(a*x - 1)*(x - b)", "x^2 - 2*a*x + b", "(2*x^2 - 8*a)*(x^3 - 2)"]
+)
+def test_factors_of_low_degree_have_these_zeros_holds(text: str) -> None:
+    x, a, b = (sympy.Symbol(name, real=True) for name in "xab")
+    equation = sympy.sympify(text.replace("^", "**"), {"x": x, "a": a, "b": b})
+    found = list(roots_of(equation, x))
+    assert len(found) == 2
+    assert all(sympy.expand(equation.subs(x, root)).equals(0) for root in found)
+
+
+def test_rejects_premises_beyond_the_work_that_is_granted() -> None:
+    rule = system_of("state x\nspace 0 <= x and x <= 1\npiece x/2").rule("one/map")
+    assert Proof(most=0).add(rule).startswith("no proof of the premise")
+    proof = Proof(most=0)
+    proof.grant(10_000)
+    assert not proof.add(rule)
+
+
+def test_rejects_normal_forms_beyond_the_budget() -> None:
+    """x^40 modulo x = y + z has 41 terms."""
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    packing, program = Packing(ring, [x**40 * y**40 * z**40]), Program()
+    keys, values = packing.row(x - y - z)
+    program.add_rewriting(packing.exponents(keys[:1])[0], keys, values)
+    program.exponents = packing.exponents
+    power, _ = packing.row(x**40)
+    with pytest.raises(Exhausted):
+        normal_forms(power, program, Budget(10))
+    (form,) = normal_forms(power, program, Budget(10_000))
+    assert len(form) == 41
