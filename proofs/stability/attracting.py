@@ -26,6 +26,7 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.part_metric import part_metric_rules
+from juggleproof.proofs.stability.ratios import ratio_rules
 from juggleproof.proofs.stability.samples import (
     around,
     region,
@@ -73,6 +74,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if in_boxes(proof, setting, log):
         return True
+    for rule, searches in ratio_rules(setting, name):
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+            return True
     every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
     found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
     before = proof.work

@@ -26,6 +26,7 @@ LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the poi
 EFFORTS = (1, 2, SQUARED)
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
+Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
 
 
 @dataclass
@@ -45,9 +46,11 @@ class Proof:
         efforts: Sequence[int] = EFFORTS,
         budget: int = BUDGET,
         signs: Mapping[str, Sequence[str]] | None = None,
+        searches: Mapping[str, Search] | None = None,
     ) -> str:
         """Certifies one more statement; the premise that is open, or nothing.  signs: for some
-        premises, polynomials whose signs are the cases of a proof.
+        premises, polynomials whose signs are the cases of a proof; searches: for some, what is
+        tried first.
         """
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
@@ -60,6 +63,8 @@ class Proof:
                 proof = None
                 if signs and name in signs:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
+                if searches and name in searches:
+                    proof = searches[name](premises[name], self.known)
                 work = budget * self.budget // BUDGET
                 proof = proof or self.proof_of(premises[name], efforts, work)
                 if proof is None:
@@ -143,9 +148,10 @@ def tried(
     budget: int,
     report: Report,
     signs: Mapping[str, Sequence[str]] | None = None,
+    searches: Mapping[str, Search] | None = None,
 ) -> str:
     """Tries to certify a candidate."""
-    fault = proof.add(rule, efforts, budget, signs)
+    fault = proof.add(rule, efforts, budget, signs, searches)
     report(f"{function_of(rule)}: {fault or 'certified'}")
     return fault
 

@@ -4,6 +4,7 @@ inside the unit circle (Jury's conditions for one and two variables).
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 
 import numpy as np
@@ -16,6 +17,7 @@ from juggleproof.proofs.stability.given import (
     atoms,
     conjunction,
     expression,
+    holds,
     symbols,
     value,
     written,
@@ -54,7 +56,8 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
     """
     rows = []
     for term, strict in conditions(system, fixed, closed):
-        if not term.free_symbols or any(not p.exp.is_Integer for p in term.atoms(sympy.Pow)):
+        term = without_root(term, parameters)
+        if term is None or not term.free_symbols:
             continue
         above, below = sympy.fraction(sympy.together(term))
         sign = 1
@@ -71,7 +74,50 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
         if parts:
             product = sympy.expand(sign * sympy.prod(parts))
             rows.append(f"{written(product)} {'>' if strict else '>='} 0")
-    return list(dict.fromkeys(rows))
+    return needed(list(dict.fromkeys(rows)), parameters)
+
+
+def without_root(term: Expr, parameters: Arrays) -> Expr | None:
+    """A term without square roots that has the same sign at all samples: a product of factors of
+    the term times its conjugate.
+    """
+    roots = {p for p in term.atoms(sympy.Pow) if not p.exp.is_Integer}
+    if not roots:
+        return term
+    if len(roots) > 1 or next(iter(roots)).exp != sympy.Rational(1, 2):
+        return None
+    (root,) = roots
+    symbol = sympy.Dummy(real=True)
+    above, below = sympy.fraction(sympy.together(term.subs(root, symbol)))
+    above = sympy.rem(sympy.expand(above * below), symbol**2 - root.base, symbol)
+    norm = sympy.expand(above * above.subs(symbol, -symbol)).subs(symbol**2, root.base)
+    numerator = sympy.numer(sympy.together(sympy.expand(norm)))
+    factors = [one for one, _ in sympy.factor_list(numerator)[1]]
+    with np.errstate(all="ignore"):
+        names = symbols(parameters)
+        sign = np.sign(sympy.lambdify(names, term, "numpy")(*parameters.values()))
+        signs = [np.sign(sympy.lambdify(names, f, "numpy")(*parameters.values())) for f in factors]
+    for count in range(len(factors) + 1):
+        for chosen in itertools.combinations(range(len(factors)), count):
+            product = sympy.prod([factors[k] for k in chosen])
+            found = np.prod([np.ones(1), *(signs[k] for k in chosen)], axis=0)
+            for turn in (1, -1):
+                if (turn * found == sign).all():
+                    return sympy.Integer(turn) * product
+    return None
+
+
+def needed(rows: list[str], parameters: Arrays) -> list[str]:
+    """The conditions without those that hold at all samples where the others do, the longest
+    first.
+    """
+    kept = list(rows)
+    for row in sorted(rows, key=len, reverse=True):
+        rest = [one for one in kept if one != row]
+        inside = np.logical_and.reduce([holds(one, parameters) for one in rest]) if rest else None
+        if inside is not None and inside.any() and np.all(np.asarray(holds(row, parameters))[inside]):
+            kept = rest
+    return kept
 
 
 def middle_of(system: Map, domain: str) -> list[str]:
