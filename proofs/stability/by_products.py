@@ -246,7 +246,10 @@ def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
         if len(poly) == 1
         or not is_sum(poly)
         and not any(
-            is_sum(poly * abs(int(other.leading_coefficient())) - other * abs(int(poly.leading_coefficient())))
+            is_sum(
+                poly * abs(int(other.leading_coefficient()))
+                - other * abs(int(poly.leading_coefficient()))
+            )
             for other in polys.values()
             if other is not poly
         )

@@ -5,6 +5,7 @@ inside the unit circle (Jury's conditions for one and two variables).
 from __future__ import annotations
 
 import itertools
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -100,7 +101,7 @@ def without_root(term: Expr, parameters: Arrays) -> Expr | None:
     for count in range(len(factors) + 1):
         for chosen in itertools.combinations(range(len(factors)), count):
             product = sympy.prod([factors[k] for k in chosen])
-            found = np.prod([np.ones(1), *(signs[k] for k in chosen)], axis=0)
+            found = math.prod((signs[k] for k in chosen), start=np.ones_like(sign))
             for turn in (1, -1):
                 if (turn * found == sign).all():
                     return sympy.Integer(turn) * product
@@ -115,7 +116,11 @@ def needed(rows: list[str], parameters: Arrays) -> list[str]:
     for row in sorted(rows, key=len, reverse=True):
         rest = [one for one in kept if one != row]
         inside = np.logical_and.reduce([holds(one, parameters) for one in rest]) if rest else None
-        if inside is not None and inside.any() and np.all(np.asarray(holds(row, parameters))[inside]):
+        if (
+            inside is not None
+            and inside.any()
+            and np.all(np.asarray(holds(row, parameters))[inside])
+        ):
             kept = rest
     return kept
 

@@ -82,7 +82,11 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
             squares = list(dict.fromkeys([*gaps, *_differences(setting)]))
             searches: dict[str, Search] = {
                 f"falls-1-{k + 1}": partial(
-                    proof_by_products, terms=sums.used(k), unknowns=unknowns, squares=squares, signs=gaps
+                    proof_by_products,
+                    terms=sums.used(k),
+                    unknowns=unknowns,
+                    squares=squares,
+                    signs=gaps,
                 )
                 for k in range(2 * len(rows))
             }
@@ -338,12 +342,14 @@ def _losses(
     total = sympy.factor(sum(size * weight for size, weight in zip(sizes, weights)))
     inverses = sum(1 / size for size in set(sizes))
     radius = sympy.factor(1 / (2 * inverses))
-    upper = sympy.factor(sum(
-        (2 if sum(map(abs, row)) == 1 else 4)
-        * sum(abs(power) / size for power, size in zip(row, sizes))
-        / weight
-        for row, weight in zip(rows, weights)
-    ))
+    upper = sympy.factor(
+        sum(
+            (2 if sum(map(abs, row)) == 1 else 4)
+            * sum(abs(power) / size for power, size in zip(row, sizes))
+            / weight
+            for row, weight in zip(rows, weights)
+        )
+    )
     fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
     for power in POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
