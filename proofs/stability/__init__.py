@@ -14,8 +14,10 @@ In reading order, each importing those before it only:
 - `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `by_sign`: proofs by cases of signs that a search of functions suggests.
+- `by_products`: proofs by few facts times many products of what is positive.
 - `refuting`, `chetaev`: periodic orbits in exact terms, and functions that grow.
 - `certifying`: statements certified one after another, within counted work.
+- `ratios`: greatest weighted ratios, with weights that depend on the parameters.
 - `settings`: a fixed point with a part of the domain.
 - `attracting`, `failing`: that the point is stable and attracts every state, or not.
 - `search`: all of it, in order, and the outcome.

@@ -1,5 +1,5 @@
-"""A proof that a function falls by a linear program: few facts that the state is in, each times many
-products of what is positive, in the parameters above all.
+"""A proof that a function falls by a linear program: few facts, each times many products of what is
+positive, in the parameters above all.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 MOVING = ("value", "level", "distance")
 MORE = (0, 1, 2, 3)  # degrees than those of the goal
-MOST_COLUMNS = 16000
-BUDGET = 6_000_000  # of counted work for a premise
+MOST_COLUMNS = 6000
+BUDGET = 1_000_000  # of counted work for a premise
 
 
 def proof_by_products(
@@ -38,9 +38,9 @@ def proof_by_products(
     squares: Sequence[str],
     signs: Sequence[str],
 ) -> Proof | None:
-    """A proof of a premise `falls` or `least` from these terms of V, by their numbers, and from what is known
-    of the parameters but the unknowns; products times the squares of the names `gaps` are used
-    too, then cases of their signs.
+    """A proof of a premise `falls` or `least` from these terms of V, by their numbers, and from
+    what is known of the parameters but the unknowns; products times these squares are used too,
+    then cases of these signs.
     """
     unfolding = unfolded(premise)
     steps = []
@@ -81,16 +81,15 @@ def by_cases(
         return ("close",)
     if state.choices:
         rest = state.branch()
-        alternatives = rest.choices.pop(0)
-        for one in alternatives:
+        every: list[Node] = []
+        for one in rest.choices.pop(0):
             case = rest.branch(one)
-            added = range(len(rest.facts), len(case.facts))
-            nodes.append(
-                by_cases(case, goal, [*kept, *added], ring, squares, unknowns, signs, budget)
-            )
-            if nodes[-1] is None:
+            more = [*kept, *range(len(rest.facts), len(case.facts))]
+            node = by_cases(case, goal, more, ring, squares, unknowns, signs, budget)
+            if node is None:
                 return None
-        return "cases", 0, nodes
+            every.append(node)
+        return "cases", 0, every
     node = leaf(state, goal, kept, ring, squares, unknowns, budget)
     if node is not None or not signs:
         return node
@@ -181,6 +180,7 @@ def leaf(
     level = ring.names.index("level") if "level" in ring.names else None
     if level is not None and not any(problem.facts[k].poly.degrees()[level] for k in first):
         generators = [k for k in generators if not problem.facts[k].poly.degrees()[level]]
+    polys: list[tuple[fmpz_mpoly, tuple[int, ...], int]]
     polys = [(problem.facts[k].poly, (k,), -1) for k in generators]
     polys += [(root**2, (), k) for k, root in enumerate(roots)]
     shared = prod((problem.facts[k].poly for k in common), start=ring.one)
@@ -256,8 +256,10 @@ def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
     ]
 
 
-def renumbered(node: Node, kept: Sequence[int]) -> Node:
+def renumbered(node: Node, kept: Sequence[int]) -> Node | None:
     """The node with the numbers that the facts have in the state."""
+    if node[0] != "psatz":
+        return None
     _, products, equations = node
     return (
         "psatz",

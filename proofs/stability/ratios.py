@@ -2,10 +2,10 @@
 -1 of x_j/e_j, with weights u_R > 0 that depend on the parameters.  Close to the point it is a
 polytope norm in the logarithms, far from it the part metric with weights.
 
-With A the derivative at the point in the logarithms, and rows l of exponents with l A = sum of
-c_lk k over rows k and their opposites, c_lk >= 0, the norm max |l log(x/e)|/u_l falls where C u < u:
-such u are the sums of the columns of the inverse of I - C, if its spectral radius is below 1.  In
-x + c in place of x it is the same, with c from a divisor of the map.
+Let A be the derivative at the point in the logarithms, and rows l of exponents with l A = sum of
+c_lk k over rows k and their opposites, c_lk >= 0.  The norm max |l log(x/e)|/u_l falls where
+C u < u: such u are the sums of the columns of the inverse of I - C, where its spectral radius is
+below 1.  In x + c in place of x it is the same, with c from a divisor of the map.
 
 Sources: Krause and Nussbaum, A limit set trichotomy for self-mappings of normal cones in Banach
 spaces, Nonlinear Analysis 20 (1993); Kruse and Nesemann, Global asymptotic stability in some
@@ -33,7 +33,6 @@ from juggleproof.proofs.stability.given import (
     conjunction,
     expression,
     symbols,
-    value,
     written,
 )
 from juggleproof.proofs.stability.part_metric import CLOSE, values
@@ -42,7 +41,6 @@ from juggleproof.proofs.stability.templates import Function
 from juggleproof.proofs.stability.values import (
     Setting,
     bounded_below,
-    inverse,
     power_products,
 )
 
@@ -51,7 +49,7 @@ Row = tuple[int, ...]
 MOST_STATES = 3
 MOST_SHIFTS = 2
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
-MOST_RULES = 3  # that are tried
+MOST_RULES = 2  # that are tried
 
 
 def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
