@@ -6,6 +6,7 @@ In reading order, each importing those before it only:
 
 - `given`: the map, read from a file or a map rule; text evaluated in floats, rationals and SymPy.
 - `by_sign`: proofs by cases of signs that a search of functions suggests.
+- `by_products`: proofs by few facts times many products of what is positive.
 - `certifying`: statements certified one after another, within counted work.
 - `samples`: samples of parameters and states; points that move with the parameters.
 - `points`: fixed points by elimination, and their multipliers.
@@ -19,6 +20,7 @@ In reading order, each importing those before it only:
 - `two_sided`: functions of one variable, a distance on each side of the point.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
+- `ratios`: greatest weighted ratios, with weights that depend on the parameters.
 - `refuting`, `chetaev`: periodic orbits in exact terms, and functions that grow.
 - `settings`: a fixed point with a part of the domain.
 - `attracting`, `failing`: that the point is stable and attracts every state, or not.

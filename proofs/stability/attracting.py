@@ -28,6 +28,7 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.part_metric import part_metric_rules
+from juggleproof.proofs.stability.ratios import ratio_rules
 from juggleproof.proofs.stability.samples import (
     around,
     region,
@@ -96,7 +97,12 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, EFFORTS, BUDGET, log, signs_of(rule)):
                 return True
-    return in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET)
+    if in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET):
+        return True
+    return any(
+        not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches)
+        for rule, searches in ratio_rules(setting, name)
+    )
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:

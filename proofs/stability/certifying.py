@@ -27,6 +27,7 @@ MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refuta
 EFFORTS = (1, 2, SQUARED)
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
+Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
 
 
 @dataclass
@@ -47,9 +48,11 @@ class Proof:
         efforts: Sequence[int] = EFFORTS,
         budget: int = BUDGET,
         signs: Mapping[str, Sequence[str]] | None = None,
+        searches: Mapping[str, Search] | None = None,
     ) -> str:
         """Certifies one more statement; the premise that is open, or nothing.  signs: for some
-        premises, polynomials whose signs are the cases of a proof.
+        premises, polynomials whose signs are the cases of a proof; searches: for some, what is
+        tried first.
         """
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
@@ -62,6 +65,8 @@ class Proof:
                 proof = None
                 if signs and name in signs:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
+                if searches and name in searches:
+                    proof = searches[name](premises[name], self.known)
                 work = budget * self.budget // BUDGET
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
                 proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
@@ -164,9 +169,10 @@ def tried(
     budget: int,
     report: Report,
     signs: Mapping[str, Sequence[str]] | None = None,
+    searches: Mapping[str, Search] | None = None,
 ) -> str:
     """Tries to certify a candidate."""
-    fault = proof.add(rule, efforts, budget, signs)
+    fault = proof.add(rule, efforts, budget, signs, searches)
     report(f"{function_of(rule)}: {fault or 'certified'}")
     return fault
 

@@ -4,6 +4,8 @@ inside the unit circle (Jury's conditions for one and two variables).
 
 from __future__ import annotations
 
+import itertools
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -16,6 +18,7 @@ from juggleproof.proofs.stability.given import (
     atoms,
     conjunction,
     expression,
+    holds,
     symbols,
     value,
     written,
@@ -67,9 +70,9 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
     """
     rows = []
     for term, strict in conditions(system, fixed, closed):
-        if not term.free_symbols:
-            continue
         term = without_root(term, parameters)
+        if term is None or not term.free_symbols:
+            continue
         above, below = sympy.fraction(sympy.together(term))
         sign = 1
         parts: list[Expr] = []
@@ -85,36 +88,54 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
         if parts:
             product = sympy.expand(sign * sympy.prod(parts))
             rows.append(f"{written(product)} {'>' if strict else '>='} 0")
-    return list(dict.fromkeys(rows))
+    return needed(list(dict.fromkeys(rows)), parameters)
 
 
-def without_root(term: Expr, parameters: Arrays) -> Expr:
-    """A polynomial that has the sign of a term a + b sqrt(u) at all samples: a^2 - b^2 u, or this
-    times -1; 1 where there is none.
+def without_root(term: Expr, parameters: Arrays) -> Expr | None:
+    """A term without square roots that has the same sign at all samples: a product of factors of
+    the term times its conjugate.
     """
-    under = {power.base for power in term.atoms(sympy.Pow) if not power.exp.is_Integer}
-    if not under:
+    roots = {p for p in term.atoms(sympy.Pow) if not p.exp.is_Integer}
+    if not roots:
         return term
-    root = sympy.Dummy("root", real=True)
-    (base, *others) = under
-    named = term.replace(
-        lambda e: e.is_Pow and e.base == base and not e.exp.is_Integer,
-        lambda e: root ** (2 * e.exp),
-    )
-    if others or not named.is_rational_function():
-        return sympy.Integer(1)
-    above, below = sympy.fraction(sympy.together(named))
-    linear = sympy.rem(sympy.expand(above * below), root**2 - base, root)
-    norm = sympy.expand(sympy.rem(linear * linear.subs(root, -root), root**2 - base, root))
-    names = symbols(parameters)
+    if len(roots) > 1 or next(iter(roots)).exp != sympy.Rational(1, 2):
+        return None
+    (root,) = roots
+    symbol = sympy.Dummy(real=True)
+    above, below = sympy.fraction(sympy.together(term.subs(root, symbol)))
+    above = sympy.rem(sympy.expand(above * below), symbol**2 - root.base, symbol)
+    norm = sympy.expand(above * above.subs(symbol, -symbol)).subs(symbol**2, root.base)
+    numerator = sympy.numer(sympy.together(sympy.expand(norm)))
+    factors = [one for one, _ in sympy.factor_list(numerator)[1]]
     with np.errstate(all="ignore"):
-        signs = [
-            np.sign(np.asarray(sympy.lambdify(names, one, "numpy")(*parameters.values())))
-            for one in (term, norm)
-        ]
-    return next(
-        (s * norm for s in (1, -1) if np.array_equal(signs[0], s * signs[1])), sympy.Integer(1)
-    )
+        names = symbols(parameters)
+        sign = np.sign(sympy.lambdify(names, term, "numpy")(*parameters.values()))
+        signs = [np.sign(sympy.lambdify(names, f, "numpy")(*parameters.values())) for f in factors]
+    for count in range(len(factors) + 1):
+        for chosen in itertools.combinations(range(len(factors)), count):
+            product = sympy.prod([factors[k] for k in chosen])
+            found = math.prod((signs[k] for k in chosen), start=np.ones_like(sign))
+            for turn in (1, -1):
+                if (turn * found == sign).all():
+                    return sympy.Integer(turn) * product
+    return None
+
+
+def needed(rows: list[str], parameters: Arrays) -> list[str]:
+    """The conditions without those that hold at all samples where the others do, the longest
+    first.
+    """
+    kept = list(rows)
+    for row in sorted(rows, key=len, reverse=True):
+        rest = [one for one in kept if one != row]
+        inside = np.logical_and.reduce([holds(one, parameters) for one in rest]) if rest else None
+        if (
+            inside is not None
+            and inside.any()
+            and np.all(np.asarray(holds(row, parameters))[inside])
+        ):
+            kept = rest
+    return kept
 
 
 def middle_of(system: Map, domain: str) -> list[str]:

@@ -1,0 +1,440 @@
+"""Greatest weighted ratios to the point: V = max (R - 1)/u_R, over products R of the powers 1 and
+-1 of x_j/e_j, with weights u_R > 0 that depend on the parameters.  Close to the point it is a
+polytope norm in the logarithms, far from it the part metric with weights.
+
+Let A be the derivative at the point in the logarithms, and rows l of exponents with l A = sum of
+c_lk k over rows k and their opposites, c_lk >= 0.  The norm max |l log(x/e)|/u_l falls where
+C u < u: such u are the sums of the columns of the inverse of I - C, where its spectral radius is
+below 1.  In x + c in place of x it is the same, with c from a divisor of the map.
+
+Sources: Krause and Nussbaum, A limit set trichotomy for self-mappings of normal cones in Banach
+spaces, Nonlinear Analysis 20 (1993); Kruse and Nesemann, Global asymptotic stability in some
+discrete dynamical systems, J. Mathematical Analysis and Applications 235 (1999).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+import sympy
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.by_products import proof_by_products
+from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.given import (
+    Expr,
+    atoms,
+    bounds,
+    conjunction,
+    expression,
+    symbols,
+    written,
+)
+from juggleproof.proofs.stability.part_metric import CLOSE, values
+from juggleproof.proofs.stability.samples import Floats, licence
+from juggleproof.proofs.stability.templates import Function
+from juggleproof.proofs.stability.values import (
+    Setting,
+    bounded_below,
+    power_products,
+)
+
+Row = tuple[int, ...]
+
+MOST_STATES = 3
+MOST_SHIFTS = 2
+POWERS = (0, 1)  # of 1 + V, that the loss is divided by
+MOST_RULES = 2  # that are tried
+
+
+def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+    """The statements `lyapunov` that samples do not refute, those whose loss fits best first, each
+    with a search of its own for some premises.
+    """
+    system = setting.system
+    if not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
+        return
+    setting, put = with_equations(setting)
+    for origin in origins(setting):
+        derivative = in_logarithms(setting, origin, put)
+        for rows in sets_of_rows(len(system.state)):
+            sums = sums_of(setting, derivative, rows)
+            if sums is None:
+                continue
+            found = []
+            for weights in weights_of(setting, sums.matrix):
+                terms = terms_of(setting, put, origin, rows, weights)
+                falls = falls_of(sums.matrix, weights)
+                for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
+                    rank += len(" ".join(terms)) / 50
+                    positive = [*factors, *factors_of(setting, weights)]
+                    rule = _rule(setting, name, origin, positive, terms, lines)
+                    found.append((rank, rule))
+            unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
+            gaps = _gaps(setting)
+            squares = list(dict.fromkeys([*gaps, *_differences(setting)]))
+            searches: dict[str, Search] = {
+                f"falls-1-{k + 1}": partial(
+                    proof_by_products,
+                    terms=sums.used(k),
+                    unknowns=unknowns,
+                    squares=squares,
+                    signs=gaps,
+                )
+                for k in range(2 * len(rows))
+            }
+            searches["least"] = partial(
+                proof_by_products,
+                terms=[k for k, row in enumerate(rows * 2) if sum(map(abs, row)) == 1],
+                unknowns=unknowns,
+                squares=(),
+                signs=(),
+            )
+            for _, rule in sorted(found, key=lambda one: one[0])[:MOST_RULES]:
+                yield rule, searches
+            if found:
+                return
+
+
+def origins(setting: Setting) -> Iterator[list[Expr]]:
+    """For each state variable what its ratio is of: its distance to the lower bounds; or with a
+    number or a term in the parameters added to it, as divisors of the map have it.
+    """
+    system, state = setting.system, symbols(setting.system.state)
+    low, _ = bounds(system)
+    if len(low) == len(state):
+        yield [expression(low[one]) for one in system.state]
+    shifts: dict[Expr, None] = {}
+    for image in system.images[setting.piece]:
+        below = sympy.fraction(sympy.together(image))[1]
+        for factor, _ in sympy.factor_list(below)[1]:
+            named = factor.free_symbols & set(state)
+            if len(named) == 1 and sympy.diff(factor, *named).is_Rational:
+                slope = sympy.diff(factor, *named)
+                shifts[sympy.expand(factor / slope - named.pop())] = None
+    for shift in itertools.islice(shifts, MOST_SHIFTS):
+        yield [one + shift for one in state]
+
+
+def sets_of_rows(count: int) -> Iterator[list[Row]]:
+    """The variables; of two variables also with their quotient, or their product."""
+    units = [tuple(int(i == j) for j in range(count)) for i in range(count)]
+    yield units
+    if count == 2:
+        yield [*units, (1, -1)]
+        yield [*units, (1, 1)]
+
+
+# -------------------------------------------------------------------------------------------------
+# The weights, as terms in the parameters and the point.
+
+
+def at_parameters(setting: Setting, term: Expr) -> Floats:
+    """The values at the samples of the parameters, (count,)."""
+    known = setting.constants
+    with np.errstate(all="ignore"):
+        found = sympy.lambdify(symbols(known), term, "numpy")(*known.values())
+    return np.broadcast_to(np.asarray(found, float), (setting.count,))
+
+
+def point_names(setting: Setting) -> list[Expr]:
+    return symbols([f"{name}_point" for name in setting.system.state])
+
+
+def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
+    """What to put for some of the parameters and of the point's names, in terms of the others; and
+    the setting, whose premises know of the point these equations and its inequalities.
+    """
+    names, terms = point_names(setting), list(map(expression, setting.point.terms))
+    if not setting.have:
+        return setting, dict(zip(names, terms))
+    at = dict(zip(symbols(setting.system.state), names))
+    put: dict[Expr, Expr] = {}
+    for name, image in zip(names, setting.system.images[setting.piece]):
+        gap = (image.subs(at, simultaneous=True) - name).subs(put, simultaneous=True)
+        factors = [one for one, _ in sympy.factor_list(sympy.numer(sympy.together(gap)))[1]]
+        if not factors:
+            continue
+        zero = min(factors, key=lambda one: np.median(np.abs(at_parameters(setting, one))))
+        for one in [*symbols(setting.system.parameters), *reversed(names)]:
+            if sympy.degree(zero, one) == 1:
+                (solution,) = sympy.solve(zero, one)
+                put = {key: sympy.cancel(t.subs(one, solution)) for key, t in put.items()}
+                put[one] = sympy.cancel(solution)
+                break
+    have = [line for line in setting.have if ">" in line]
+    for one, term in put.items():
+        above, below = map(written, sympy.fraction(sympy.together(term)))
+        have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
+    return replace(setting, have=tuple(have)), put
+
+
+def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr]) -> Expr:
+    """The derivative at the point, in the logarithms of what the ratios are of."""
+    state = symbols(setting.system.state)
+    matrix = sympy.Matrix(setting.system.images[setting.piece]).jacobian(state)
+    n = len(state)
+    scaled = sympy.Matrix(n, n, lambda i, j: matrix[i, j] * origin[j] / origin[i])
+    scaled = scaled.subs(dict(zip(state, point_names(setting))), simultaneous=True)
+    return scaled.subs(put, simultaneous=True).applyfunc(sympy.cancel)
+
+
+@dataclass(frozen=True)
+class Sums:
+    """How the images of the rows are sums of rows and of their opposites.
+
+    matrix: the coefficients c >= 0; signs: 1 for a row, -1 for its opposite, 0 for c = 0.
+    """
+
+    matrix: Expr
+    signs: list[list[int]]
+
+    def used(self, term: int) -> list[int]:
+        """The terms of V that bound the next value of one of them, by their numbers."""
+        size = len(self.signs)
+        side, row = divmod(term, size)
+        return [
+            k + size * ((sign < 0) != (side == 1)) for k, sign in enumerate(self.signs[row]) if sign
+        ]
+
+
+def sums_of(setting: Setting, derivative: Expr, rows: Sequence[Row]) -> Sums | None:
+    """The sums with the least coefficients, or None where there are none, or the spectral radius is
+    not below 1 at all parameters.
+    """
+    images = [_combination(setting, sympy.Matrix([row]) * derivative, rows) for row in rows]
+    found = [image for image in images if image is not None]
+    if len(found) < len(images):
+        return None
+    size = len(rows)
+    signs = [[sign for _, sign in image] for image in found]
+    matrix = sympy.Matrix([[c for c, _ in image] for image in found])
+    numbers = np.stack([at_parameters(setting, one) for one in matrix], axis=1)
+    radius = np.abs(np.linalg.eigvals(numbers.reshape(-1, size, size))).max(axis=1)
+    return Sums(matrix, signs) if (radius < 1).all() else None
+
+
+def weights_of(setting: Setting, matrix: Expr) -> list[list[Expr]]:
+    """Candidates for the weights u with C u < u: sums of the columns of the adjugate of I - C, as
+    they are without common factors, or scaled so that they agree in an entry.
+    """
+    size = matrix.rows
+    adjugate = (sympy.eye(size) - matrix).adjugate().applyfunc(sympy.cancel)
+    columns = [_without_divisors(setting, adjugate[:, k]) for k in range(size)]
+    found: dict[tuple[Expr, ...], None] = {}
+    for entry in (None, *range(size)):
+        if entry is not None and any(column[entry] == 0 for column in columns):
+            continue
+        scaled = [column if entry is None else column / column[entry] for column in columns]
+        total = sum(scaled[1:], scaled[0]).applyfunc(sympy.together)
+        found[tuple(_without_divisors(setting, total))] = None
+    return list(map(list, found))
+
+
+def falls_of(matrix: Expr, weights: Sequence[Expr]) -> list[Expr]:
+    """The shares that the terms of V fall by, close to the point."""
+    pairs = zip(matrix * sympy.Matrix(weights), weights)
+    return [sympy.factor(1 - image / weight) for image, weight in pairs]
+
+
+def factors_of(setting: Setting, terms: Sequence[Expr]) -> list[Expr]:
+    """The factors of numerators and denominators that are not constant, positive."""
+    found = set()
+    for one in terms:
+        for part in sympy.fraction(sympy.together(one)):
+            found |= {factor for factor, _ in sympy.factor_list(part)[1]}
+    signs = {one: at_parameters(setting, one).max() > 0 for one in sorted(found, key=str)}
+    return [one if positive else -one for one, positive in signs.items()]
+
+
+def products_of(setting: Setting, factors: Sequence[Expr]) -> list[tuple[str, Floats]]:
+    """Products of powers of the factors, as text and at the parameters."""
+    texts = [written(one) for one in factors if (at_parameters(setting, one) > 0).all()]
+    return power_products(texts, setting.constants, setting.count)
+
+
+def _combination(
+    setting: Setting, image: Expr, rows: Sequence[Row]
+) -> list[tuple[Expr, int]] | None:
+    """Coefficients >= 0 of rows or their opposites whose sum is the image, the least ones, as they
+    have one sign at all parameters, and these signs; None where there are none.
+    """
+    best: tuple[float, list[tuple[Expr, int]]] | None = None
+    for chosen in itertools.combinations(range(len(rows)), image.cols):
+        basis = sympy.Matrix([rows[k] for k in chosen])
+        if basis.det() == 0:
+            continue
+        found = [(sympy.Integer(0), 0)] * len(rows)
+        total = 0.0
+        for k, one in zip(chosen, (image * basis.inv()).applyfunc(sympy.cancel)):
+            at = at_parameters(setting, one)
+            if not np.isfinite(at).all() or (at.min() < -CLOSE and at.max() > CLOSE):
+                break
+            if np.abs(at).max() > CLOSE:
+                found[k] = (one, 1) if at.max() > CLOSE else (-one, -1)
+            total += float(np.abs(at).mean())
+        else:
+            if best is None or total < best[0] - CLOSE:
+                best = total, found
+    return best and best[1]
+
+
+def _without_divisors(setting: Setting, column: Expr) -> Expr:
+    """The column times a term, so that its entries are positive polynomials, as low as may be."""
+    below = sympy.lcm([sympy.fraction(sympy.together(one))[1] for one in column])
+    column = (column * below).applyfunc(sympy.cancel)
+    column = (column / sympy.gcd(list(column))).applyfunc(lambda one: sympy.factor(one))
+    return column if at_parameters(setting, sum(column)).min() > 0 else -column
+
+
+# -------------------------------------------------------------------------------------------------
+# The statement.
+
+
+def terms_of(
+    setting: Setting,
+    put: dict[Expr, Expr],
+    origin: Sequence[Expr],
+    rows: Sequence[Row],
+    weights: Sequence[Expr],
+) -> list[str]:
+    """The terms (R - 1)/u of V, those of the rows first, then those of their opposites."""
+    names, sizes = setting.system.state, sizes_of(setting, put, origin)
+    terms = []
+    for sign, (row, weight) in itertools.product((1, -1), zip(rows, weights)):
+        above, below = sympy.Integer(1), sympy.Integer(1)
+        for power, one, size in zip(row, origin, sizes):
+            here, there = (one, size) if power * sign > 0 else (size, one)
+            above, below = (above * here, below * there) if power else (above, below)
+        gap = f"{'-' if sign < 0 else ''}{names[row.index(1)]}_gap"
+        top = gap if sum(map(abs, row)) == 1 else written(above - below)
+        terms.append(f"({top})/({written(below * weight)})")
+    return terms
+
+
+def _losses(
+    setting: Setting,
+    put: dict[Expr, Expr],
+    origin: Sequence[Expr],
+    rows: Sequence[Row],
+    weights: Sequence[Expr],
+    falls: Sequence[Expr],
+) -> Iterator[tuple[float, list[tuple[str, str]], list[Expr]]]:
+    """The lines but `on` and `value`, for several shapes of the loss, each with a number that is
+    small where they fit well, and with what is positive in them.
+    """
+    terms = terms_of(setting, put, origin, rows, weights)
+    here, there, samples = values(setting, terms)
+    before, now = here.max(axis=0), there.max(axis=0)
+    if not len(before) or (now > before * (1 + CLOSE)).any():
+        return
+    factors = factors_of(setting, falls)
+    products = products_of(setting, factors)
+    # the least of positive numbers is above 1/(the sum of 1/each), and the greatest below the sum
+    sizes = sizes_of(setting, put, origin)
+    total = sympy.factor(sum(size * weight for size, weight in zip(sizes, weights)))
+    inverses = sum(1 / size for size in set(sizes))
+    radius = sympy.factor(1 / (2 * inverses))
+    upper = sympy.factor(
+        sum(
+            (2 if sum(map(abs, row)) == 1 else 4)
+            * sum(abs(power) / size for power, size in zip(row, sizes))
+            / weight
+            for row, weight in zip(rows, weights)
+        )
+    )
+    fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
+    for power in POWERS:
+        least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
+        for rank, constant in bounded_below(np.minimum(least + CLOSE, fall), products):
+            over = "/(1 + {})" if power else ""
+            lines = [
+                ("loss", f"({constant})*value" + over.format("value")),
+                ("least", f"({constant})*distance/({written(total)})" + over.format("level")),
+                ("upper", written(upper)),
+                ("radius", written(radius)),
+            ]
+            yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
+
+
+def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
+    """What the ratios divide by."""
+    pairs = zip(symbols(setting.system.state), point_names(setting))
+    at = {one: put.get(e, e) for one, e in pairs}
+    return [one.subs(at) for one in origin]
+
+
+def _rule(
+    setting: Setting,
+    name: str,
+    origin: Sequence[Expr],
+    positive: Sequence[Expr],
+    terms: Sequence[str],
+    lines: Sequence[tuple[str, str]],
+) -> MapRule:
+    """The statement, with the licences for what V divides by."""
+    domain, have = setting.domain, list(setting.have)
+    for factor in positive:
+        if checker.names_in(written(factor)) <= set(setting.system.parameters):
+            domain = conjunction(domain, licence(factor, domain))
+        elif not factor.is_Symbol:
+            have.append(f"{written(factor)} > 0")
+    if have:
+        at = dict(zip(symbols(setting.system.state), point_names(setting)))
+        have += [f"{written(one.subs(at))} > 0" for one in origin]
+    strict = [poly for poly, is_strict in atoms(setting.system.space) if is_strict]
+    more = [f"{written(one)} > 0" for one in origin if one not in strict]
+    on = conjunction(setting.system.space, *more)
+    changed = replace(setting, domain=domain, have=tuple(dict.fromkeys(have)))
+    return changed.rule(name, Function(tuple(terms)), [("on", on), *lines])
+
+
+def _gaps(setting: Setting) -> list[str]:
+    """The gaps, of the variables first that the map is not affine in."""
+    names, images = setting.system.state, setting.system.images[setting.piece]
+    affine = {
+        name: all(sympy.cancel(sympy.diff(image, one, 2)) == 0 for image in images)
+        for name, one in zip(names, symbols(names))
+    }
+    return [f"{name}_gap" for name in sorted(names, key=lambda name: affine[name])]
+
+
+def _differences(setting: Setting) -> list[str]:
+    """Where an image is a sum of terms T, by how much T/T(e) differs from one to another: what the
+    means of numbers differ by has the squares of these as factors.
+    """
+    state, names = symbols(setting.system.state), point_names(setting)
+    gaps = symbols([f"{one}_gap" for one in setting.system.state])
+    at = dict(zip(state, names))
+    moved = {one: e + gap for one, e, gap in zip(state, names, gaps)}
+    found: dict[str, None] = {}
+    for image in setting.system.images[setting.piece]:
+        for a, b in itertools.combinations(_parts(setting, image), 2):
+            gap = a * b.subs(at, simultaneous=True) - b * a.subs(at, simultaneous=True)
+            above = sympy.numer(sympy.together(gap)).subs(moved, simultaneous=True)
+            for factor, _ in sympy.factor_list(sympy.expand(above))[1]:
+                if factor.free_symbols & set(gaps) and not factor.is_Symbol:
+                    found[written(factor)] = None
+    return list(found)
+
+
+def _parts(setting: Setting, image: Expr) -> list[Expr]:
+    """The image as a sum of terms of different state variables, without negative ones."""
+    state = symbols(setting.system.state)
+    for one in state:
+        image = sum(sympy.apart(part, one) for part in sympy.Add.make_args(sympy.expand(image)))
+    sums: dict[frozenset[Expr], Expr] = {}
+    for part in sympy.Add.make_args(sympy.expand(image)):
+        own = frozenset(part.free_symbols & set(state))
+        sums[own] = sums.get(own, 0) + part
+    alone = sums.pop(frozenset(), sympy.Integer(0))
+    at = dict(zip(state, point_names(setting)))
+    for own, part in sums.items():
+        if at_parameters(setting, part.subs(at, simultaneous=True)).min() < 0:
+            sums[own], alone = part + alone, sympy.Integer(0)
+    return [one for one in (*sums.values(), alone) if one != 0]

@@ -1,0 +1,57 @@
+"""Greatest weighted ratios to the point, and what proves that they fall."""
+
+from __future__ import annotations
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Proof
+from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.given import of_rule
+from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
+from juggleproof.proofs.stability.ratios import ratio_rules
+from juggleproof.proofs.stability.samples import region, with_licences
+from juggleproof.proofs.stability.search import search_stability
+from juggleproof.proofs.stability.settings import setting_of
+
+PIELOU = ("r*x/(1 + y), x", "r", "r > 1")
+RATIONAL = ("(1 + y)/(q + x), x", "q", "0 < q and q < 3")
+
+
+def rule(piece: str, over: str, domain: str) -> MapRule:
+    space = "x > 0 and y > 0"
+    rows = [("over", over), ("domain", domain), ("state", "x y"), ("space", space)]
+    return MapRule("m", (*rows, ("piece", piece)))
+
+
+def test_a_delayed_map_that_turns_is_stable_holds() -> None:
+    found = search_stability(of_rule(rule(*PIELOU)))
+    assert found.verdict == "stable"
+    assert found.sentence == "(r - 1, r - 1) is stable and attracts every state"
+    values = [text for key, text in found.proof.rules[-1].rows if key == "value"]
+    assert len(values) == 6  # those of x, y and x/y, and of their inverses
+
+
+def test_a_condition_with_a_root_is_found_holds() -> None:
+    system = with_licences(of_rule(rule(*RATIONAL)))
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    (fixed,) = (one for one in fixed_points(system) if one.exists(system, parameters).any())
+    assert narrowed(system, fixed, parameters) == ["q - 1 > 0"]
+    found = search_stability(of_rule(rule(*RATIONAL)))
+    assert found.verdict == "stable"
+    assert found.sentence.endswith("at least where q - 1 > 0")
+
+
+def test_rejects_a_domain_in_which_the_point_is_not_stable() -> None:
+    system = with_licences(of_rule(rule(*RATIONAL)))
+    (fixed,) = fixed_points(system)
+    assert list(ratio_rules(setting_of(system, fixed, system.domain), "m/lyapunov")) == []
+
+
+def test_rejects_a_loss_that_is_too_large() -> None:
+    system = with_licences(of_rule(rule(*PIELOU)))
+    (fixed,) = fixed_points(system)[:1]
+    proof = Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    candidate, searches = next(ratio_rules(setting_of(system, fixed, system.domain), "m/lyapunov"))
+    rows = tuple((key, "value/2" if key == "loss" else text) for key, text in candidate.rows)
+    wrong = MapRule(candidate.name, rows)
+    assert "no proof of the premise falls" in proof.add(wrong, (1,), 100_000, searches=searches)
