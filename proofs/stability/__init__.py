@@ -11,17 +11,9 @@ In reading order, each importing those before it only:
 - `samples`: samples of parameters and states; points that move with the parameters.
 - `points`: fixed points by elimination, and their multipliers.
 - `domains`: for which parameters a fixed point can be stable.
-- `templates`: functions by linear programs on samples.
-- `values`: a point with a part of the domain, and the constants of the rule `lyapunov`.
-- `norms`: polytope norms that piecewise affine maps contract.
-- `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
+- `functions`: functions that fall along all orbits, or grow close to a point.
 - `entering`: boxes that every orbit enters.
-- `envelopes`: functions of one variable, by fractional linear involutions.
-- `two_sided`: functions of one variable, a distance on each side of the point.
-- `part_metric`: greatest weighted distances, with the part metric.
-- `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
-- `ratios`: greatest weighted ratios, with weights that depend on the parameters.
-- `refuting`, `chetaev`: periodic orbits in exact terms, and functions that grow.
+- `refuting`: periodic orbits in exact terms.
 - `settings`: a fixed point with a part of the domain.
 - `attracting`, `failing`: that the point is stable and attracts every state, or not.
 - `search`: all of it, in order, and the outcome.

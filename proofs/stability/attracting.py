@@ -19,34 +19,34 @@ from juggleproof.proofs.stability.certifying import (
     tried,
 )
 from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
-from juggleproof.proofs.stability.envelopes import envelope_rules
+from juggleproof.proofs.stability.functions.envelopes import envelope_rules
+from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
+from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
+from juggleproof.proofs.stability.functions.ratios import ratio_rules
+from juggleproof.proofs.stability.functions.saturated import saturated_rules
+from juggleproof.proofs.stability.functions.templates import (
+    Function,
+    lyapunov_functions,
+    quadratic_templates,
+    sum_of_quotients,
+)
+from juggleproof.proofs.stability.functions.two_sided import two_sided_rules
+from juggleproof.proofs.stability.functions.values import (
+    Setting,
+    equation_rules,
+    lyapunov_rules,
+)
+from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_rules
 from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     renamed,
     written,
 )
-from juggleproof.proofs.stability.norms import is_affine, norm_rules
-from juggleproof.proofs.stability.part_metric import part_metric_rules
-from juggleproof.proofs.stability.ratios import ratio_rules
 from juggleproof.proofs.stability.samples import (
     around,
     region,
 )
-from juggleproof.proofs.stability.saturated import saturated_rules
-from juggleproof.proofs.stability.templates import (
-    Function,
-    lyapunov_functions,
-    quadratic_templates,
-    sum_of_quotients,
-)
-from juggleproof.proofs.stability.two_sided import two_sided_rules
-from juggleproof.proofs.stability.values import (
-    Setting,
-    equation_rules,
-    lyapunov_rules,
-)
-from juggleproof.proofs.stability.weighted_sums import weighted_sum_rules
 
 SIGNS_BUDGET = 1_000_000
 MOST_WORK = 4_000_000  # on all candidates of a kind
@@ -65,15 +65,12 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     """Whether the point is certified to be stable and to attract every state, of the space or of a
     box that all orbits enter.
     """
-    if by_shape(proof, setting, log):
-        return True
     boxes = boxes_of(setting.system)
-    if not boxes:
-        return by_samples(proof, setting, log)
-    inner = within(setting, boxes[-1])
-    if by_shape(proof, inner, log) or by_samples(proof, inner, log):
-        return proof.add_all(entering_rules(setting, boxes, setting.system.name), EFFORTS, log)
-    return False
+    part = within(setting, boxes[-1]) if boxes else setting
+    if not by_shape(proof, part, log) and not by_samples(proof, part, log):
+        return False
+    rules = entering_rules(setting, boxes, setting.system.name) if boxes else []
+    return proof.add_all(rules, EFFORTS, log)
 
 
 def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:

@@ -10,9 +10,9 @@ from dataclasses import replace
 import sympy
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import Expr, Map, atoms, conjunction, symbols, written
 from juggleproof.proofs.stability.samples import around
-from juggleproof.proofs.stability.values import Setting
 
 EACH = 40  # samples for each of the parameters
 

@@ -13,7 +13,8 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
-from juggleproof.proofs.stability.chetaev import chetaev_rules
+from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
     checker_text,
@@ -30,7 +31,6 @@ from juggleproof.proofs.stability.refuting import (
     words_of_stray_orbits,
 )
 from juggleproof.proofs.stability.settings import setting_of
-from juggleproof.proofs.stability.values import Setting
 
 GROWTH_ROUNDS, GROWTH_WORK = (((1, 2), 50_000), (EFFORTS, 400_000)), 2_000_000  # for instability
 MOST_RATES = 6  # of growth

@@ -12,8 +12,10 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import Setting, bounded_below
 from juggleproof.proofs.stability.given import Map, expression, holds, symbols, value
-from juggleproof.proofs.stability.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.points import as_point, solutions
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -24,8 +26,6 @@ from juggleproof.proofs.stability.samples import (
     with_point_licences,
     without_equations,
 )
-from juggleproof.proofs.stability.templates import Function
-from juggleproof.proofs.stability.values import Setting, bounded_below
 
 LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first

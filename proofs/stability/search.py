@@ -34,6 +34,8 @@ from juggleproof.proofs.stability.failing import (
     refuted,
     sharp,
 )
+from juggleproof.proofs.stability.functions.norms import local_rules
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
     conjunction,
@@ -42,7 +44,6 @@ from juggleproof.proofs.stability.given import (
     renamed,
     written,
 )
-from juggleproof.proofs.stability.norms import local_rules
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
 from juggleproof.proofs.stability.samples import (
     divides,
@@ -50,7 +51,6 @@ from juggleproof.proofs.stability.samples import (
     with_licences,
 )
 from juggleproof.proofs.stability.settings import setting_of
-from juggleproof.proofs.stability.values import Setting
 
 MOST_REFUTED = 3  # fixed points
 LOCAL_TRIED = 3  # statements of states close to a point

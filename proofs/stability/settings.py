@@ -8,6 +8,7 @@ import numpy as np
 import sympy
 
 from juggleproof.proofs.stability.certifying import beyond, is_certified
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
@@ -25,7 +26,6 @@ from juggleproof.proofs.stability.samples import (
     region,
     with_point_licences,
 )
-from juggleproof.proofs.stability.values import Setting
 
 STATES = 40  # samples for each of the parameters
 

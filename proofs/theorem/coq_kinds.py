@@ -219,7 +219,7 @@ intros of_s of_there of_within.
       [$same].""",
     },
     ("map", "relation"): {
-        "into": "Executions.map_into",
+        "into": "RelationInto.map_into",
         "same_step": "Inner.Relation.next$a of_s (Map.f$a of_s)",
         "agree": """\
 intros of_s of_there of_within.
@@ -227,7 +227,7 @@ intros of_s of_there of_within.
       [$moves].""",
     },
     ("relation", "relation"): {
-        "into": "Executions.relation_into",
+        "into": "RelationInto.relation_into",
         "same_step": "Relation.next$a of_s of_t -> Inner.Relation.next$a of_s of_t",
         "agree": """\
 intros of_s of_t of_there of_within of_moves.

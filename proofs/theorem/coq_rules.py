@@ -146,6 +146,8 @@ def _theory(statements: Sequence[checker.Statement]) -> str:
         modules["Executions"] = "Relation.v"
         if has_ranks:
             modules["RelationRanks"] = "RelationRanks.v"
+        if "into" in rules:
+            modules["RelationInto"] = "RelationInto.v"
     imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
     rows = ["From Coq Require Import Reals ZArith Lra Lia List.", "Open Scope R_scope.\n"]
     rows += [imports.sub("", text) for text in (PRELUDE, (ORBITS / "Readings.v").read_text())]

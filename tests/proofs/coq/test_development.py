@@ -95,8 +95,10 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
         "Relation.relation_lyapunov_stability",
         "Relation.relation_lyapunov_attraction",
         "Relation.relation_attraction",
-        "Relation.relation_into_attraction",
-        "Relation.relation_into_stability",
+        "RelationInto.relation_into_attraction",
+        "RelationInto.relation_into_stability",
+        "RelationInto.map_into_attraction",
+        "RelationInto.map_into_stability",
         "Existence.execution_is_orbit",
         "Existence.table_exists",
         "Existence.ball_exists",
@@ -110,7 +112,7 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
     everything = ", ".join(f"@{name}" for name in asked)
     text = (
         "From Juggleproof Require Rules Ranks Lists RulesInFull Lyapunov Relation RelationRanks"
-        " Statements Existence FromPhysics.\n"
+        " RelationInto Statements Existence FromPhysics.\n"
         f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
     )
     result = compiled(development, "Asked.v", text)

@@ -14,7 +14,7 @@ from hypothesis import strategies as some
 
 from juggleproof.certificates.store import STATEMENTS
 from juggleproof.proofs.command.check import check
-from juggleproof.proofs.stability.envelopes import Envelope, lyapunov_rules
+from juggleproof.proofs.stability.functions.envelopes import Envelope, lyapunov_rules
 from juggleproof.proofs.stability.given import read_rows, value
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.search import setting_of

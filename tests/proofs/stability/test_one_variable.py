@@ -14,14 +14,14 @@ from juggleproof.certificates.algebra.polynomials import Packing, Ring
 from juggleproof.certificates.search.psatz.linear_program import Program, normal_forms
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.stability.certifying import Proof
-from juggleproof.proofs.stability.chetaev import cone_functions
 from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.functions.chetaev import cone_functions
+from juggleproof.proofs.stability.functions.two_sided import two_sided_rules
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import Map, read_rows
 from juggleproof.proofs.stability.points import PARAMETERS, fixed_points, roots_of
 from juggleproof.proofs.stability.samples import region
 from juggleproof.proofs.stability.settings import setting_of
-from juggleproof.proofs.stability.two_sided import two_sided_rules
-from juggleproof.proofs.stability.values import Setting
 from tests.proofs.command import running
 
 STABLE = "is stable and attracts every state"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Proof
 from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.functions.ratios import ratio_rules
 from juggleproof.proofs.stability.given import of_rule
 from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
-from juggleproof.proofs.stability.ratios import ratio_rules
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.search import search_stability
 from juggleproof.proofs.stability.settings import setting_of

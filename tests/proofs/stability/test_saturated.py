@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from juggleproof.proofs.stability.functions.saturated import saturated_rules
 from juggleproof.proofs.stability.given import Map, read_file, read_rows
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
-from juggleproof.proofs.stability.saturated import saturated_rules
 from juggleproof.proofs.stability.search import PARAMETERS, Proof, setting_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -11,12 +11,12 @@ from itertools import islice
 import numpy as np
 import pytest
 
+from juggleproof.proofs.stability.functions.templates import Sides
+from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_rules
 from juggleproof.proofs.stability.given import Map, read_rows
 from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.search import Outcome, Proof, search_stability, setting_of
-from juggleproof.proofs.stability.templates import Sides
-from juggleproof.proofs.stability.weighted_sums import weighted_sum_rules
 
 
 def lozi(domain: str) -> Map:

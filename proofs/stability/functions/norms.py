@@ -13,14 +13,14 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, holds, symbols
-from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.templates import (
+from juggleproof.proofs.stability.functions.templates import (
     Function,
     program,
     signed,
 )
-from juggleproof.proofs.stability.values import Setting, derivatives
+from juggleproof.proofs.stability.functions.values import Setting, derivatives
+from juggleproof.proofs.stability.given import Map, holds, symbols
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
 
 MOST_ROWS = 24
 CORNERS = 24  # parameters at which rows are carried back

@@ -15,6 +15,12 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import (
+    Setting,
+    bounded_below,
+    inverse,
+)
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Expr,
@@ -37,12 +43,6 @@ from juggleproof.proofs.stability.samples import (
     region,
     with_licences,
     with_point_licences,
-)
-from juggleproof.proofs.stability.templates import Function
-from juggleproof.proofs.stability.values import (
-    Setting,
-    bounded_below,
-    inverse,
 )
 
 SLOPES = (0, 1, 2, 3)  # of the involutions that are tried for all maps

@@ -16,14 +16,14 @@ from fractions import Fraction
 import numpy as np
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Map, as_factor, bounds, renamed, value
-from juggleproof.proofs.stability.samples import Floats, Samples, after
-from juggleproof.proofs.stability.templates import Function, signed
-from juggleproof.proofs.stability.values import (
+from juggleproof.proofs.stability.functions.templates import Function, signed
+from juggleproof.proofs.stability.functions.values import (
     Setting,
     bounded_below,
     small_balls,
 )
+from juggleproof.proofs.stability.given import Map, as_factor, bounds, renamed, value
+from juggleproof.proofs.stability.samples import Floats, Samples, after
 
 WEIGHTS = tuple(Fraction(n, d) for n, d in ((1, 1), (9, 10), (3, 4), (2, 3), (1, 2), (1, 4)))
 SWEEPS = 3  # over all weights

@@ -17,6 +17,20 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.templates import (
+    Function,
+    Template,
+    best_weights,
+    products_of_gaps,
+    rounded,
+    signed,
+)
+from juggleproof.proofs.stability.functions.values import (
+    Setting,
+    bounded_below,
+    derivatives,
+    lyapunov_form,
+)
 from juggleproof.proofs.stability.given import (
     as_factor,
     conjunction,
@@ -27,20 +41,6 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.templates import (
-    Function,
-    Template,
-    best_weights,
-    products_of_gaps,
-    rounded,
-    signed,
-)
-from juggleproof.proofs.stability.values import (
-    Setting,
-    bounded_below,
-    derivatives,
-    lyapunov_form,
-)
 
 EACH = 60  # states at each of the parameters
 SMALL = 1e-4  # distance at which the higher terms do not count

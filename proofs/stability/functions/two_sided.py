@@ -15,7 +15,9 @@ from itertools import product
 import numpy as np
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.envelopes import SIZES, equation_of
+from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
 from juggleproof.proofs.stability.given import (
     as_factor,
     bounds,
@@ -23,8 +25,6 @@ from juggleproof.proofs.stability.given import (
     renamed,
 )
 from juggleproof.proofs.stability.samples import Samples, ends_of
-from juggleproof.proofs.stability.templates import Function
-from juggleproof.proofs.stability.values import Setting, bounded_below, small_balls
 
 POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function

@@ -11,20 +11,20 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
-from juggleproof.proofs.stability.samples import around, region
-from juggleproof.proofs.stability.templates import (
+from juggleproof.proofs.stability.functions.templates import (
     Function,
     best_weights,
     margins,
     quadratic_templates,
     rounded,
 )
-from juggleproof.proofs.stability.values import (
+from juggleproof.proofs.stability.functions.values import (
     Setting,
     bounded_below,
     small_balls,
 )
+from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
+from juggleproof.proofs.stability.samples import around, region
 
 LOSSES = 2  # candidates for the constant of a loss
 FUNCTIONS = 2

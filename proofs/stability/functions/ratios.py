@@ -26,6 +26,13 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import (
+    Setting,
+    bounded_below,
+    power_products,
+)
 from juggleproof.proofs.stability.given import (
     Expr,
     atoms,
@@ -35,14 +42,7 @@ from juggleproof.proofs.stability.given import (
     symbols,
     written,
 )
-from juggleproof.proofs.stability.part_metric import CLOSE, values
 from juggleproof.proofs.stability.samples import Floats, licence
-from juggleproof.proofs.stability.templates import Function
-from juggleproof.proofs.stability.values import (
-    Setting,
-    bounded_below,
-    power_products,
-)
 
 Row = tuple[int, ...]
 

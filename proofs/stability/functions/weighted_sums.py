@@ -10,6 +10,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.templates import (
+    Function,
+    Sides,
+    lyapunov_functions,
+)
+from juggleproof.proofs.stability.functions.values import (
+    Setting,
+    bounded_below,
+    small_balls,
+)
 from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
@@ -19,16 +29,6 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.samples import Arrays, around, region
-from juggleproof.proofs.stability.templates import (
-    Function,
-    Sides,
-    lyapunov_functions,
-)
-from juggleproof.proofs.stability.values import (
-    Setting,
-    bounded_below,
-    small_balls,
-)
 
 TRIED = 2  # of each kind
 WORST = 4.0  # rank that is tried

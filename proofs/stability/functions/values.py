@@ -19,6 +19,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.templates import Function, squares_of
 from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
@@ -31,7 +32,6 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples
-from juggleproof.proofs.stability.templates import Function, squares_of
 
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
 FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a number
@@ -319,6 +319,12 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
     candidates = ["1"] if function.divisor == "1" else []
     if function.divisor != "1":
         candidates += [f"({e})/2" for e in setting.point.terms]
+    if setting.outer:  # how far the bounds are that the space adds
+        names = [f"{one}_point" for one in setting.system.state]
+        put = dict(zip(symbols(setting.system.state), symbols(names)))
+        given = atoms(setting.outer)
+        added = [one for one in atoms(setting.system.space) if one not in given]
+        candidates += [written(bound.subs(put)) for bound, _ in added]
     candidates += [text for text, _ in setting.products[:8] if text != "1"]
     for radius in candidates:
         with np.errstate(all="ignore"):

@@ -1,0 +1,16 @@
+"""Functions that fall along all orbits of a map, or grow close to a point, as statements with their
+constants; found in floats, and believed by nobody.
+
+In reading order, each importing those before it only:
+
+- `templates`: sums of terms by linear programs on samples.
+- `values`: a point with a part of the domain, and the constants of the rule `lyapunov`.
+- `norms`: polytope norms that piecewise affine maps contract.
+- `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
+- `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
+- `envelopes`: functions of one variable, by fractional linear involutions.
+- `two_sided`: functions of one variable, a distance on each side of the point.
+- `part_metric`: greatest weighted distances, with the part metric.
+- `ratios`: greatest weighted ratios, with weights that depend on the parameters.
+- `chetaev`: functions that grow, quadratic or linear in a cone.
+"""
