@@ -8,6 +8,7 @@ The files and folders, each after those that it imports:
 - `one_variable`: states over one variable, all of them
 - `over_box`: one fact over the box of the others; rule `boxes`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
+- `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns
 - `samples`: exact values for all variables of a condition

@@ -27,16 +27,17 @@ def boxes_of(system: Map) -> list[str]:
     ['x <= 1 and x >= -1', 'x <= 1 and x >= -1 and y <= 1/2 and y >= -1/2']
     """
     found: list[str] = []
-    inside = system.space
-    for _ in range(len(system.state) + 1):
+    inside, known = system.space, {bound for bound, _ in atoms(system.space)}
+    state = symbols(system.state)
+    for _ in range(len(state) + 1):
         rows = []
         for place, name in enumerate(system.state):
             for side, relation in ((1, "<="), (-1, ">=")):
                 end = _end(system, place, side, inside)
-                if end is not None:
+                if end is not None and sympy.expand(side * (end - state[place])) not in known:
                     rows.append(f"{name} {relation} {written(end)}")
         box = conjunction(*rows)
-        if not rows or found and box == found[-1] or set(atoms(box)) <= set(atoms(system.space)):
+        if not rows or found and box == found[-1]:
             break
         found.append(box)
         inside = conjunction(system.space, box)
