@@ -55,10 +55,10 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
 def jumps(system: Map, fixed: FixedPoint, term: Expr) -> bool:
     """Whether no other piece takes the point to itself too where the term, of a guard, is 0."""
     at = dict(zip(symbols(system.state), fixed.terms))
+    zeros = sympy.numer(sympy.together(term))
     for images in system.images[: fixed.piece] + system.images[fixed.piece + 1 :]:
         gaps = [image.xreplace(at) - e for image, e in zip(images, fixed.terms)]
         shares = [sympy.cancel(sympy.together(gap / term)) for gap in gaps]
-        zeros = sympy.numer(sympy.together(term))
         if all(sympy.gcd(sympy.denom(one), zeros) == 1 for one in shares):
             return False
     return True

@@ -84,8 +84,8 @@ def within(setting: Setting, box: str) -> Setting:
 
 
 def entering_rules(setting: Setting, boxes: Sequence[str], name: str) -> list[MapRule]:
-    """The statements that every orbit enters the last box, and that what attracts the box attracts
-    the whole space.
+    """The statements that every orbit enters the last box, if there is one, and that the point
+    attracts the whole space.
     """
     stages = [conjunction(setting.system.space, box) for box in boxes]
     return [

@@ -13,6 +13,7 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
+from juggleproof.proofs.stability.entering import entering_rules
 from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
@@ -84,22 +85,8 @@ def sharp(
     """Whether stability and attraction on one part of the domain, and their failure on the rest,
     are put together.
     """
-    system, name = setting.system, setting.system.name
-    descends = (
-        ("map", f"{name}/map"),
-        ("domain", setting.domain),
-        ("rank", "0"),
-        ("stage", system.space),
-    )
-    rules = [
-        MapRule(f"{name}/descends", descends),
-        MapRule(
-            f"{name}/attracts",
-            (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov")),
-        ),
-    ]
-    if f"{name}/attracts" in proof.known:
-        rules = []
+    name = setting.system.name
+    rules = [] if f"{name}/attracts" in proof.known else entering_rules(setting, (), name)
     exactly = MapRule(f"{name}/exactly", (("attraction", f"{name}/attracts"), *refutations))
     for rule in [*rules, exactly]:
         fault = "" if rule.name in proof.known else proof.add(rule)
