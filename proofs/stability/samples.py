@@ -270,4 +270,5 @@ def strays(system: Map, states: Arrays, least: float) -> Bools:
     than this; also where the orbit has left all pieces.
     """
     gaps = [np.abs(states[n + "_gap"]) / (1 + np.abs(states[n + "_point"])) for n in system.state]
-    return np.logical_not(np.stack(gaps).max(axis=0) <= least)
+    worst: Floats = np.max(gaps, axis=0)
+    return np.logical_not(worst <= least)
