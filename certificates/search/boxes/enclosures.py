@@ -297,7 +297,7 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Bounds | 
     low, high = best.bounds
     for bound, top, point in [
         (best.exact, best.exact, best.point),
-        *([(low, high, _shorter(best))] if best.width else []),
+        *([(low, high, _shorter(best, best.width / SHARE))] if best.width else []),
     ]:
         program = program_around(
             problem.terms,
@@ -314,9 +314,9 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Bounds | 
     return None
 
 
-def _shorter(best: Best) -> Point:
-    """A point about as good as the best one, with short binary numbers: around it squares are
-    shorter.
+def _shorter(best: Best, slack: Fraction) -> Point:
+    """A point whose value is at most `slack` above the best one's, with short binary numbers:
+    around it squares are shorter.
     """
     for bits in range(2, 200, 2):
         unit = Fraction(1, 2**bits)
@@ -324,7 +324,7 @@ def _shorter(best: Best) -> Point:
             min(max(rounded_down(x + unit / 2, unit), low), high)
             for x, (low, high) in zip(best.point, best.box)
         )
-        if value_at(best.terms, point) <= best.exact + best.width / SHARE:
+        if value_at(best.terms, point) <= best.exact + slack:
             return point
     return best.point
 
@@ -348,3 +348,64 @@ def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> 
         if prove(low, node):
             return Bounds(low, best.exact, best.point, node, done, best.exact - low <= best.width)
     return None
+
+
+# -------------------------------------------------------------------------------------------------
+# A bound that is asked: that a polynomial is nowhere negative, or everywhere positive, on a box.
+
+
+def search_positive(problem: Problem, weakly: bool, most: int, budget: Budget) -> Node | None:
+    """A node of a tree of at most `most` boxes, or of squares, that closes p < 0, or p <= 0 where
+    not `weakly`; None where p has such a value at a point, or none was found.
+
+    Squares close p < 0 also where p <= 0 is asked: then a number is added to them.
+
+    Raises Exhausted where the budget ends.
+    """
+    best = Best(problem.terms, problem.box, Fraction(0))
+
+    def target() -> Fraction:
+        """A number that all coefficients are to reach; any, where there is no such number."""
+        return best.exact / 16 if best.exact > 0 and not weakly else min(best.exact, Fraction(0))
+
+    def is_open() -> bool:
+        return best.exact > 0 or weakly and not best.exact
+
+    tried = False
+    for exact in (False, True):
+        branching = Branching(problem.terms, problem.box, target, best.offer, exact)
+        boxes, cost = 1, 2 + branching.numbers.root.size // 200
+        for most_here in (min(QUICK, most), min(most, branching.affordable())):
+            tree = branching.run(most_here) if is_open() else None
+            if tree is None or not is_open():
+                return None
+            budget.spend((tree.boxes - boxes) * cost)
+            boxes = tree.boxes
+            if tree.reached:
+                return "boxes", problem.goal, problem.facts, tree.text
+            node = None if tried else _squares_above(problem, best, target(), budget)
+            tried = True
+            if node is not None:
+                return node
+    return None
+
+
+def _squares_above(
+    problem: Problem, best: Best, bound: Fraction, budget: Budget
+) -> Node | None:
+    """Squares that show that p is at least the bound, by the fact -p > 0, or -p >= 0 where the
+    bound is positive.
+    """
+    point = best.point if best.exact == bound else _shorter(best, (best.exact - bound) / SHARE)
+    gap = value_at(problem.terms, point) - bound
+    program = program_around(
+        problem.terms, problem.box, point, problem.names, problem.facts, problem.goal, gap
+    )
+    node = search_squares([program], budget) if program else None
+    if node is None or node[0] != "psatz":
+        return None
+    own = ((problem.goal, 1),)
+    more = [
+        (str(Fraction(c) * bound), (), "1") for c, factors, _ in node[1] if factors == own and bound
+    ]
+    return "psatz", [*node[1], *more], []
