@@ -18,6 +18,7 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
+from juggleproof.certificates.search.box_cases import close_by_cuts
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.one_variable import (
     HOLDS,
@@ -231,6 +232,7 @@ class Closing:
                 close_over_box(inside, FEW_BOXES, self.budget)
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
+                or (None if depth else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))

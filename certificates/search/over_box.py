@@ -68,7 +68,8 @@ def facts_over_box(state: State) -> Iterator[FactOverBox]:
         if relation in (">", ">=") and poly.deg > 1 and used <= bounds.keys():
             names = [name for name in state.context.index if name in used]
             own = [bounds[name] for name in names]
-            fact = FactOverBox(index, relation == ">", names, own, _opposite(state, poly, names))
+            opposite = {e: -c for e, c in terms_of(state, poly, names).items()}
+            fact = FactOverBox(index, relation == ">", names, own, opposite)
             if fact.size <= MOST_COEFFICIENTS:
                 yield fact
 
@@ -117,9 +118,10 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
         middle, size, constant = fact.middle(), fact.size, (0,) * len(fact.names)
         for margin in (Fraction(0),) if fact.strict else MARGINS:
             letters = min(most, budget.left // size)
+            budget.spend(10)
             if middle < 0 or letters < 1:
                 break
-            budget.spend(10 + size)
+            budget.spend(size)
             above = fact.opposite.get(constant, Fraction(0)) - margin * middle
             tree = search_tree({**fact.opposite, constant: above}, fact.box, letters)
             if tree is not None:
@@ -129,11 +131,11 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
     return None
 
 
-def _opposite(state: State, poly: checker.Poly, names: list[str]) -> dict[Exponents, Fraction]:
-    """The opposite of a polynomial, by the exponents of its variables."""
+def terms_of(state: State, poly: checker.Poly, names: list[str]) -> dict[Exponents, Fraction]:
+    """A polynomial by the exponents of its variables."""
     shifts = [checker.BITS * state.context.index[name] for name in names]
     mask = (1 << checker.BITS) - 1
     return {
-        tuple((packed >> shift) & mask for shift in shifts): Fraction(-c, poly.den)
+        tuple((packed >> shift) & mask for shift in shifts): Fraction(c, poly.den)
         for packed, c in poly.terms.items()
     }
