@@ -117,7 +117,8 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
     for fact in facts_over_box(state):
         middle, size, constant = fact.middle(), fact.size, (0,) * len(fact.names)
         for margin in (Fraction(0),) if fact.strict else MARGINS:
-            letters = min(most, budget.left // size)
+            # faces, of which each is a part of the box before, cost no more than two boxes
+            letters = min(most, max(budget.left // size, 2 * len(fact.names)))
             budget.spend(10)
             if middle < 0 or letters < 1:
                 break
@@ -125,7 +126,7 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
             above = fact.opposite.get(constant, Fraction(0)) - margin * middle
             tree = search_tree({**fact.opposite, constant: above}, fact.box, letters)
             if tree is not None:
-                budget.spend(len(tree) * size // 10)
+                budget.spend((2 + sum(map(str.islower, tree))) * size // 10)
                 return "boxes", fact.index, fact.facts, tree
             budget.spend(letters * size // 50)
     return None
