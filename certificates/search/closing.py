@@ -59,7 +59,7 @@ MOST_FOR_BOTH = 9  # facts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
-MOST_BOXES = 20_000  # of a tree that is sought beside sums of squares
+MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -220,8 +220,8 @@ class Closing:
         node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
-            node = close_by_bounds(inside, MOST_BOXES, self.budget)
-            node = node or close_by_variables(inside, problem.ring, self.budget)
+            node = close_by_variables(inside, problem.ring, self.budget)
+            node = node or close_by_bounds(inside, MOST_BOXES, self.budget)
             node = node or search_squares(programs, self.budget)
         elif (
             node is None

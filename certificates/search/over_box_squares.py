@@ -4,6 +4,7 @@ point where the fact is closest to hold.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import prod
 
@@ -30,7 +31,7 @@ def close_by_bounds(state: State, most: int, budget: Budget) -> Node | None:
     return None
 
 
-def _of_the_state(fact: FactOverBox, products: list[Product]) -> Node:
+def _of_the_state(fact: FactOverBox, products: Sequence[Product]) -> Node:
     """The same squares for the facts as the state has them: bounds with their slopes, and -p, which
     is a number less than what the squares close where p >= 0 is the fact.
     """

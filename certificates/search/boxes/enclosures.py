@@ -435,7 +435,8 @@ def search_positive(problem: Problem, weakly: bool, most: int, budget: Budget) -
     tried = False
     for exact in (False, True):
         branching = Branching(problem.terms, problem.box, target, best.offer, exact)
-        boxes, cost = 1, 2 + branching.numbers.root.size // 200
+        boxes, size = 1, branching.numbers.root.size
+        cost = 40 + size // 2 if exact else 10 + size // 50
         for most_here in (min(QUICK, most), min(most, branching.affordable())):
             tree = branching.run(most_here) if is_open() else None
             if tree is None or not is_open():
@@ -451,9 +452,7 @@ def search_positive(problem: Problem, weakly: bool, most: int, budget: Budget) -
     return None
 
 
-def _squares_above(
-    problem: Problem, best: Best, bound: Fraction, budget: Budget
-) -> Node | None:
+def _squares_above(problem: Problem, best: Best, bound: Fraction, budget: Budget) -> Node | None:
     """Squares that show that p is at least the bound, by the fact -p > 0, or -p >= 0 where the
     bound is positive.
     """

@@ -46,6 +46,29 @@ def test_a_minimum_over_a_box_is_proved_below_and_met_above_holds(
     assert words == ["unsat", "sat"]
 
 
+# minima that small trees do not reach: of the extended valley of Rosenbrock, which is 0; and a
+# product of many variables
+VALLEY = " + ".join(f"100*(x{k + 1} - x{k}^2)^2 + (1 - x{k})^2" for k in range(3))
+PRODUCT = (
+    "*".join(f"(1 - x{k})" for k in range(12)) + " + " + " + ".join(f"x{k}" for k in range(12))
+)
+
+
+@pytest.mark.parametrize(
+    "text, count, end, least, relation",
+    [(VALLEY, 4, 2, "0", "<"), (VALLEY, 4, 2, "-1/1000", "<="), (PRODUCT, 12, 1, "1", "<")],
+)
+def test_a_bound_that_takes_squares_or_large_forms_is_proved_holds(
+    text: str, count: int, end: int, least: str, relation: str
+) -> None:
+    names = [f"x{k}" for k in range(count)]
+    inside = " and ".join(f"{1 - end} <= {name} and {name} <= {end}" for name in names)
+    formula = f"not ({inside} and {text} {relation} {least})"
+    assert answer(
+        Question("f/c", (f"statement f/c\nforall {' '.join(names)}\nshow {formula}",))
+    ).word == ("unsat")
+
+
 def test_the_closest_bounds_are_taken_holds() -> None:
     one = state("x > 0 and 2*x >= 1 and x <= 3 and x < 2 and y >= 0 and z >= 1 and z <= 1", "xyz")
     ((name, (low, high)),) = box_of(one).items()
