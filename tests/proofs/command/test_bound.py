@@ -110,7 +110,7 @@ def test_a_larger_budget_comes_at_least_as_far() -> None:
     assert widths == sorted(widths, reverse=True) and widths[-1] <= Fraction(1, 10**9)
 
 
-# a polynomial whose least value is met on a curve, at irrational points, or at four points, and that
+# a polynomial whose least value is met on a curve or at several points, an end of its box, and that
 # value
 VALLEYS = {
     "a square": ("(x^2 + y^2 - 1/2)^2", 1, Fraction(0)),
