@@ -13,7 +13,7 @@ from juggleproof.proofs.smtlib.answering import Question, answer
 UNIT = "x >= 0 and x <= 1 and y >= 0 and y <= 1"
 CLOSED = {
     "two curves": f"{UNIT} and x^2 + y^2 >= 1 and x + y <= 99/100",
-    "an equation": "x >= 0 and x <= 2 and y >= 0 and y <= 2 and x^3 + y^3 = 3*x*y and x + y >= 31/10",
+    "an equation": "x*(2 - x) >= 0 and y*(2 - y) >= 0 and x^3 + y^3 = 3*x*y and x + y >= 31/10",
     "sides in products": "(x - 1)*(3 - x) >= 0 and (y + 1)*(2 - y) >= 0 and x*y^2 - x >= 93/10",
     "a square for a side": "x^2 <= 2 and y^2 < 3 and x^3*y > 5 and x + y <= 4",
     "a ball": "x^2 + y^2 <= 1/2 and 100*(y - x^2)^2 + (1 - x)^2 <= 1/10",
