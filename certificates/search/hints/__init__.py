@@ -1,0 +1,7 @@
+"""What Z3 and floats suggest; none of it is believed.
+
+The files, each after those that it imports:
+
+- `asking`: Z3's vote on a condition, and its model
+- `models`: values near which floats or Z3 see a solution
+"""
