@@ -15,7 +15,7 @@ from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.nodes import Adjoined, Node, Values, values_at
 from juggleproof.certificates.search.closing import AdjoinedNumber, close_at_number, search_closing
 from juggleproof.certificates.search.families import cover
-from juggleproof.certificates.search.hints.asking import RESOURCES, ask
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.hints.models import (
     approximate_points,
     model_assignments,
@@ -222,7 +222,7 @@ def assignments(
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
     if len(condition.variables()) >= MANY and not many:
         # Sampling would try few of so many values: models are asked for first.
-        yield from whole_models(condition, names, integers, budget, RESOURCES)
+        yield from whole_models(condition, names, integers, budget, roles)
     for width, last, nodes, irrational in ROUNDS[effort]:
         yield from Sampler(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
@@ -232,10 +232,10 @@ def assignments(
             answer = ask(condition, budget, integers, 100_000).verdict
             if answer == "unsat":
                 return
-            if answer != "unsat" and not many:
-                yield from whole_models(condition, names, integers, budget, RESOURCES)
             if answer == "sat" and not many:
                 yield from model_assignments(condition, names, integers, budget, effort, roles)
+            if not many:
+                yield from whole_models(condition, names, integers, budget, roles)
 
 
 def values_of_assignment(

@@ -3,5 +3,6 @@
 The files, each after those that it imports:
 
 - `asking`: Z3's vote on a condition, and its model
+- `few_values`: points where some variables have few values and the others are linear
 - `models`: values near which floats or Z3 see a solution
 """

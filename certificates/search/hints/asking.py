@@ -38,9 +38,8 @@ def ask(
     resources: int = RESOURCES,
     model: bool = False,
     unreachable: tuple[Condition, Sequence[str]] | None = None,
-    engine: str = "qfnra-nlsat",
 ) -> Answer:
-    """Z3's answer within a fixed amount of its own work, by one of its tactics for real variables.
+    """Z3's answer within a fixed amount of its own work.
 
     `unreachable`, a condition with some of its variables, asks besides that no values of these meet
     it.
@@ -49,11 +48,11 @@ def ask(
         return Answer("sat" if condition.tree else "unsat")
     names = [name for name in condition.ring.names() if name in condition.variables()]
     whole = frozenset(integers) & set(names)
-    session = _session(budget)
+    session = session_of(budget)
     solver = (
         z3.Solver(ctx=session.context)
         if whole
-        else z3.Tactic("nlqsat" if unreachable else engine, ctx=session.context).solver()
+        else z3.Tactic("nlqsat" if unreachable else "qfnra-nlsat", ctx=session.context).solver()
     )
     solver.set("rlimit", resources)
     rows = [f"(declare-const |{name}| {_sort(name, whole)})" for name in names]
@@ -82,7 +81,7 @@ def ask(
     )
 
 
-class _Session:
+class Session:
     """A context of Z3 that the questions of one search share, since it takes longer to make one
     than to answer most of them.
     """
@@ -106,16 +105,16 @@ class _Session:
         return max(0, spent)
 
 
-_sessions: WeakKeyDictionary[Budget, _Session] = WeakKeyDictionary()
+_sessions: WeakKeyDictionary[Budget, Session] = WeakKeyDictionary()
 
 
-def _session(budget: Budget) -> _Session:
+def session_of(budget: Budget) -> Session:
     """The session of the whole search that a budget belongs to."""
     whole = budget
     while whole.whole is not None:
         whole = whole.whole
     if whole not in _sessions:
-        _sessions[whole] = _Session()
+        _sessions[whole] = Session()
     return _sessions[whole]
 
 

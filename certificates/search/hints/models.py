@@ -13,7 +13,8 @@ from juggleproof.certificates.algebra.number_field import common_field
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, simplest_between
 from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.candidates import Value, trials
-from juggleproof.certificates.search.hints.asking import ask
+from juggleproof.certificates.search.hints.asking import RESOURCES, ask
+from juggleproof.certificates.search.hints.few_values import point_by_few_values
 from juggleproof.certificates.search.samples import Assignment, Sampler
 from juggleproof.certificates.work import Budget
 
@@ -21,8 +22,6 @@ from juggleproof.certificates.work import Budget
 # Points where sampling fails: a model of Z3, its values pinned one after another to the simplest
 # that leave the rest possible.
 
-# cells by sign; then clauses and linear parts first, which many clauses ask for
-ENGINES = ("qfnra-nlsat", "smt")
 WINDOWS = tuple(fmpq(1, 4**k) for k in range(6))
 
 
@@ -64,15 +63,18 @@ def whole_models(
     names: Sequence[str],
     integers: frozenset[str],
     budget: Budget,
-    resources: int,
+    roles: Roles,
 ) -> Iterator[Assignment]:
-    """Z3's models as they are, all of their values in one number field; none where Z3 sees none."""
-    for engine in ENGINES[: 1 if integers else 2]:
-        answer = ask(condition, budget, integers, resources, model=True, engine=engine)
-        if answer.verdict == "unsat":
-            return
-        if answer.verdict != "sat":
-            continue
+    """A point where some variables have few values, or else Z3's model as it is, all of its values
+    in one number field; none where Z3 sees none.
+
+    The first is quick at any number of variables; the second counts its work badly there.
+    """
+    point = None if integers else point_by_few_values(condition, budget, roles)
+    if point is not None:
+        yield Assignment({name: _constant(point.get(name, fmpq(1))) for name in names})
+    answer = ask(condition, budget, integers, RESOURCES, model=True)
+    if answer.verdict == "sat":
         field = common_field({name: answer.model.get(name, fmpq(1)) for name in names}, budget)
         if field is not None:
             yield Assignment(*field)
