@@ -35,7 +35,7 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
     ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 1000, True)),
     ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 3000, True), (24, 6, 8000, True)),
 )
-MANY = 12  # variables
+MANY = 12  # variables, or disjunctions
 
 
 def search_values(
@@ -220,9 +220,9 @@ def assignments(
     roles: Roles = NO_ROLES,
 ) -> Iterator[Assignment]:
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
-    if len(condition.variables()) >= MANY and not many:
+    if not many and (len(condition.variables()) >= MANY or disjunctions(condition) >= MANY):
         # Sampling would try few of so many values: models are asked for first.
-        yield from whole_models(condition, names, integers, budget, roles)
+        yield from whole_models(condition, names, integers, budget, effort, roles)
     for width, last, nodes, irrational in ROUNDS[effort]:
         yield from Sampler(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
@@ -235,7 +235,15 @@ def assignments(
             if answer == "sat" and not many:
                 yield from model_assignments(condition, names, integers, budget, effort, roles)
             if not many:
-                yield from whole_models(condition, names, integers, budget, roles)
+                yield from whole_models(condition, names, integers, budget, effort, roles)
+
+
+def disjunctions(condition: Condition) -> int:
+    """How many disjunctions stand at top level."""
+    tree = condition.tree
+    if isinstance(tree, bool) or tree[0] != "and":
+        return 0
+    return sum(not isinstance(part, bool) and part[0] == "or" for part in tree[1])
 
 
 def values_of_assignment(

@@ -81,6 +81,28 @@ def ask(
     )
 
 
+def conflict(
+    atoms: Sequence[tuple[fmpq_mpoly, str]], budget: Budget, resources: int
+) -> list[int] | None:
+    """The numbers of some of these relations to 0 that Z3 thinks contradict one another for real
+    variables: all of them where it does not know; None where it thinks that they have a point.
+    """
+    session = session_of(budget)
+    names = sorted({name for poly, _ in atoms for name in poly.context().names()})
+    rows = [f"(declare-const |{name}| Real)" for name in names]
+    rows += [f"(assert {_atom(poly, relation, frozenset())})" for poly, relation in atoms]
+    solver = z3.Tactic("qfnra-nlsat", ctx=session.context).solver()
+    solver.set("rlimit", resources)
+    solver.set("unsat_core", True)
+    for k, formula in enumerate(z3.parse_smt2_string("\n".join(rows), ctx=session.context)):
+        solver.assert_and_track(formula, z3.Bool(f"atom{k}", session.context))
+    result = str(solver.check())
+    budget.spend(500 + min(session.work(solver, resources), resources) // 10)
+    if result == "unsat":
+        return sorted(int(str(one).removeprefix("atom")) for one in solver.unsat_core())
+    return None if result == "sat" else list(range(len(atoms)))
+
+
 class Session:
     """A context of Z3 that the questions of one search share, since it takes longer to make one
     than to answer most of them.
@@ -127,12 +149,14 @@ def _formula(condition: Condition, tree: Tree, integers: frozenset[str]) -> str:
     if isinstance(tree, bool):
         return "true" if tree else "false"
     if isinstance(tree[0], int):
-        text = (
-            f"({'=' if tree[1] == '!=' else tree[1]} {_term(condition.polys[tree[0]], integers)}"
-            " 0.0)"
-        )
-        return f"(not {text})" if tree[1] == "!=" else text
+        return _atom(condition.polys[tree[0]], tree[1], integers)
     return f"({tree[0]} {' '.join(_formula(condition, part, integers) for part in tree[1])})"
+
+
+def _atom(poly: fmpq_mpoly, relation: str, integers: frozenset[str]) -> str:
+    """A relation of a polynomial to 0 as an s-expression."""
+    text = f"({'=' if relation == '!=' else relation} {_term(poly, integers)} 0.0)"
+    return f"(not {text})" if relation == "!=" else text
 
 
 def _term(poly: fmpq_mpoly, integers: frozenset[str]) -> str:

@@ -57,7 +57,7 @@ def covering(condition: Condition) -> list[str]:
     ...     context.declare(name)
     >>> formula = context.formula(checker.parse("x*y + y*z + z^2 = 1"))
     >>> covering(Condition.of(context, formula))
-    ['y', 'z']
+    ['z', 'x']
     """
     names = list(places(condition.ring))
     products = {

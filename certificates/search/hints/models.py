@@ -63,6 +63,7 @@ def whole_models(
     names: Sequence[str],
     integers: frozenset[str],
     budget: Budget,
+    effort: int,
     roles: Roles,
 ) -> Iterator[Assignment]:
     """A point where some variables have few values, or else Z3's model as it is, all of its values
@@ -73,7 +74,7 @@ def whole_models(
     point = None if integers else point_by_few_values(condition, budget, roles)
     if point is not None:
         yield Assignment({name: _constant(point.get(name, fmpq(1))) for name in names})
-    answer = ask(condition, budget, integers, RESOURCES, model=True)
+    answer = ask(condition, budget, integers, RESOURCES << effort, model=True)
     if answer.verdict == "sat":
         field = common_field({name: answer.model.get(name, fmpq(1)) for name in names}, budget)
         if field is not None:
