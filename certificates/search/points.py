@@ -16,6 +16,7 @@ from juggleproof.certificates.nodes import Adjoined, Node, Values, values_at
 from juggleproof.certificates.search.closing import AdjoinedNumber, close_at_number, search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.hints.asking import ask
+from juggleproof.certificates.search.hints.isolated import isolated_points
 from juggleproof.certificates.search.hints.models import (
     approximate_points,
     model_assignments,
@@ -228,6 +229,8 @@ def assignments(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
         ).search(condition, names)
         if effort and width == 6:
+            if not (many or integers):
+                yield from isolated_points(condition, names, budget)
             # Where Z3 sees that there is nothing, wider samples would be in vain.
             answer = ask(condition, budget, integers, 100_000).verdict
             if answer == "unsat":
