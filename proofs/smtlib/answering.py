@@ -108,6 +108,9 @@ def answer(asked: Question) -> Answer:
         if word != "unknown" and not (word == "sat" and text != asked.texts[0]):
             return Answer(asked.name, word, text, certificate)
     first: Answer | None = None
+    beyond = beyond_reading(asked)
+    if beyond:
+        return Answer(asked.name, "unknown", "", {"unknown": beyond})
     for text in asked.texts:
         certificate = _searched(asked.name, text, asked.budget)
         word = settled(asked.name, text, certificate)
@@ -120,6 +123,18 @@ def answer(asked: Question) -> Answer:
         )
         first = first or Answer(asked.name, "unknown", text, reason)
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
+
+
+def beyond_reading(asked: Question) -> str:
+    """Why the checker cannot read the statement; empty where it can."""
+    try:
+        checker.read_statements(asked.texts[0])
+    except checker.Rejected as reason:
+        if reason.kind is not checker.Kind.TEXT:
+            return f"beyond the checker's limits: {reason}"
+        longest = max(len(line) for line in asked.texts[0].split("\n"))
+        return f"beyond the checker's limits: a formula of {longest} letters when it is written out"
+    return ""
 
 
 def settled(name: str, text: str, certificate: Certificate) -> str:
@@ -137,6 +152,8 @@ def _searched(name: str, text: str, budget: int) -> Certificate:
         return {"unknown": f"the budget of {budget} units ran out"}
     except checker.Rejected as reason:
         return {"unknown": f"beyond the checker's limits: {reason}"}
+    except RecursionError:
+        return {"unknown": "it is nested too deep for the search"}
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
@@ -306,13 +323,15 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
             for variable in one.problem.variables
             if variable.name != variable.symbol
         ]
+        if not one.answer.text:
+            continue
         blocks.append((f"# {', '.join(renamed)}\n" if renamed else "") + one.answer.text)
         certificates.setdefault(one.answer.name.split("/")[0], {})[one.answer.name] = (
             one.answer.certificate
         )
     write_store(folder, "\n\n".join(blocks) + "\n", certificates)
-    return {
-        name: reason
-        for name, outcome, reason in checker.check_folder(str(folder))
-        if outcome == "rejected"
-    }
+    try:
+        checked = checker.check_folder(str(folder))
+    except checker.Rejected as reason:  # all of it is too large
+        return {one.answer.name: str(reason) for one in answered}
+    return {name: reason for name, outcome, reason in checked if outcome == "rejected"}
