@@ -19,6 +19,7 @@ from juggleproof.certificates.nodes import (
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
 from juggleproof.certificates.search.linear_system import search_linear
 from juggleproof.certificates.search.points import search_values
+from juggleproof.certificates.search.psatz.basis import last_basis
 from juggleproof.certificates.search.ranges import Violation
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -140,7 +141,7 @@ def _search(
     attempts: Attempts,
     roles: Roles,
 ) -> Certificate:
-    linear = search_linear(statement, budget.part(budget.left // 2))
+    linear = search_linear(statement, budget.part(budget.left // 2), last_basis)
     if linear is not None and checker.check_one(statement, linear, {}, {})[1] is None:
         return linear
     ended: set[tuple[bool, int]] = (

@@ -3,8 +3,8 @@
 Formula: linear facts p_i > 0, p_j >= 0 and p_k = 0 have no common point <=> there are numbers c,
 those of inequalities >= 0 and not all of a strict one 0, with sum c_i p_i = 0 identically, where
 1 > 0 counts as a strict fact.  Both are read off one linear program: maximise t <= 1 under
-p_i >= t x_0 for the strict p_i made homogeneous by x_0.  HiGHS finds its last basis in floats; the
-point, or the numbers, are then solved from that basis exactly.
+p_i >= t x_0 for the strict p_i made homogeneous by x_0.  A basis that floats propose, if any, is
+solved exactly; where it is not the last one, exact pivots go on from it.
 
 Source: Motzkin's transposition theorem; Schrijver, Theory of Linear and Integer Programming (1986),
 sections 7.3 and 7.8.
@@ -12,20 +12,17 @@ sections 7.3 and 7.8.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
 from typing import Union
 
-import highspy
-import numpy as np
 from flint import fmpq, fmpz_mat
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import fraction
 from juggleproof.certificates.nodes import Certificate, Counterexample, Node, Point
-from juggleproof.certificates.search.psatz.linear_program import SOLVER
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -108,7 +105,20 @@ class Farkas:
     one: int
 
 
-def solve(facts: Sequence[tuple[Row, str]], budget: Budget) -> Vertex | Farkas | None:
+# the rows that a basis holds with equality, and its columns, for a program in rows, of which the
+# last column is maximised
+Basis = tuple[Sequence[int], Sequence[int]]
+FindBasis = Callable[[Sequence[Row], Sequence[str], int, Budget], Basis]
+
+
+def no_basis(entries: Sequence[Row], relations: Sequence[str], t: int, budget: Budget) -> Basis:
+    """No proposal: what is small needs none."""
+    return (), ()
+
+
+def solve(
+    facts: Sequence[tuple[Row, str]], budget: Budget, find_basis: FindBasis = no_basis
+) -> Vertex | Farkas | None:
     """A point of facts > 0, >= 0 and = 0, or how they contradict one another.
 
     Raises Exhausted where the budget ends.
@@ -128,7 +138,7 @@ def solve(facts: Sequence[tuple[Row, str]], budget: Budget) -> Vertex | Farkas |
         if relation == ">":
             entry[t] = -1
     budget.spend(100 + sum(map(len, entries)))
-    active, basic = last_basis(entries, relations, t, budget)
+    active, basic = find_basis(entries, relations, t, budget)
     by_floats = from_basis(facts, entries, places, active, basic, budget)
     return by_floats or by_pivots(facts, entries, places, {*active}, basic, budget)
 
@@ -265,42 +275,6 @@ def by_pivots(
         pivot(min(blocking), entering)
 
 
-def last_basis(
-    entries: Sequence[Row], relations: Sequence[str], t: int, budget: Budget
-) -> tuple[list[int], list[int]]:
-    """The rows that hold with equality and the basic columns where HiGHS ends, t being the last
-    column; none where it has no basis.
-    """
-    sizes = [max(map(abs, entry.values())) for entry in entries]
-    by_column: list[list[tuple[int, float]]] = [[] for _ in range(t + 1)]
-    for r, (entry, size) in enumerate(zip(entries, sizes)):
-        for k, c in entry.items():
-            by_column[k].append((r, c / size))
-    model = highspy.HighsLp()
-    infinity = highspy.kHighsInf
-    model.num_col_, model.num_row_ = t + 1, len(entries)
-    model.col_cost_ = np.array([0.0] * t + [-1.0])
-    model.col_lower_ = np.full(t + 1, -infinity)
-    model.col_upper_ = np.array([infinity] * t + [1.0])
-    model.row_lower_ = np.zeros(len(entries))
-    model.row_upper_ = np.array([0.0 if one == "=" else infinity for one in relations])
-    model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
-    starts = np.cumsum([0, *map(len, by_column)])
-    model.a_matrix_.start_ = starts.astype(np.int32)
-    pairs = [pair for one in by_column for pair in one]
-    model.a_matrix_.index_ = np.array([r for r, _ in pairs], dtype=np.int32)
-    model.a_matrix_.value_ = np.array([c for _, c in pairs], dtype=np.float64)
-    solver = SOLVER.highs
-    solver.passModel(model)
-    solver.run()
-    budget.spend(int(solver.getInfo().simplex_iteration_count) * len(entries) // 50)
-    basis, is_basic = solver.getBasis(), highspy.HighsBasisStatus.kBasic
-    return (
-        [r for r, status in enumerate(basis.row_status) if status != is_basic],
-        [k for k, status in enumerate(basis.col_status) if status == is_basic],
-    )
-
-
 # -------------------------------------------------------------------------------------------------
 # Facts and disjunctions: the program again on each branch, as far as its point fails.
 
@@ -336,14 +310,16 @@ def key_of(fact: Fact) -> FactKey:
     return frozenset(poly.terms.items()), poly.den, relation
 
 
-def decide(state: State, budget: Budget, depth: int = 0) -> Vertex | Tree | None:
+def decide(
+    state: State, budget: Budget, find_basis: FindBasis, depth: int = 0
+) -> Vertex | Tree | None:
     """A point that meets all that a state of linear facts and disjunctions assumes, or why there is
     none; None where cases are nested too deep.
 
     A case whose contradiction does not use what the case assumes settles all cases.
     """
     facts = [fact for fact in state.facts if fact[1] != "!="]
-    found = solve([(row_of(poly) or {}, relation) for poly, relation in facts], budget)
+    found = solve([(row_of(poly) or {}, relation) for poly, relation in facts], budget, find_basis)
     if isinstance(found, Farkas):
         return leaf(facts, found)
     if found is None or depth > MOST_SPLITS:
@@ -365,7 +341,7 @@ def decide(state: State, budget: Budget, depth: int = 0) -> Vertex | Tree | None
     assumed = uses_of(state)
     undecided = False
     for case in cases_of(state, on):
-        part = decide(case, budget, depth + 1)
+        part = decide(case, budget, find_basis, depth + 1)
         if isinstance(part, Vertex):
             return part
         if part is None:
@@ -438,7 +414,9 @@ def node_of(state: State, tree: Tree) -> Node:
 # Statements.
 
 
-def search_linear(statement: checker.Statement, budget: Budget) -> Certificate | None:
+def search_linear(
+    statement: checker.Statement, budget: Budget, find_basis: FindBasis = no_basis
+) -> Certificate | None:
     """The certificate of a statement for all reals whose lines are linear; None for any other, and
     where the budget ends.
 
@@ -461,11 +439,11 @@ def search_linear(statement: checker.Statement, budget: Budget) -> Certificate |
     inside = state_of(unfolding)
     state = inside.branch(goal)
     try:
-        found = Leaf([], []) if state.closed else decide(state, budget)
+        found = Leaf([], []) if state.closed else decide(state, budget, find_basis)
         if isinstance(found, Vertex):
             close: Node = ("close",)
             return {"refuted": Counterexample(statement.name, [], terms(found), close, close)}
-        point = decide(inside, budget) if not inside.closed else None
+        point = decide(inside, budget, find_basis) if not inside.closed else None
     except Exhausted:
         return None
     if found is None or not isinstance(point, Vertex):

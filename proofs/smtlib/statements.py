@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
     names_in,
     real,
 )
-from juggleproof.certificates.search.certificate import search_proof
+from juggleproof.certificates.search.stages import search_proof
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.smtlib.script import Problem, our_name
 
@@ -183,7 +183,7 @@ def _licence(before: Statement, below: Term) -> list[Line] | None:
             return None
     for sign in (below > 0, below < 0, different(below, 0)):
         goal = Statement(before.name, before.forall, before.lines, sign)
-        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), effort=1) is not None:
+        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), 1) is not None:
             return [("have", sign)]
     return None
 
