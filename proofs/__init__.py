@@ -12,8 +12,7 @@ In reading order, each importing those before it only:
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
 - `register`: the verdicts that stand.
-- `checked`, `processes`, `run`: the checker's outcomes of what is stored; many items over
-  processes; many claims.
+- `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
 - `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries
   of the optional extras.
 - `simulations`: what simulations show, as it is kept, and as the scenes compute it.

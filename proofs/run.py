@@ -18,6 +18,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.processes import alone, own_pool, spread
 from juggleproof.certificates.store import (
     Store,
     canonical,
@@ -43,7 +44,6 @@ from juggleproof.proofs.judgement import (
     is_finding,
 )
 from juggleproof.proofs.judging import judge, settle_by_rules
-from juggleproof.proofs.processes import alone, own_pool, spread
 
 FINDINGS = "findings"
 WIDTH = 96  # of a comment in the statement file

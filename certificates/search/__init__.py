@@ -4,10 +4,10 @@ believed.
 The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
+- `first`: what needs little work; linear statements; the searches in turn
 - `boxes`: lower bounds of polynomials on boxes; rule `boxes`
 - `one_variable`: states over one variable, all of them
 - `over_box`: one fact over the box of the others; rule `boxes`
-- `linear_system`: states of linear facts and disjunctions, all of them; rules `psatz`, `cases`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
 - `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
 - `candidates`: simple values for one variable

@@ -17,7 +17,7 @@ from juggleproof.certificates.nodes import (
     by_sign,
 )
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
-from juggleproof.certificates.search.linear_system import search_linear
+from juggleproof.certificates.search.first.linear_system import search_linear
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.search.psatz.basis import last_basis
 from juggleproof.certificates.search.ranges import Violation

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, cast
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate, Counterexample
-from juggleproof.certificates.search.stages import certificates_in_turn
+from juggleproof.certificates.search.first.stages import certificates_in_turn
 from juggleproof.certificates.store import Store, write_store
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.script import Problem, problems_of_file
@@ -318,7 +318,7 @@ def _answers(
             answers.append(answer(one))
             progress(answers[-1])
         return answers
-    processes = import_module("juggleproof.proofs.processes")  # dear to load
+    processes = import_module("juggleproof.certificates.processes")  # dear to load
     pool: AbstractContextManager[Executor] = (
         processes.own_pool(jobs) if executor is None else nullcontext(executor)
     )

@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
     names_in,
     real,
 )
-from juggleproof.certificates.search.stages import search_proof
+from juggleproof.certificates.search.first.stages import search_proof
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.smtlib.script import Problem, our_name
 

@@ -10,7 +10,7 @@ import pytest
 import z3
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.linear_system import (
+from juggleproof.certificates.search.first.linear_system import (
     ONE,
     Farkas,
     Row,

@@ -12,7 +12,7 @@ from types import ModuleType
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Certificate, Proof
-from juggleproof.certificates.search.at_hand import search_at_hand
+from juggleproof.certificates.search.first.at_hand import search_at_hand
 from juggleproof.certificates.work import Budget
 
 CHEAP = 20_000  # units of work of each cheap search
@@ -29,7 +29,7 @@ def certificates_in_turn(statement: checker.Statement, budget: Budget) -> Iterat
     at_hand = search_at_hand(statement, budget.part(CHEAP))
     if at_hand is not None:
         yield at_hand
-    by_pairs: Certificate | None = _loaded("by_pairs").search_by_pairs(
+    by_pairs: Certificate | None = _loaded("first.by_pairs").search_by_pairs(
         statement, budget.part(CHEAP)
     )
     if by_pairs is not None:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import TypeVar
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.checked import as_child
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -78,3 +80,19 @@ def own_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
         except BaseException:
             stop(pool)
             raise
+
+
+def as_child() -> None:
+    """A process of our own leaves interruptions to the one that started it, and ends with it,
+    however that one ends: its killing cannot be heard, so its absence is looked for.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_after, args=(parent.pid,), daemon=True).start()
+
+
+def _end_after(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(1)
+    os._exit(1)

@@ -12,7 +12,7 @@ from itertools import combinations, combinations_with_replacement
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Certificate, Node, Point, Power
-from juggleproof.certificates.search.linear_system import (
+from juggleproof.certificates.search.first.linear_system import (
     ONE,
     Farkas,
     Row,
