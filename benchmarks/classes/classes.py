@@ -22,6 +22,7 @@ CLASSES: Mapping[str, Sequence[Maker]] = {
     "size": (scripts.nested, scripts.doubled, scripts.linear_system, scripts.differences),
     "boxes": (
         polynomials.over_a_box,
+        polynomials.above_a_bound,
         polynomials.box_and_constraints,
         polynomials.bonferroni,
         polynomials.product_below_mean,
@@ -50,6 +51,7 @@ CLASSES: Mapping[str, Sequence[Maker]] = {
     "several constraints": (
         polynomials.planted_certificate,
         polynomials.balls,
+        polynomials.bent,
         polynomials.above_and_below,
         polynomials.binomials,
     ),

@@ -5,7 +5,7 @@ planted that solves it, or an identity that leaves it no solution.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import combinations
+from itertools import combinations, product
 from math import comb, isqrt, prod
 from random import Random
 
@@ -76,9 +76,47 @@ def over_a_box(random: Random, solvable: bool) -> str:
         wave = polynomial(random, names, random.randint(2, 4), 6)
         asked = wave - wave(*inside(random, box)) - margin
     else:
-        asked = products_of_sides(random, names, box, random.randint(2, 3)) + margin
-        asked += squares(random, names, 2, 1)
+        asked = products_of_sides(random, names, box, random.randint(2, 3))
+        asked += random.choice((0, margin)) + squares(random, names, 2, 1)
     return script(names, [*bounded(random, names, box), atom(asked, "<")])
+
+
+def least_coefficient(wave: fmpq_mpoly, box: Sides) -> fmpq:
+    """The least Bernstein coefficient on a box, which no value is below.
+
+    >>> (x,) = variables(1)
+    >>> least_coefficient(x**2 - x, [(fmpq(0), fmpq(1))])
+    -1/2
+    """
+    names = wave.context().gens()
+    moved = wave.compose(*(low + (high - low) * x for x, (low, high) in zip(names, box)))
+    powers, degrees = dict(moved.terms()), moved.degrees()
+    return min(
+        sum(
+            (
+                value * prod(fmpq(comb(i, k), comb(n, k)) for i, k, n in zip(place, term, degrees))
+                for term, value in powers.items()
+            ),
+            fmpq(0),
+        )
+        for place in product(*(range(n + 1) for n in degrees))
+    )
+
+
+def above_a_bound(random: Random, solvable: bool) -> str:
+    """A random polynomial is not below the least Bernstein coefficient on the parts of a box, less
+    a margin; it is below its least value at their corners and a margin.
+    """
+    count, margin = random.randint(2, 3), random.choice(MARGINS)
+    names, box = variables(count), sides(random, count)
+    wave = polynomial(random, names, random.randint(3, 4), 6)
+    if solvable:
+        corners = product(*((low, (low + high) / 2, high) for low, high in box))
+        bound = min(wave(*corner) for corner in corners) + margin
+    else:
+        parts = product(*(((low, (low + high) / 2), ((low + high) / 2, high)) for low, high in box))
+        bound = min(least_coefficient(wave, list(part)) for part in parts) - margin
+    return script(names, [*bounded(random, names, box), atom(wave, "<", bound)])
 
 
 def box_and_constraints(random: Random, solvable: bool) -> str:
@@ -159,9 +197,7 @@ def choi_lam(x: fmpq_mpoly, y: fmpq_mpoly, z: fmpq_mpoly) -> fmpq_mpoly:
     return _cyclic((x, y, z), (4, 2, 0)) - 3 * _cyclic((x, y, z), (2, 2, 2))
 
 
-def choi_lam_quartic(
-    x: fmpq_mpoly, y: fmpq_mpoly, z: fmpq_mpoly, w: fmpq_mpoly
-) -> fmpq_mpoly:
+def choi_lam_quartic(x: fmpq_mpoly, y: fmpq_mpoly, z: fmpq_mpoly, w: fmpq_mpoly) -> fmpq_mpoly:
     """Source: Choi and Lam, Extremal positive semidefinite forms (1977)."""
     return _cyclic((x, y, z), (2, 2, 0)) + w**4 - 4 * x * y * z * w
 
@@ -418,9 +454,7 @@ def ideal(random: Random, solvable: bool) -> str:
     count = random.randint(2, 3)
     names = variables(count)
     there = point(random, count, 2)
-    given = [
-        (wave := polynomial(random, names, 2, 4)) - wave(*there) for _ in range(count - 1)
-    ]
+    given = [(wave := polynomial(random, names, 2, 4)) - wave(*there) for _ in range(count - 1)]
     last = polynomial(random, names, 2, 4)
     last -= last(*there)
     if not solvable:
@@ -463,16 +497,25 @@ def balls(random: Random, solvable: bool) -> str:
     less = random.choice(MARGINS) * (1 if solvable else -1)
     second = [a + s for a, s in zip(first, step)]
     touch = [a + share * s for a, s in zip(first, step)]
-    balls_ = [
-        (first, share * distance + less),
-        (second, (1 - share) * distance + less),
-        (touch, fmpq(1)),
-    ]
+    three = (first, share * distance + less), (second, (1 - share) * distance + less), (touch, 1)
     facts = [
         atom(sum(((x - a) ** 2 for x, a in zip(names, centre)), 0 * names[0]), "<=", radius**2)
-        for centre, radius in balls_
+        for centre, radius in three
     ]
     return script(names, facts)
+
+
+def bent(random: Random, solvable: bool) -> str:
+    """Two discs that share a point, or do not, in coordinates that a square bends."""
+    x, y = variables(2)
+    (a, b), share = point(random, 2, 2), fmpq(random.randint(1, 4), 5)
+    less = random.choice(MARGINS) * (1 if solvable else -1)
+    bend = x + random.choice((-2, -1, 1, 2)) * y**2
+    facts = [
+        atom((bend - a) ** 2 + (y - b) ** 2, "<=", (5 * share + less) ** 2),
+        atom((bend - a - 3) ** 2 + (y - b - 4) ** 2, "<=", (5 * (1 - share) + less) ** 2),
+    ]
+    return script([x, y], facts)
 
 
 def above_and_below(random: Random, solvable: bool) -> str:

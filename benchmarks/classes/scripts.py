@@ -1,5 +1,5 @@
-"""Random problems of size, or with divisions, clauses and commands: each is solvable, or not, by how
-it is made.
+"""Random problems of size, or with divisions, clauses and commands: each is solvable, or not, by
+how it is made.
 """
 
 from __future__ import annotations
@@ -86,9 +86,7 @@ def divisor_that_vanishes(random: Random, solvable: bool) -> str:
     x, y = variables(2)
     wave = polynomial(random, [x], 2, 3)
     top = random.randint(1, 5)
-    first, second = (
-        _over(number(top), written(one)) for one in (wave, wave.compose(y, y))
-    )
+    first, second = (_over(number(top), written(one)) for one in (wave, wave.compose(y, y)))
     if solvable:
         root = rational(random, -3, 3)
         wave = wave - wave(root, root)
@@ -143,18 +141,17 @@ def linear_system(random: Random, solvable: bool) -> str:
     """
     count = random.choice((12, 20, 40, 60, 90))
     names, there = variables(count), [random.randint(-5, 5) for _ in range(count)]
-    rows = []
+    rows = list[tuple[dict[int, int], int]]()
     for _ in range(count + 5):
         places = random.sample(range(count), 3)
-        factors = [random.choice((-3, -2, -1, 1, 2, 3)) for _ in places]
+        row = {k: random.choice((-3, -2, -1, 1, 2, 3)) for k in places}
         slack = random.choice((0, 0, 1, 4))
-        value = sum(f * there[k] for f, k in zip(factors, places)) - slack
-        rows.append((dict(zip(places, factors)), value))
+        rows.append((row, sum(f * there[k] for k, f in row.items()) - slack))
     chosen = [(random.randint(1, 3), row) for row in random.sample(rows, random.randint(3, 8))]
     total = dict[int, int]()
     for weight, (factors, _) in chosen:
-        for k, factor in factors.items():
-            total[k] = total.get(k, 0) - weight * factor
+        for k in factors:
+            total[k] = total.get(k, 0) - weight * factors[k]
     least = sum(weight * value for weight, (_, value) in chosen)
     bound = sum(f * there[k] for k, f in total.items()) if solvable else 1 - least
     facts = [
@@ -170,9 +167,7 @@ def differences(random: Random, solvable: bool) -> str:
     names = variables(count)
     steps = [random.randint(-9, 9) for _ in names[1:]]
     steps.append(-sum(steps) + (0 if solvable else 1))
-    facts = [
-        atom(names[(k + 1) % count] - names[k], ">=", step) for k, step in enumerate(steps)
-    ]
+    facts = [atom(names[(k + 1) % count] - names[k], ">=", step) for k, step in enumerate(steps)]
     for _ in range(count // 2):  # further ones, all of which hold at the solution
         k, m = random.sample(range(count), 2)
         rise = sum(steps[:m]) - sum(steps[:k])
@@ -196,7 +191,8 @@ def bilinear(random: Random, solvable: bool) -> str:
     for _ in range(half // 2):
         row = sum(
             (
-                random.choice((-2, -1, 1, 2)) * random.choice(names[:half])
+                random.choice((-2, -1, 1, 2))
+                * random.choice(names[:half])
                 * random.choice(names[half:])
                 for _ in range(3)
             ),
@@ -228,7 +224,9 @@ def clauses(random: Random, solvable: bool) -> str:
         parts = []
         for _ in range(random.randint(1, 2)):
             one = wave()
-            parts.append(atom(one, random.choice(("<", ">")), one(*there) + rational(random, -4, 4)))
+            parts.append(
+                atom(one, random.choice(("<", ">")), one(*there) + rational(random, -4, 4))
+            )
         one = wave()
         relation, value = random.choice((("<=", 1), (">=", -1), ("=", 0)))
         parts.append(atom(one, relation, one(*there) + value * fmpq(random.randint(0, 2), 2)))

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import prod
 from random import Random
+from typing import TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-Rational = fmpq | int
+Rational: TypeAlias = fmpq | int
 
 # -------------------------------------------------------------------------------------------------
 # Random polynomials.
