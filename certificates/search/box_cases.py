@@ -24,9 +24,7 @@ MOST_COEFFICIENTS = 1000  # of the Bernstein form of a constraint
 MOST_CONSTRAINTS = 24
 LETTERS = 9  # of a tree of one constraint on a piece, before that is cut
 MOST_PIECES = 400
-MARGIN = Fraction(
-    1, 10**9
-)  # by which a fact p >= 0 is to fail, as a part of its largest coefficient
+MARGIN = Fraction(1, 10**9)  # by which a fact p >= 0 is to fail, of its largest coefficient
 SLACK = Fraction(1, 10**4)  # of an equation, as a part of its largest coefficient
 THIN = 1 << 12  # the part of a side by which a piece at a cut reaches beyond it
 FINE = 1 << 8  # the part of an end by which a bound may be rounded outwards

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from math import prod
 
 from flint import fmpq_poly, fmpz_poly
 
@@ -20,6 +21,7 @@ from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
 from juggleproof.certificates.search.box_cases import close_by_cuts
 from juggleproof.certificates.search.by_variables import close_by_variables
+from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import (
     HOLDS,
     close_in_one_variable,
@@ -56,6 +58,7 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+MANY_CASES = 100  # from which on they are led by conflicts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
@@ -160,6 +163,8 @@ class Closing:
         if not sizes:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
+        if node is None and prod(sizes.values()) > MANY_CASES and self.effort:
+            return search_by_conflicts(state, lambda few: self.leaf(few, 0), self.budget)
         return node if node is not None else self.cases(state, sizes)
 
     def cases(self, state: State, sizes: Mapping[int, int]) -> Node | None:
