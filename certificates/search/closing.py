@@ -19,7 +19,9 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
-from juggleproof.certificates.search.box_cases import close_by_cuts
+from juggleproof.certificates.search.boxes.cuts import close_by_cuts
+from juggleproof.certificates.search.boxes.over_box import close_over_box
+from juggleproof.certificates.search.boxes.over_box_squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import (
@@ -28,8 +30,6 @@ from juggleproof.certificates.search.one_variable import (
     dense_poly,
     dense_text,
 )
-from juggleproof.certificates.search.over_box import close_over_box
-from juggleproof.certificates.search.over_box_squares import close_by_bounds
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.box_cases import close_by_cuts
+from juggleproof.certificates.search.boxes.cuts import close_by_cuts
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
