@@ -230,14 +230,14 @@ def assignments(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
         ).search(condition, names)
         if effort and width == 6:
-            if not (many or integers):
-                yield from isolated_points(condition, names, budget)
             # Where Z3 sees that there is nothing, wider samples would be in vain.
             answer = ask(condition, budget, integers, VOTE).verdict
             if answer == "unsat":
                 return
             if answer == "sat" and not many:
                 yield from model_assignments(condition, names, integers, budget, effort, roles)
+            if not (many or integers):
+                yield from isolated_points(condition, names, budget)
             if not many:
                 resources = VOTE if answer == "sat" else 0
                 yield from whole_models(condition, names, integers, budget, roles, resources)

@@ -114,7 +114,7 @@ def _constant(value: fmpq) -> fmpq_poly:
 
 Array = NDArray[np.float64]
 STARTS, STEPS = 12, 40
-MARGINS = (0.2, 0.02, 0.001)  # by how much inequalities are to be met, ever less
+MARGINS = (0.2, 0.02, 0.001, 0.0)  # by how much inequalities are to be met, ever less
 
 
 class Residual:
