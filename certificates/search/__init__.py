@@ -4,6 +4,7 @@ believed.
 The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
+- `first`: what needs little work; linear statements; the searches in turn
 - `boxes`: lower bounds of polynomials on boxes; rule `boxes`
 - `one_variable`: states over one variable, all of them
 - `over_box`: one fact over the box of the others; rule `boxes`
