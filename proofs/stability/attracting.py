@@ -19,6 +19,7 @@ from juggleproof.proofs.stability.certifying import (
     tried,
 )
 from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
+from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
@@ -96,10 +97,11 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET):
         return True
-    return any(
-        not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches)
-        for rule, searches in ratio_rules(setting, name)
-    )
+    for rule, searches in ratio_rules(setting, name):
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+            return True
+    chains = contracting_box_rules(setting, setting.system.name)
+    return any(proof.add_all(chain, (1, 2), log) for chain in chains)
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
