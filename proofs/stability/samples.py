@@ -33,6 +33,7 @@ Floats = NDArray[np.float64]
 Arrays = dict[str, Floats]
 
 SEED = 1995  # of all samples, so that every run searches in one way
+STATES = 40  # for each of the parameters
 ROUNDS = 40  # of drawing, before fewer samples than were asked for do
 FAR = 2.5  # powers of ten that unbounded variables run over
 
