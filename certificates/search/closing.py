@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from math import prod
 
 from flint import fmpq_poly, fmpz_poly
 
@@ -18,6 +19,9 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
+from juggleproof.certificates.search.box_cases import close_by_cuts
+from juggleproof.certificates.search.by_variables import close_by_variables
+from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import (
     HOLDS,
     close_in_one_variable,
@@ -25,6 +29,7 @@ from juggleproof.certificates.search.one_variable import (
     dense_text,
 )
 from juggleproof.certificates.search.over_box import close_over_box
+from juggleproof.certificates.search.over_box_squares import close_by_bounds
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -53,9 +58,11 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+MANY_CASES = 100  # from which on they are led by conflicts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
+MOST_BOXES = 20_000  # of a tree that is sought beside sums of squares
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -156,6 +163,8 @@ class Closing:
         if not sizes:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
+        if node is None and prod(sizes.values()) > MANY_CASES and self.effort:
+            return search_by_conflicts(state, lambda few: self.leaf(few, 0), self.budget)
         return node if node is not None else self.cases(state, sizes)
 
     def cases(self, state: State, sizes: Mapping[int, int]) -> Node | None:
@@ -216,16 +225,19 @@ class Closing:
         node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
-            node = search_squares(programs, self.budget)
+            node = close_by_bounds(inside, MOST_BOXES, self.budget)
+            node = node or close_by_variables(inside, problem.ring, self.budget)
+            node = node or search_squares(programs, self.budget)
         elif (
             node is None
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
             node = (
-                self.usual(problem, False)
-                or close_over_box(inside, FEW_BOXES, self.budget)
+                close_over_box(inside, FEW_BOXES, self.budget)
+                or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
+                or (None if depth else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))

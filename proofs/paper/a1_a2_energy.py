@@ -21,7 +21,6 @@ from juggleproof.proofs.paper.names import (
     B1_MINUS,
     B1_PLUS,
     B2,
-    PAPER,
     H,
     K,
     T,
@@ -44,6 +43,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     is_maximum,
     only_at,
+    paper_names,
     r,
     speed,
     strikes_at,
@@ -76,7 +76,7 @@ from juggleproof.proofs.reading.values import Vector, scalar
 ball, ball_after, table, table_after = reals("ball ball_after table table_after")
 equilibrium, chi_dot, chi_dot_after = reals("equilibrium chi_dot chi_dot_after")
 tau, mass = reals("tau mass")
-VELOCITIES = PAPER.extended(
+VELOCITIES = paper_names().extended(
     {
         r"\dot\beta": ball,
         r"\dot\beta'": ball_after,
@@ -120,7 +120,7 @@ def relative_velocity(printed: Printed) -> Statement:
     def distance(time: Term) -> Term:
         return height(ball_at(time)) - height(table_at(time))
 
-    names = PAPER.extended(
+    names = paper_names().extended(
         {r"\dot\chi": chi_dot, r"\dot\beta": speed(ball_at(t)), r"\dot\rho": speed(table_at(t))}
     )
     return always(
@@ -179,7 +179,7 @@ def velocity_after_the_impact(printed: Printed) -> Statement:
 def part_lost_on_a_table_at_rest(printed: Printed) -> Statement:
     """On a table at rest the ball, whose velocity is turned round, loses this part of it."""
     at_rest, part = pieces(printed, 2)
-    lost = scalar(value_of(part, PAPER)) * -ball
+    lost = scalar(value_of(part, paper_names())) * -ball
     return always(equal(-ball - struck(ball, table), lost), given=[at_rest.formula(VELOCITIES)])
 
 
@@ -283,7 +283,7 @@ def fastest_table_is_met_at_its_launch(printed: Printed) -> Statement:
     ground, the ball at its sampled velocity.
     """
     there = ball_at(t)
-    names = PAPER.extended(
+    names = paper_names().extended(
         {
             r"\tau_c": only_at(b, t),
             r"\rho": height(table_at(t)),
@@ -416,7 +416,9 @@ def maximum_lies_on_the_edge(printed: Printed) -> Statement:
     """Away from this edge of H a state of the same velocity on the edge has a greater energy
     change.
     """
-    return always(change < impact_energy_change(ON_EDGE), given=[H(b), ~printed.formula(PAPER)])
+    return always(
+        change < impact_energy_change(ON_EDGE), given=[H(b), ~printed.formula(paper_names())]
+    )
 
 
 @claim(
@@ -472,7 +474,7 @@ def greatest_energy_change(printed: Printed) -> list[Statement]:
 )
 def state_of_the_greatest_energy_change(printed: Printed) -> list[Statement]:
     """The only state of H with the greatest energy change; it lies in B1."""
-    here = printed.formula(PAPER)
+    here = printed.formula(paper_names())
     return [
         always(impact_energy_change(b_0) <= change, given=[here, H(b_0)], label="greatest"),
         always(

@@ -17,7 +17,6 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs.claims import Argument, Assertion, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
-    PAPER,
     H,
     R,
     alpha,
@@ -35,6 +34,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     next_states,
     only_at,
+    paper_names,
     r,
     strikes_at,
     t,
@@ -86,10 +86,12 @@ from juggleproof.proofs.reading.values import Region, Value, Vector, scalar
 # Appendix A.3: how little an impact takes outside the region R, at least.
 
 lam, height, h = reals("lam height h")
-AT_CORNER = PAPER.at(parse_name(r"\overline b"), b_0).extended(
-    {r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup}
+AT_CORNER = (
+    paper_names()
+    .at(parse_name(r"\overline b"), b_0)
+    .extended({r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup})
 )
-MULTIPLIED = with_slopes(PAPER, b_0).extended({r"\lambda": lam, r"\overline b_s": b_0})
+MULTIPLIED = with_slopes(paper_names(), b_0).extended({r"\lambda": lam, r"\overline b_s": b_0})
 
 
 def is_least_bound(
@@ -122,7 +124,7 @@ def supremum_outside_the_region(printed: Printed) -> list[Statement]:
     """The energy change at the corner of R is the supremum over the states of this set, with or
     without an impact.
     """
-    region, next_one = as_region(value_of(printed, PAPER)), Vector(reals("beta1 v1"))
+    region, next_one = as_region(value_of(printed, paper_names())), Vector(reals("beta1 v1"))
     _, approached = is_least_bound(least, region & B1, [CORNER(b_0)])
     in_a_period = energy(next_one) - energy(b) < least
     given = [CORNER(b_0), region(b), next_states(b, next_one)]
@@ -275,7 +277,7 @@ def supremum_is_not_on_the_boundary(printed: Printed) -> Statement:
     """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change,
     which A.3.2 finds at such a state.
     """
-    return not_supremal(printed.formula(PAPER))
+    return not_supremal(printed.formula(paper_names()))
 
 
 @claim(
@@ -300,7 +302,7 @@ def leftmost_states(printed: Printed) -> list[Statement]:
     From any such state a move to the left at the same velocity ends there, and raises the energy
     change; to the left of the arc lies R.
     """
-    edge_of_h = printed.formula(PAPER.extended({r"\overline\beta": edge}))
+    edge_of_h = printed.formula(paper_names().extended({r"\overline\beta": edge}))
     still_outside = at(derived("region_margin"), LEFT) <= 0
     raised = change <= impact_energy_change(LEFT)
     return [
@@ -320,12 +322,16 @@ def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
     edge, which is concave there.
     """
     negative, physical = pieces(printed, 2)
-    second = scalar(negative.left(PAPER))
+    second = scalar(negative.left(paper_names()))
     before, here, after = (
         term(impact_energy_change(Vector((0, speed)))) for speed in (v - h, v, v + h)
     )
     return [
-        always(negative.formula(PAPER), in_range=[physical.formula(PAPER)], label="negative"),
+        always(
+            negative.formula(paper_names()),
+            in_range=[physical.formula(paper_names())],
+            label="negative",
+        ),
         always(equal(before - 2 * here + after, second * h**2), label="second-derivative"),
     ]
 
@@ -351,14 +357,14 @@ def supremum_belongs_to_the_corner(printed: Printed) -> list[Statement]:
 )
 def corner_of_the_region(printed: Printed) -> Statement:
     """The only state of B1 on the ground and on the level line of R."""
-    return always(iff(CORNER(b), printed.formula(PAPER)))
+    return always(iff(CORNER(b), printed.formula(paper_names())))
 
 
 @claim("sA.3.2-tau-zero", "A.3.2", "line 708", printed=r"\tau_c = 0")
 def corner_strikes_at_once(printed: Printed) -> Statement:
     """From the corner the ball strikes the table at once."""
     return always(
-        iff(strikes_at(t), printed.formula(PAPER.extended({r"\tau_c": only_at(b, t)}))),
+        iff(strikes_at(t), printed.formula(paper_names().extended({r"\tau_c": only_at(b, t)}))),
         given=[CORNER(b)],
     )
 
@@ -368,7 +374,7 @@ def supremum_is_the_energy_change_at_the_corner(printed: Printed) -> list[Statem
     """The energy change at the corner is the supremum over the impacts outside R, and is not
     attained there.
     """
-    names = PAPER.extended({r"\overline b_s": b_0})
+    names = paper_names().extended({r"\overline b_s": b_0})
     return [
         always(printed.formula(names), given=[CORNER(b_0)], label="value"),
         *is_least_bound(term(scalar(printed.right(names))), B1_OUTSIDE, [CORNER(b_0)]),
@@ -397,7 +403,7 @@ def supremum_by_the_velocity(printed: Printed) -> Statement:
 )
 def supremum_by_alpha(printed: Printed) -> Statement:
     """The supremum, which is that of sA.3.2-sup1, by alpha and the table's launch velocity."""
-    return always(printed.formula(PAPER))
+    return always(printed.formula(paper_names()))
 
 
 @claim("sA.3.2-sup4", "A.3.2", "line 710", printed=r"\Delta E_{sup} < 0")
@@ -420,7 +426,7 @@ def impacts_outside_take_more(printed: Printed) -> Statement:
     """Every impact outside R takes more than at the corner."""
     return always(
         printed.formula(
-            PAPER.extended({r"\Delta E": impact_energy_change, r"\Delta E_{sup}": least})
+            paper_names().extended({r"\Delta E": impact_energy_change, r"\Delta E_{sup}": least})
         ),
         given=[CORNER(b_0)],
     )
@@ -499,7 +505,7 @@ def impacts_outside_are_open() -> list[Statement]:
 @claim("sA.4-boundary", "A.4", "line 716", printed=r"R(\overline{b}) = 0", as_it_stands=r"R(b) = 0")
 def boundary_of_the_region(printed: Printed) -> list[Statement]:
     """The boundary of R, as a set of states of H, is where R(b) = 0."""
-    return is_boundary_of_R(printed.formula(PAPER))
+    return is_boundary_of_R(printed.formula(paper_names()))
 
 
 @claim(
@@ -524,7 +530,11 @@ def supremum_is_not_on_the_boundary_of_the_region() -> Statement:
 )
 def supremum_is_on_the_edge_and_negative(printed: Printed) -> list[Statement]:
     """The supremum belongs to a state on the edge of H, and is negative."""
-    there = [CLOSED_B1(b_0), ON_R(b_0), printed.formula(PAPER.extended({r"\overline\beta": beta0}))]
+    there = [
+        CLOSED_B1(b_0),
+        ON_R(b_0),
+        printed.formula(paper_names().extended({r"\overline\beta": beta0})),
+    ]
     return [
         always(least < 0, given=there, label="negative"),
         *is_least_bound(least, B1_OUTSIDE, there),

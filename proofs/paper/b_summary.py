@@ -8,7 +8,6 @@ from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
     B2,
-    PAPER,
     STRIKES,
     H,
     R,
@@ -33,6 +32,7 @@ from juggleproof.proofs.paper.names import (
     height,
     meet,
     only_at,
+    paper_names,
     r,
     same_set,
     speed,
@@ -81,8 +81,10 @@ from juggleproof.proofs.reading.values import (
 # Appendices B.1 and B.2: the time to collision, the table's period, and the regions, summed up.
 
 # The time to collision and the table's velocity: as \dot\rho is the velocity of the moment.
-MOMENT = PAPER.extended({r"\dot\rho": speed(table_at(t)), r"\tau_c": only_at(b, t, factor=True)})
-LAUNCH_SPEED = PAPER.extended({r"\dot\rho": r})
+MOMENT = paper_names().extended(
+    {r"\dot\rho": speed(table_at(t)), r"\tau_c": only_at(b, t, factor=True)}
+)
+LAUNCH_SPEED = paper_names().extended({r"\dot\rho": r})
 _PERIOD_EQUATION = r"0 = \dot{\rho}T - \gamma T^2"
 _PERIOD = r"T = \frac{2\dot{\rho}_0}{\gamma}"
 
@@ -135,7 +137,7 @@ def time_to_collision_again(printed: Printed) -> Statement:
 )
 def period_solves_an_equation(printed: Printed) -> Statement:
     """The table is on the ground again when the nonzero solution of this equation has passed."""
-    names = PAPER.extended({r"\dot\rho": speed(table_at(since_launch)), "T": since_launch})
+    names = paper_names().extended({r"\dot\rho": speed(table_at(since_launch)), "T": since_launch})
     return always(iff(LANDS, printed.formula(names)), given=[since_launch > 0])
 
 
@@ -171,7 +173,7 @@ def states_with_a_meaning(printed: Printed) -> list[Statement]:
     """H is the set of states with the ball at or above the table at its lowest, and no state leaves
     it within a period.
     """
-    region = printed.set_predicate(PAPER, r"\mathcal{H}")
+    region = printed.set_predicate(paper_names(), r"\mathcal{H}")
     return [
         always(iff(region(b), height(ball_at(0)) >= height(table_at(0))), label="at-or-above"),
         always(at(region(b), f1(b)), given=[region(b), STRIKES(b)], label="kept-with-impact"),
@@ -199,7 +201,7 @@ def b1_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period
     are the region B1 of (7).
     """
-    return tells_b1(printed.set_predicate(PAPER, r"\mathcal{B}_1")(b))
+    return tells_b1(printed.set_predicate(paper_names(), r"\mathcal{B}_1")(b))
 
 
 @claim("sB.2-B2-atleast", "B.2", "line 756", repeats="s2.2.1-B2-no-strike")
@@ -228,7 +230,7 @@ def b2_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are
     what B1 leaves of H.
     """
-    return tells_b2(printed.set_predicate(PAPER, r"\mathcal{B}_2")(b))
+    return tells_b2(printed.set_predicate(paper_names(), r"\mathcal{B}_2")(b))
 
 
 @claim(
@@ -246,7 +248,7 @@ def line_between_the_regions(printed: Printed) -> list[Statement]:
     """
     beside, line = Vector((beta, v0)), [H(b), meet(T)]
     return [
-        line_of_equal_times(printed.set_predicate(PAPER, r"\partial\mathcal{B}_2")(b)),
+        line_of_equal_times(printed.set_predicate(paper_names(), r"\partial\mathcal{B}_2")(b)),
         always(iff(B1(beside), v0 < v) & iff(B2(beside), v0 >= v), given=line, label="between"),
     ]
 
@@ -267,7 +269,7 @@ def line_between_the_regions(printed: Printed) -> list[Statement]:
 )
 def line_by_its_height(printed: Printed) -> Statement:
     """The states of H that meet the table as the period ends are these, one for each height."""
-    return always(iff(printed.formula(PAPER), H(b) & meet(T)))
+    return always(iff(printed.formula(paper_names()), H(b) & meet(T)))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -295,12 +297,14 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
     map_, matrix, time = pieces(printed, 3)
     names = {r"\overline b_k": b_0, r"\overline b_{k+1}": next_bounce(b_0, tau)}
     return [
-        always(map_.formula(PAPER.extended(names)), given=[strikes_from(b_0, tau)], label="map"),
-        always(matrix.formula(PAPER), label="matrix"),
+        always(
+            map_.formula(paper_names().extended(names)), given=[strikes_from(b_0, tau)], label="map"
+        ),
+        always(matrix.formula(paper_names()), label="matrix"),
         always(
             iff(
                 equals(offset_with(u), f1(Vector((0, 0)))),
-                time.formula(PAPER.extended({r"\xi_1": u})),
+                time.formula(paper_names().extended({r"\xi_1": u})),
             ),
             label="time",
         ),
@@ -328,7 +332,7 @@ def map_on_b2_again(printed: Printed) -> Statement:
         r"\alpha_T": flight_offset(T),
     }
     return always(
-        printed.formula(PAPER.extended(names)),
+        printed.formula(paper_names().extended(names)),
         given=[B2(b_0), t > 0, equal(height(table_at(t)), 0)],
     )
 
@@ -344,7 +348,7 @@ def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
     """This column, and no other, is what a period of flight falls short of its linear part."""
     column = Vector((y, u))
     falls_short = equals(ball_at(T), vector(flight_matrix(T) * b) - column)
-    return always(iff(falls_short, printed.formula(PAPER.extended({r"\alpha_T": column}))))
+    return always(iff(falls_short, printed.formula(paper_names().extended({r"\alpha_T": column}))))
 
 
 @claim(
@@ -393,7 +397,7 @@ def states_without_energy_change_again(printed: Printed) -> list[Statement]:
     """The states of B1 whose image has the same energy are those of H whose speed and time to
     collision meet this equation.
     """
-    region = printed.set_predicate(PAPER, r"\mathcal{B}_1^0")
+    region = printed.set_predicate(paper_names(), r"\mathcal{B}_1^0")
     return same_set(region(b), B1_ZERO(b), given=[different(v, r)])
 
 
@@ -402,7 +406,7 @@ def boundary_of_the_region(printed: Printed) -> list[Statement]:
     """The states of R next to which in H, however near, lie states outside R, are those at which
     the function R vanishes.
     """
-    return is_boundary_of_R(printed.formula(PAPER))
+    return is_boundary_of_R(printed.formula(paper_names()))
 
 
 @claim(
@@ -430,7 +434,7 @@ def function_of_the_region_again(printed: Printed) -> Statement:
         & equal(gain, derived("delta_E_max"))
         & equal(margin, derived("region_margin"))
     )
-    return always(printed.formula(PAPER.extended(names)), given=[known])
+    return always(printed.formula(paper_names().extended(names)), given=[known])
 
 
 # -------------------------------------------------------------------------------------------------
@@ -458,7 +462,7 @@ def sampled_state_in_the_table(printed: Printed) -> Statement:
     """The pair is the ball's position and velocity as the table is at its lowest; without a bar the
     velocity is that of any time.
     """
-    names = PAPER.extended({r"\dot\beta": speed(ball_at(t))})
+    names = paper_names().extended({r"\dot\beta": speed(ball_at(t))})
     return always(equals(vector(value_of(printed, names)), ball_at(0)))
 
 
@@ -468,7 +472,7 @@ def impact_in_the_table(printed: Printed) -> Statement:
     before it and x the table's.
     """
     table = Vector(reals("rho u"))
-    names = PAPER.extended({"y": b, "x": table})
+    names = paper_names().extended({"y": b, "x": table})
     return always(
         equals(vector(value_of(printed, names)), vector(collide(table)(b))),
         given=[equal(height(table), beta)],
@@ -486,7 +490,7 @@ def time_until_the_next_period(printed: Printed) -> Statement:
     """After a collision, the time that is left until the table next touches the ground is one
     period less the time to collision.
     """
-    names = PAPER.extended({r"\tau_c": only_at(b, t), r"\overline\tau_c": until})
+    names = paper_names().extended({r"\tau_c": only_at(b, t), r"\overline\tau_c": until})
     lands = equal(height(flight(until)(table_at(t))), 0)
     return always(iff(lands, printed.formula(names)), given=[H(b), strikes_at(t), until > 0])
 
@@ -503,14 +507,14 @@ def flight_matrix_in_the_table(printed: Printed) -> list[Statement]:
     cancels.
     """
     other = Vector(reals("beta0 v0"))
-    matrix = printed.right(PAPER)
+    matrix = printed.right(paper_names())
     if not isinstance(matrix, Matrix):
         raise ShapeError("a matrix was expected")
     return [
         always(
             equals(vector(matrix * (b - other)), ball_at(t) - ball_at(t, other)), label="difference"
         ),
-        always(printed.formula(PAPER), label="matrix"),
+        always(printed.formula(paper_names()), label="matrix"),
     ]
 
 
@@ -523,7 +527,7 @@ def flight_matrix_in_the_table(printed: Printed) -> list[Statement]:
 )
 def energy_in_the_table(printed: Printed) -> Statement:
     """The energy is what flight keeps: weight by height, and half the squared velocity."""
-    return always(printed.formula(PAPER))
+    return always(printed.formula(paper_names()))
 
 
 @claim(
@@ -536,7 +540,7 @@ def energy_in_the_table(printed: Printed) -> Statement:
 def energy_change_in_the_table(printed: Printed) -> Statement:
     """The change of energy at an impact is the energy of the next state less that of this one."""
     change = energy(after_impact(t)) - energy(ball_at(t))
-    names = PAPER.extended({"f": f1, r"\Delta E": only_at(b, change)})
+    names = paper_names().extended({"f": f1, r"\Delta E": only_at(b, change)})
     return always(printed.formula(names), given=[H(b), strikes_at(t)])
 
 
@@ -552,7 +556,7 @@ def kinetic_energy_in_the_table(printed: Printed) -> Statement:
     height.
     """
     moving = StateFunction(lambda state: energy(state) - energy(Vector((state.component(1), 0))))
-    return always(printed.formula(PAPER.extended({"K": moving})))
+    return always(printed.formula(paper_names().extended({"K": moving})))
 
 
 @claim("sB.7-B1", "B.7", "line 854", true_nearby=NEAR_B1, printed=r"\tau_c < T", repeats="sB.2-B1")
@@ -560,7 +564,7 @@ def b1_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period
     are the region B1 of (7).
     """
-    return tells_b1(printed.formula(PAPER))
+    return tells_b1(printed.formula(paper_names()))
 
 
 @claim(
@@ -570,7 +574,7 @@ def b2_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are
     what B1 leaves of H.
     """
-    return tells_b2(printed.formula(PAPER))
+    return tells_b2(printed.formula(paper_names()))
 
 
 @claim("sB.7-R", "B.7", "line 856", repeats="prop-1")

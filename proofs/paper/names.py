@@ -195,53 +195,62 @@ def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     return relate(left, "=", right)
 
 
-NAMES: dict[str, Value] = {
-    r"\alpha": alpha,
-    r"\gamma": g,
-    r"\overline\beta": beta,
-    r"\dot{\overline\beta}": v,
-    r"\dot\rho_0": r,
-    r"t": t,
-    r"T": T,
-    r"\overline\beta_0": real("beta0"),
-    r"\dot{\overline\beta}_0": real("v0"),
-    r"I": I,
-    r"r_0": r_0,
-    r"K": K,
-    r"\epsilon": eps,
-    r"A_{\cdot}": flight_matrix,
-    r"a_{\cdot}": flight_offset,
-    r"F^{\cdot}": flight,
-    r"C_{\cdot}": collide,
-    r"R_\alpha": derived_matrix("restitution_matrix"),
-    r"\xi_1": derived("xi_1"),
-    r"\epsilon_1": derived("epsilon_1"),
-    r"e_1": e_1,
-    r"\tau_c": collision_time,
-    r"\overline f_1": f1,
-    r"\overline f_2": f2,
-    r"E": energy,
-    r"\Delta_1 E": impact_energy_change,
-    r"E_{max}": derived("E_max"),
-    r"\Delta E_{max}": derived("delta_E_max"),
-    r"\Delta E_{sup}": derived("delta_E_sup"),
-    r"\sqrt{2(1+\alpha)}": s,
-    r"\mathcal{H}": H,
-    r"\mathcal{B}_1": B1,
-    r"\mathcal{B}_2": B2,
-    r"\mathcal{R}": R,
-    r"R": StateFunction(lambda state: at(derived("region_margin"), state)),
-}
 POINTS = {
     r"\overline b": (r"\overline\beta", r"\dot{\overline\beta}"),
     r"\overline b_0": (r"\overline\beta_0", r"\dot{\overline\beta}_0"),
 }
-PAPER = Environment(NAMES, points=POINTS, state=r"\overline b")
+
+
+@cache
+def meanings() -> dict[str, Value]:
+    """What the paper's names stand for."""
+    return {
+        r"\alpha": alpha,
+        r"\gamma": g,
+        r"\overline\beta": beta,
+        r"\dot{\overline\beta}": v,
+        r"\dot\rho_0": r,
+        r"t": t,
+        r"T": T,
+        r"\overline\beta_0": real("beta0"),
+        r"\dot{\overline\beta}_0": real("v0"),
+        r"I": I,
+        r"r_0": r_0,
+        r"K": K,
+        r"\epsilon": eps,
+        r"A_{\cdot}": flight_matrix,
+        r"a_{\cdot}": flight_offset,
+        r"F^{\cdot}": flight,
+        r"C_{\cdot}": collide,
+        r"R_\alpha": derived_matrix("restitution_matrix"),
+        r"\xi_1": derived("xi_1"),
+        r"\epsilon_1": derived("epsilon_1"),
+        r"e_1": e_1,
+        r"\tau_c": collision_time,
+        r"\overline f_1": f1,
+        r"\overline f_2": f2,
+        r"E": energy,
+        r"\Delta_1 E": impact_energy_change,
+        r"E_{max}": derived("E_max"),
+        r"\Delta E_{max}": derived("delta_E_max"),
+        r"\Delta E_{sup}": derived("delta_E_sup"),
+        r"\sqrt{2(1+\alpha)}": s,
+        r"\mathcal{H}": H,
+        r"\mathcal{B}_1": B1,
+        r"\mathcal{B}_2": B2,
+        r"\mathcal{R}": R,
+        r"R": StateFunction(lambda state: at(derived("region_margin"), state)),
+    }
 
 
 def paper_names() -> Environment:
     """The names in which the paper's prints are read."""
-    return PAPER
+    return _paper_names()
+
+
+@cache
+def _paper_names() -> Environment:
+    return Environment(meanings(), points=POINTS, state=r"\overline b")
 
 
 # -------------------------------------------------------------------------------------------------
@@ -347,11 +356,6 @@ DERIVED: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("collision_margin", "collision_margin", STATE),
     ("region_margin", "region_margin", STATE),
 )
-REGIONS: tuple[tuple[str, Formula, str], ...] = (
-    ("in_R", R(b), "The region R, on or above the table."),
-    ("in_B1", B1(b), "On or above the table, and an impact comes within the period."),
-    ("in_B2", B2(b), "On or above the table, and no impact comes within the period."),
-)
 
 
 def definitions() -> tuple[Definition, ...]:
@@ -379,7 +383,15 @@ def _definitions() -> tuple[Definition, ...]:
             says = ""
         if parameters:
             made.append(Definition(name, parameters, entries))
-    made += [Definition(name, STATE, formula, says) for name, formula, says in REGIONS]
+    made += [
+        Definition("in_R", STATE, R(b), "The region R, on or above the table."),
+        Definition(
+            "in_B1", STATE, B1(b), "On or above the table, and an impact comes within the period."
+        ),
+        Definition(
+            "in_B2", STATE, B2(b), "On or above the table, and no impact comes within the period."
+        ),
+    ]
     return tuple(made)
 
 

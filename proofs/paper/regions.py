@@ -22,7 +22,6 @@ from juggleproof.proofs import forms
 from juggleproof.proofs.claims import Assertion
 from juggleproof.proofs.paper.names import (
     B1,
-    PAPER,
     STANDING,
     H,
     R,
@@ -41,6 +40,7 @@ from juggleproof.proofs.paper.names import (
     height,
     impact_energy_change,
     meet,
+    paper_names,
     r,
     speed,
     t,
@@ -83,7 +83,7 @@ SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
 ATTRACTION = ("theorem-region/enters",)  # from some period on, every orbit is in R
 LEVEL: Term = derived("region_energy")  # E_max + Delta E_max, the energy on the edge of R
 # The meanings of prints in which tau_w and the root of the energy are unknowns.
-NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
+NAMED = paper_names().extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
 PRINTED_SUPREMUM = (
     r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)}"
     r" \frac{\alpha}{1-\alpha}] "

@@ -22,7 +22,6 @@ from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
     B2,
-    PAPER,
     STRIKES,
     H,
     T,
@@ -49,6 +48,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     meet,
     only_at,
+    paper_names,
     r,
     speed,
     strikes_at,
@@ -81,7 +81,7 @@ def states_on_or_above_the_table(printed: Printed) -> list[Statement]:
     """H is the set of states with the ball on or above the table at its lowest, and no state leaves
     it within a period.
     """
-    inside = printed.formula(PAPER)
+    inside = printed.formula(paper_names())
     return [
         always(iff(inside, height(ball_at(0)) >= height(table_at(0))), label="on-or-above"),
         always(at(inside, f1(b)), given=[inside, STRIKES(b)], label="kept-with-impact"),
@@ -106,7 +106,7 @@ def time_to_collision_tells_b1(printed: Printed) -> Readings:
         return Assertion(
             (
                 always(
-                    iff(printed.formula(PAPER), STRIKES(b)),
+                    iff(printed.formula(paper_names()), STRIKES(b)),
                     given=[in_h, different(v, r)],
                     label="same-states",
                 ),
@@ -141,9 +141,9 @@ def b1_strikes_within_a_period() -> list[Statement]:
 def time_to_collision_tells_b2(printed: Printed) -> list[Statement]:
     """B2 is what B1 leaves of H, and there the time to collision is one period at least."""
     difference, condition = pieces(printed, 2)
-    rest, late = as_region(difference.right(PAPER)), condition.formula(PAPER)
+    rest, late = as_region(difference.right(paper_names())), condition.formula(paper_names())
     return [
-        always(difference.formula(PAPER), label="what-is-left"),
+        always(difference.formula(paper_names()), label="what-is-left"),
         always(late, given=[rest(b), different(v, r)], label="late"),
         always(rest(b), given=[H(b), different(v, r), late], label="all-that-are-late"),
     ]
@@ -165,7 +165,7 @@ def line_between_b1_and_b2(printed: Printed) -> list[Statement]:
     """
     parted = iff(B1(b), v < u) & iff(B2(b), v >= u)
     return [
-        line_of_equal_times(printed.formula(PAPER)),
+        line_of_equal_times(printed.formula(paper_names())),
         always(parted, given=[H(b), meet(T, Vector((beta, u)))], label="between"),
     ]
 
@@ -201,7 +201,7 @@ def axis_below_the_line(printed: Printed) -> Readings:
     return Readings(
         {
             "printed": Reading(
-                _beside_the_line(printed.formula(PAPER), v < u, B1(b)),
+                _beside_the_line(printed.formula(paper_names()), v < u, B1(b)),
                 "section 2.2.1 prints the axis so",
             ),
             "edge": Reading(
@@ -220,7 +220,7 @@ def axis_above_the_line(printed: Printed) -> Readings:
     return Readings(
         {
             "printed": Reading(
-                _beside_the_line(printed.formula(PAPER), v > u, B2(b)),
+                _beside_the_line(printed.formula(paper_names()), v > u, B2(b)),
                 "section 2.2.1 prints the axis so",
             ),
             "edge": Reading(
@@ -256,7 +256,7 @@ def flight_follows_level_curves() -> list[Statement]:
 def states_whose_impact_keeps_the_energy(printed: Printed) -> list[Statement]:
     """B1^0 holds those states of B1 whose impact leaves the energy as it was."""
     region = printed.set_predicate(
-        PAPER.extended({r"\Delta E": impact_energy_change}), r"\mathcal{B}_1^0"
+        paper_names().extended({r"\Delta E": impact_energy_change}), r"\mathcal{B}_1^0"
     )
     keeps = equal(energy(after_impact(t)), energy(ball_at(t)))
     return [
@@ -320,7 +320,7 @@ def newtons_equation(printed: Printed) -> list[Statement]:
 
     def component(index: int) -> Statement:
         names = {r"\ddot{x}": second_derivative(index), r"\ddot\chi": second_derivative(1)}
-        says = printed.formula(PAPER.extended(names))
+        says = printed.formula(paper_names().extended(names))
         return always(says, given=[different(d, 0)], label=("position", "speed")[index - 1])
 
     return [component(1), component(2)]
@@ -339,7 +339,7 @@ def flight_is_affine(printed: Printed) -> list[Statement]:
     """The flight for any time t is affine in the state: a shear by t, less what gravity takes
     off.
     """
-    here = PAPER.extended({"x": b})
+    here = paper_names().extended({"x": b})
     whole, matrix, offset = pieces(printed, 3)
     by_print = here.extended({"A_t": matrix.right(here), "a_t": offset.right(here)})
     return [
@@ -376,9 +376,11 @@ def relative_velocity_after_impact(printed: Printed) -> Statement:
     law, values, relative = pieces(printed, 3)
     ball_speed, table_speed = map(term, derived_vector("speeds_after_impact"))
     names = reals("chi chi_dot chi_after chi_dot_after")
-    before = relative.formula(PAPER.extended({"x": b, "y": table, r"\chi": Vector(names[:2])}))
+    before = relative.formula(
+        paper_names().extended({"x": b, "y": table, r"\chi": Vector(names[:2])})
+    )
     after = relative.formula(
-        PAPER.extended(
+        paper_names().extended(
             {
                 "x": Vector((beta, ball_speed)),
                 "y": Vector((rho, table_speed)),
@@ -386,10 +388,10 @@ def relative_velocity_after_impact(printed: Printed) -> Statement:
             }
         )
     )
-    says = law.formula(PAPER.extended({r"\dot\chi": names[1], r"\dot\chi'": names[3]}))
+    says = law.formula(paper_names().extended({r"\dot\chi": names[1], r"\dot\chi'": names[3]}))
     return always(
         says,
-        in_range=[values.formula(PAPER)],
+        in_range=[values.formula(paper_names())],
         given=[m > 0, equal(beta, rho), v < u, before, after],
     )
 
@@ -401,7 +403,7 @@ def impact_rebounds_with_loss(printed: Printed) -> Statement:
     """
     parting = speed(collide(table)(b)) - u
     return always(
-        iff(printed.formula(PAPER), conjunction([parting > 0, parting < u - v])),
+        iff(printed.formula(paper_names()), conjunction([parting > 0, parting < u - v])),
         given=[v < u],
         in_range=[],
     )
@@ -425,7 +427,7 @@ def impact_on_a_massive_body(printed: Printed) -> list[Statement]:
     The massive body is slowed by at most (1 + alpha) m times the speed at which they met, m being
     the mass ratio.
     """
-    here = PAPER.extended({"x": b, "y": table})
+    here = paper_names().extended({"x": b, "y": table})
     whole, matrix = pieces(printed, 2)
     after = Vector(reals("after after_dot"))
 
@@ -484,7 +486,7 @@ def next_state_by_control(printed: Printed) -> Statement:
 
     C is given a velocity where (3) has a state: the table's height plays no part, whatever it is.
     """
-    here = PAPER.extended(
+    here = paper_names().extended(
         {
             "f": _steered,
             "b": ball,

@@ -20,7 +20,6 @@ from juggleproof.proofs.claims import NotFormalised
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    PAPER,
     STANDING,
     STRIKES,
     H,
@@ -46,6 +45,7 @@ from juggleproof.proofs.paper.names import (
     height,
     meet,
     only_at,
+    paper_names,
     r,
     r_0,
     speed,
@@ -132,7 +132,7 @@ def table_comes_down_as_it_went_up(printed: Printed) -> Statement:
     """
     lands = equal(height(table_at(t)), 0)
     return always(
-        equals(table_at(t), vector(printed.right(PAPER))) & printed.formula(PAPER),
+        equals(table_at(t), vector(printed.right(paper_names()))) & printed.formula(paper_names()),
         given=[t > 0, lands],
     )
 
@@ -152,7 +152,7 @@ def table_state_by_time_in_period(printed: Printed) -> list[Statement]:
     period where it can be launched anew.
     """
     flown = table_at(t - n * T)
-    here = PAPER.extended({"r(t)": flown, r"\tau_p(t)": since})
+    here = paper_names().extended({"r(t)": flown, r"\tau_p(t)": since})
     again = at(collide(GROUND)(table_at(T)), {"alpha": 1})
     return [
         always(
@@ -185,7 +185,7 @@ def launch_speed_is_positive(printed: Printed) -> Statement:
     """
     free = replace(STANDING, givens={"g": (g > 0,)})
     rho = real("rho")  # what the print names: the height at launch
-    positive = printed.formula(PAPER.extended({r"\rho_0": rho}))
+    positive = printed.formula(paper_names().extended({r"\rho_0": rho}))
     return always(iff(positive, T > 0), given=[equal(rho, height(r_0))], vocabulary=free)
 
 
@@ -196,7 +196,7 @@ def time_in_period_is_one_function(printed: Printed) -> list[Statement]:
     """
 
     def inside(time: Term) -> Formula:
-        return printed.formula(PAPER.extended({"t": time}))
+        return printed.formula(paper_names().extended({"t": time}))
 
     other = real("other")
     return [
@@ -223,7 +223,7 @@ def time_in_period_is_one_function(printed: Printed) -> list[Statement]:
 # freely, is the ball's state just after the impact.
 
 d, rho, u = reals("d rho u")
-AT_TIME = PAPER.extended({r"\tau_c": only_at(b, t, factor=True)})
+AT_TIME = paper_names().extended({r"\tau_c": only_at(b, t, factor=True)})
 TABLE = Vector((rho, u))  # a table in any state as the period begins
 FOLDED = Vector(reals("folded folded_dot"))  # the value of the map in (8)
 
@@ -257,7 +257,7 @@ def sampled_state(printed: Printed) -> Statement:
     )  # exact, as the flight is quadratic in time
     sampled = Vector((height(ball_at(0)), velocity))
     return always(
-        printed.formula(PAPER.extended({r"\overline b": sampled})), given=[different(d, 0)]
+        printed.formula(paper_names().extended({r"\overline b": sampled})), given=[different(d, 0)]
     )
 
 
@@ -274,8 +274,8 @@ def b1_collides_before_the_table_lands(printed: Printed) -> list[Statement]:
     """
     subset, member = pieces(printed, 2)
     return [
-        always(subset.formula(PAPER), label="part-of-h"),
-        *strikes_from_region(member.formula(PAPER)),
+        always(subset.formula(paper_names()), label="part-of-h"),
+        *strikes_from_region(member.formula(paper_names())),
     ]
 
 
@@ -349,7 +349,7 @@ def bounds_on_the_time_tell_b1(printed: Printed) -> Statement:
     """Of the states of H in which the bodies approach each other, those with this time to collision
     make up the region B1 of (7).
     """
-    return always(iff(printed.formula(PAPER), STRIKES(b)), given=[H(b), v < r])
+    return always(iff(printed.formula(paper_names()), STRIKES(b)), given=[H(b), v < r])
 
 
 @claim(
@@ -372,7 +372,7 @@ def region_b1(printed: Printed) -> list[Statement]:
     """B1 holds those states of H from which the ball strikes the table before the period ends, and
     no others.
     """
-    region = printed.set_predicate(PAPER, r"\mathcal{B}_1")
+    region = printed.set_predicate(paper_names(), r"\mathcal{B}_1")
     return [
         *strikes_from_region(region(b)),
         always(region(b), given=[H(b), strikes_at(t)], label="only-these"),
@@ -419,7 +419,8 @@ def table_lands_as_it_was_launched(printed: Printed) -> Statement:
     changed.
     """
     return always(
-        equals(table_at(T), vector(value_of(printed, PAPER))) & equal(height(table_at(T)), 0)
+        equals(table_at(T), vector(value_of(printed, paper_names())))
+        & equal(height(table_at(T)), 0)
     )
 
 

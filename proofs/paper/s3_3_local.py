@@ -17,7 +17,6 @@ from juggleproof.proofs.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    PAPER,
     STRIKES,
     H,
     T,
@@ -39,6 +38,7 @@ from juggleproof.proofs.paper.names import (
     height,
     matrix,
     meet,
+    paper_names,
     r,
     r_0,
     speed,
@@ -85,7 +85,7 @@ def state_at_the_next_bounce(printed: Printed) -> Statement:
     of the state before.
     """
     names = {r"\overline b_k": b_0, r"\overline b_{k+1}": next_bounce(b_0, t)}
-    return always(printed.formula(PAPER.extended(names)), given=[strikes_from(b_0, t)])
+    return always(printed.formula(paper_names().extended(names)), given=[strikes_from(b_0, t)])
 
 
 @claim("s3.3-iterate", "3.3", "line 291")
@@ -116,7 +116,7 @@ def time_in_the_offset(printed: Printed) -> Statement:
     return always(
         iff(
             equals(offset_with(t), f1(Vector((0, 0)))),
-            printed.formula(PAPER.extended({r"\xi_1": t})),
+            printed.formula(paper_names().extended({r"\xi_1": t})),
         )
     )
 
@@ -185,7 +185,10 @@ def time_in_the_fixed_point(printed: Printed) -> Statement:
     """
     shifted = vector(flight_matrix(-t) * r_0).scaled(-(1 - alpha) / (1 + alpha))
     return always(
-        iff(equals(f1(shifted), shifted), printed.formula(PAPER.extended({r"\epsilon_1": t})))
+        iff(
+            equals(f1(shifted), shifted),
+            printed.formula(paper_names().extended({r"\epsilon_1": t})),
+        )
     )
 
 
@@ -210,7 +213,7 @@ def fixed_point_in_coordinates(printed: Printed) -> Statement:
 )
 def fixed_point_lies_in_b1(printed: Printed) -> Statement:
     """The fixed point lies in B1, so that it is one of the whole map."""
-    return always(printed.formula(PAPER.extended({"e_1": b})), given=[FIXED])
+    return always(printed.formula(paper_names().extended({"e_1": b})), given=[FIXED])
 
 
 @claim(
@@ -224,7 +227,7 @@ def fixed_point_lies_above_the_table(printed: Printed) -> list[Statement]:
     """The height of the fixed point is positive, so that it lies in H."""
     return [
         always(beta > 0, given=[FIXED], label="positive"),
-        always(printed.formula(PAPER.extended({"e_1": b})), given=[FIXED], label="in-H"),
+        always(printed.formula(paper_names().extended({"e_1": b})), given=[FIXED], label="in-H"),
     ]
 
 
@@ -235,7 +238,11 @@ def impact_at_the_fixed_point_comes_in_time(printed: Printed) -> list[Statement]
     """
     return [
         always(v < r, given=[FIXED], label="approaching"),
-        always(printed.formula(PAPER.extended({"e_1": b})), given=[FIXED, v < r], label="in-time"),
+        always(
+            printed.formula(paper_names().extended({"e_1": b})),
+            given=[FIXED, v < r],
+            label="in-time",
+        ),
     ]
 
 
@@ -261,7 +268,9 @@ def eigenvalues_lie_in_the_unit_circle(printed: Printed) -> Statement:
     """Every complex eigenvalue of the linear part of the map is less than 1 in absolute value,
     whatever the launch speed.
     """
-    return always(p**2 + q**2 < 1, given=[eigenvalue_of(matrix(value_of(printed, PAPER)), p, q)])
+    return always(
+        p**2 + q**2 < 1, given=[eigenvalue_of(matrix(value_of(printed, paper_names())), p, q)]
+    )
 
 
 @claim("s3.3-neighbourhood", "3.3", "line 313")
@@ -312,15 +321,15 @@ ON_THE_LINE = (
 def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
     """The states of H outside B1 are those whose time to collision is one period at least."""
     difference, condition = pieces(printed, 2)
-    late = Region(lambda state: H(state) & condition.formula(PAPER))
+    late = Region(lambda state: H(state) & condition.formula(paper_names()))
     return [
         always(
-            condition.formula(PAPER),
-            given=[as_region(difference.right(PAPER))(b), different(v, r)],
+            condition.formula(paper_names()),
+            given=[as_region(difference.right(paper_names()))(b), different(v, r)],
             label="late",
         ),
         always(
-            difference.formula(PAPER.extended({r"\mathcal{B}_2": late})),
+            difference.formula(paper_names().extended({r"\mathcal{B}_2": late})),
             given=[different(v, r)],
             label="all-that-are-late",
         ),
@@ -340,7 +349,7 @@ def second_region_by_the_time_to_collision(printed: Printed) -> list[Statement]:
     """The states of H whose time to collision is one period at least are those from which the ball
     does not strike within a period.
     """
-    late = printed.set_predicate(PAPER, r"\mathcal{B}_2")
+    late = printed.set_predicate(paper_names(), r"\mathcal{B}_2")
     no_strike = H(b) & ~strikes_from(b, t)
     return [
         always(no_strike, given=[different(v, r), late(b)], label="no-strike"),
@@ -362,10 +371,10 @@ def period_of_flight(printed: Printed) -> list[Statement]:
     then.
     """
     lands = (t > 0) & equal(height(table_at(t)), 0)
-    after = vector(printed.right(PAPER))
+    after = vector(printed.right(paper_names()))
     return [
         always(
-            printed.formula(PAPER.extended({r"\overline f_2": ball_at(t)})),
+            printed.formula(paper_names().extended({r"\overline f_2": ball_at(t)})),
             given=[lands],
             label="next-bounce",
         ),

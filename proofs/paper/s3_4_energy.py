@@ -6,8 +6,6 @@ from juggleproof.certificates.language import Statement, equal, reals
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    NAMES,
-    PAPER,
     POINTS,
     always,
     b,
@@ -18,8 +16,10 @@ from juggleproof.proofs.paper.names import (
     f1,
     f2,
     height,
+    meanings,
     next_states,
     only_at,
+    paper_names,
     speed,
     t,
 )
@@ -30,7 +30,7 @@ from juggleproof.proofs.reading.values import StateFunction, Value, Vector
 
 tau, change, change_1, change_2 = reals("tau change change_1 change_2")
 b_0, image = Vector(reals("beta0 v0")), Vector(reals("beta1 v1"))
-FROM_B_0 = Environment(NAMES, points=POINTS, state=r"\overline b_0")
+FROM_B_0 = Environment(meanings(), points=POINTS, state=r"\overline b_0")
 
 
 @claim(
@@ -43,7 +43,7 @@ def total_energy(printed: Printed) -> Statement:
     """The energy is what Newton's equation keeps in flight: half the squared speed, less the work
     of gravity from the ground up.
     """
-    return always(printed.formula(PAPER))
+    return always(printed.formula(paper_names()))
 
 
 @claim(
@@ -57,7 +57,7 @@ def total_energy(printed: Printed) -> Statement:
 )
 def energy_at_the_start(printed: Printed) -> Statement:
     """The energy of the state from which a flight starts is the one that it has after any time."""
-    return always(printed.formula(PAPER.extended({"E_0": energy(ball_at(t, b_0))})))
+    return always(printed.formula(paper_names().extended({"E_0": energy(ball_at(t, b_0))})))
 
 
 @claim("s3.4.1-flight", "3.4.1", "line 348", printed=r"\overline{b}(t) = F^t \circ \overline{b}_0")
@@ -66,7 +66,7 @@ def state_in_flight(printed: Printed) -> Statement:
     in between.
     """
     on_the_way = ball_at(t - tau, ball_at(tau, b_0))
-    return always(printed.formula(PAPER.extended({r"\overline b(t)": on_the_way})))
+    return always(printed.formula(paper_names().extended({r"\overline b(t)": on_the_way})))
 
 
 @claim(
@@ -91,7 +91,9 @@ def energy_in_flight(printed: Printed) -> Statement:
 def flight_keeps_the_energy(printed: Printed) -> Statement:
     """After any time of flight the energy is that of the first state."""
     return always(
-        printed.formula(PAPER.extended({"E(t)": energy(ball_at(t, b_0)), "E_0": energy(b_0)}))
+        printed.formula(
+            paper_names().extended({"E(t)": energy(ball_at(t, b_0)), "E_0": energy(b_0)})
+        )
     )
 
 
@@ -110,7 +112,7 @@ def image_of_b(state: Vector = b) -> StateFunction[Vector]:
 def map_keeps_the_energy_on_b2(printed: Printed) -> Statement:
     """The map leaves the energy of a state of B2 as it is."""
     return always(
-        printed.formula(PAPER.extended({r"\overline f": image_of_b()})),
+        printed.formula(paper_names().extended({r"\overline f": image_of_b()})),
         given=[next_states(b, image)],
     )
 
@@ -142,12 +144,12 @@ def energy_change(printed: Printed) -> list[Statement]:
     )
     return [
         always(
-            printed.formula(PAPER.extended({**names, r"\overline f": f1})),
+            printed.formula(paper_names().extended({**names, r"\overline f": f1})),
             given=[known, B1(b), strikes_from(b, t), equal(change, gain)],
             label="with-impact",
         ),
         always(
-            printed.formula(PAPER.extended({**names, r"\overline f": f2})),
+            printed.formula(paper_names().extended({**names, r"\overline f": f2})),
             given=[known, B2(b), equal(change, 0)],
             label="without-impact",
         ),
@@ -158,7 +160,7 @@ def energy_change(printed: Printed) -> list[Statement]:
 def no_energy_change_on_b2(printed: Printed) -> Statement:
     """On B2 the energy of a state and that of its image are the same."""
     return always(
-        printed.formula(PAPER.extended({r"\Delta_2 E": energy(image) - energy(b)})),
+        printed.formula(paper_names().extended({r"\Delta_2 E": energy(image) - energy(b)})),
         given=[B2(b), next_states(b, image)],
     )
 
@@ -196,6 +198,6 @@ def energy_change_on_b1(printed: Printed) -> Statement:
     """
     change = energy(next_bounce(b, t)) - energy(b)
     return always(
-        printed.formula(PAPER.extended({r"\Delta_1 E": change, r"\tau_c": t})),
+        printed.formula(paper_names().extended({r"\Delta_1 E": change, r"\tau_c": t})),
         given=[strikes_from(b, t)],
     )

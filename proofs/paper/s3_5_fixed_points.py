@@ -29,8 +29,6 @@ from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings, Re
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    NAMES,
-    PAPER,
     H,
     K,
     T,
@@ -52,7 +50,9 @@ from juggleproof.proofs.paper.names import (
     flight_matrix,
     height,
     is_maximum,
+    meanings,
     next_states,
+    paper_names,
     r,
     speed,
     t,
@@ -94,7 +94,7 @@ beta_0, v_0 = b_0
 UP_AGAIN = equal(
     height(ball_at(K * T, Vector((y, u)))), y
 )  # a ball that leaves height y at speed u is back there after K periods
-POWERS = PAPER.extended({r"\overline f_2^{\cdot}": flights})
+POWERS = paper_names().extended({r"\overline f_2^{\cdot}": flights})
 
 
 @claim("s3.5-fixed-points-of-f", "3.5", "line 382")
@@ -187,7 +187,9 @@ def time_of_flight(printed: Printed) -> Statement:
     """
     names = {"t_f": tau, r"\beta": y, r"\dot\beta": u}
     back = equal(height(ball_at(tau, Vector((y, u)))), y)
-    return always(iff(back, printed.formula(PAPER.extended(names))), given=[different(tau, 0)])
+    return always(
+        iff(back, printed.formula(paper_names().extended(names))), given=[different(tau, 0)]
+    )
 
 
 @claim("s3.5.1-tf-KT", "3.5.1", "line 386", printed="t_f = KT")
@@ -197,7 +199,7 @@ def flight_lasts_k_periods(printed: Printed) -> Statement:
     """
     back = equal(height(ball_at(tau, struck(b, t))), height(struck(b, t)))
     return always_integer(
-        iff(back, printed.formula(PAPER.extended({"t_f": tau}))),
+        iff(back, printed.formula(paper_names().extended({"t_f": tau}))),
         given=[comes_back(K), strikes_from(b, t), different(tau, 0)],
     )
 
@@ -209,10 +211,11 @@ def speed_after_the_impact(printed: Printed) -> list[Statement]:
     """
     return [
         always_integer(
-            iff(UP_AGAIN, printed.formula(PAPER.extended({r"\dot\beta": u}))), label="flight"
+            iff(UP_AGAIN, printed.formula(paper_names().extended({r"\dot\beta": u}))),
+            label="flight",
         ),
         always_integer(
-            printed.formula(PAPER.extended({r"\dot\beta": speed(struck(b, t))})),
+            printed.formula(paper_names().extended({r"\dot\beta": speed(struck(b, t))})),
             given=[comes_back(K), strikes_from(b, t)],
             label="on-the-orbit",
         ),
@@ -232,7 +235,9 @@ def table_speed_at_the_impact(printed: Printed) -> list[Statement]:
     """An impact turns the speed of a flight of K periods round exactly if the table moves at this
     speed; on the orbit, it does.
     """
-    (_, sign, value), again = relations_of(printed, PAPER.extended({r"\dot\rho(\tau_c)": m}), 2)
+    (_, sign, value), again = relations_of(
+        printed, paper_names().extended({r"\dot\rho(\tau_c)": m}), 2
+    )
 
     turned = equal(speed(vector(collide(Vector((y, m)))(Vector((y, -u))))), u)
     return [
@@ -289,7 +294,8 @@ def longest_period(printed: Printed) -> list[Statement]:
         return m
 
     environment, inside = with_rounding(
-        printed, PAPER.extended({"K_{max}": k, r"\dot\rho": y, r"\max_{\cdot} \cdot": value})
+        printed,
+        paper_names().extended({"K_{max}": k, r"\dot\rho": y, r"\max_{\cdot} \cdot": value}),
     )
     known: list[Formula] = []
     parts: list[Statement] = []
@@ -348,7 +354,9 @@ def no_second_impact_within_the_period(printed: Printed) -> list[Statement]:
     names = {r"\dot\beta": speed(after), r"\dot\rho": speed(table_at(tau))}
     return [
         always(
-            printed.formula(PAPER.extended(names)), given=[strikes_from(b, tau)], label="faster"
+            printed.formula(paper_names().extended(names)),
+            given=[strikes_from(b, tau)],
+            label="faster",
         ),
         always(
             height(ball_at(t - tau, after)) > height(table_at(t)),
@@ -375,7 +383,7 @@ def periods_up_to_k(printed: Printed) -> list[Statement]:
     """There are orbits for the periods up to K, and for no longer one, exactly if the bound,
     rounded down, lies between K and K + 1.
     """
-    says = printed.formula(PAPER.extended({"K_{max}": n}))
+    says = printed.formula(paper_names().extended({"K_{max}": n}))
     return [
         always_integer(iff(B1(b), K <= BOUND), given=[comes_back(K)], label="orbits"),
         always_integer(
@@ -390,7 +398,7 @@ def restitution_for_periods_up_to_k(printed: Printed) -> list[Statement]:
     to exist, the right that for K + 1.
     """
     from_k_on, to_next = (
-        relate(left, sign, right) for left, sign, right in relations_of(printed, PAPER, 2)
+        relate(left, sign, right) for left, sign, right in relations_of(printed, paper_names(), 2)
     )
     return [
         always_integer(
@@ -410,7 +418,7 @@ def periods_that_exist(printed: Printed) -> Statement:
     """For the restitutions of (20), the orbits with one impact are those whose period is not above
     K.
     """
-    meant = Environment({**NAMES, "k": k}, points={"e_k": ("k",)})
+    meant = Environment({**meanings(), "k": k}, points={"e_k": ("k",)})
     held = Meaning(meant).of(printed.tree)
     if not isinstance(held, Region):
         raise ClaimError("a set of fixed points is expected here")
@@ -424,7 +432,7 @@ def periods_that_exist(printed: Printed) -> Statement:
 @claim("eq-21", "3.5.2", "(21)", printed=r"0 < \alpha < \frac{1}{3}")
 def restitution_for_one_fixed_point(printed: Printed) -> list[Statement]:
     """These are the restitutions for which no period but one has an orbit with one impact."""
-    single = printed.formula(PAPER)
+    single = printed.formula(paper_names())
     return [
         always_integer(
             ~B1(b), given=[K >= 2, comes_back(K)], in_range=[single], label="no-longer-period"
@@ -436,7 +444,7 @@ def restitution_for_one_fixed_point(printed: Printed) -> list[Statement]:
 @claim("s3.5.2-note8", "4.1", "note 8", printed=r"\alpha = 0")
 def no_restitution_is_left_out(printed: Printed) -> Statement:
     """For K = 1, (20) also admits that value of the restitution, and (21) is (20) without it."""
-    zero = printed.formula(PAPER)
+    zero = printed.formula(paper_names())
     admitted = (threshold(1) <= alpha) & (alpha < threshold(2))
     return always(iff(admitted & ~zero, (alpha > 0) & (alpha < threshold(2))), in_range=[])
 
@@ -464,7 +472,7 @@ def for_every_k(printed: Printed) -> list[Statement]:
     chain = printed.tree
     if not isinstance(chain, Chain):
         raise ClaimError("an equation is expected here")
-    meaning = Meaning(PAPER.extended({r"A_{\cdot}^{\cdot}": power_of_flight}))
+    meaning = Meaning(paper_names().extended({r"A_{\cdot}^{\cdot}": power_of_flight}))
     left = is_jacobian(meaning.here(chain.first), K, "left-side")
     try:
         return [left, is_jacobian(meaning.here(chain.rest[-1][1]), K, "right-side")]
@@ -487,7 +495,7 @@ def jacobian_of_the_composites(printed: Printed) -> list[AnyStatement]:
     )
     equations: list[AnyStatement] = []
     for count in (1, 2, 3):
-        environment = PAPER.extended({"K": count})
+        environment = paper_names().extended({"K": count})
         equations.append(always_integer(printed.formula(environment), label=f"equation-{count}"))
         equations.append(is_jacobian(printed.right(environment), count, f"right-side-{count}"))
     return [

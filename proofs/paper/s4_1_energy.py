@@ -19,7 +19,6 @@ from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
     B2,
-    PAPER,
     H,
     K,
     after_impact,
@@ -39,6 +38,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     is_maximum,
     only_at,
+    paper_names,
     r,
     same_set,
     speed,
@@ -100,7 +100,8 @@ def curve_of_no_change_from_the_energy_change(printed: Printed) -> Statement:
     collision.
     """
     return always(
-        iff(printed.formula(PAPER), equal(v, speed_of_no_change())), given=[H(b), different(v, r)]
+        iff(printed.formula(paper_names()), equal(v, speed_of_no_change())),
+        given=[H(b), different(v, r)],
     )
 
 
@@ -122,7 +123,7 @@ def states_that_keep_their_energy(printed: Printed) -> list[Statement]:
     """The states of B1 that an impact leaves with the same energy are those of H whose speed fits
     their time to collision so.
     """
-    region = printed.set_predicate(PAPER, r"\mathcal{B}_1^0")
+    region = printed.set_predicate(paper_names(), r"\mathcal{B}_1^0")
     return [
         *same_set(region(b), B1(b) & keeps_energy(b), given=[different(v, r)]),
         always(different(v, r), given=[B1(b)], label="time-is-defined"),
@@ -134,7 +135,7 @@ def three_regions_of_b1(printed: Printed) -> list[Statement]:
     """The curve of no change parts B1 into states that gain, states that lose and itself, and none
     of the three is empty.
     """
-    gains, loses = (part.formula(PAPER) for part in pieces(printed, 2))
+    gains, loses = (part.formula(paper_names()) for part in pieces(printed, 2))
     on_curve = equal(v, speed_of_no_change())
     one_of_them = conjunction(
         [gains | loses | on_curve, ~(gains & loses), ~(gains & on_curve), ~(loses & on_curve)]
@@ -324,5 +325,5 @@ def energy_that_is_left_written_out(printed: Printed) -> Statement:
 )
 def region_below_the_level(printed: Printed) -> list[Statement]:
     """R holds the states of H whose energy is at most the sum of E_max and Delta E_max."""
-    region = printed.set_predicate(PAPER, r"\mathcal{R}")
+    region = printed.set_predicate(paper_names(), r"\mathcal{R}")
     return same_set(region(b), H(b) & (energy(b) <= derived("E_max") + derived("delta_E_max")))

@@ -12,7 +12,6 @@ from juggleproof.proofs.paper.names import (
     B1_PLUS,
     B1_ZERO,
     B2,
-    PAPER,
     H,
     R,
     T,
@@ -30,6 +29,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     is_maximum,
     only_at,
+    paper_names,
     r,
     t,
     v,
@@ -415,11 +415,11 @@ def greatest_energy_that_can_gain(printed: Printed) -> list[Statement]:
     where, greatest = pieces(printed, 2)
     parts = {r"\mathcal{B}_1^+": B1_PLUS, r"\mathcal{B}_1^0": B1_ZERO}
     return is_maximum(
-        term(scalar(value_of(greatest, PAPER))),
+        term(scalar(value_of(greatest, paper_names()))),
         energy(b),
         {"beta": beta, "v": v},
         at=place("largest_kept_energy"),
-        on=as_region(value_of(where, PAPER.extended(parts)))(b),
+        on=as_region(value_of(where, paper_names().extended(parts)))(b),
     )
 
 
@@ -440,8 +440,8 @@ def greatest_gain_does_not_lead_out(printed: Printed) -> list[Statement]:
     of R.
     """
     what, where = pieces(printed, 2)
-    kept, gain = derived("E_max"), term(scalar(value_of(what, PAPER)))
-    inside = as_region(value_of(where, PAPER))
+    kept, gain = derived("E_max"), term(scalar(value_of(what, paper_names())))
+    inside = as_region(value_of(where, paper_names()))
     return [
         always(impact_energy_change(b) <= gain, given=[B1_PLUS(b)], label="gain"),
         always(inside(f1(b)), given=[B1(b), energy(b) <= kept], label="stays"),

@@ -18,7 +18,6 @@ from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, R
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    PAPER,
     R,
     T,
     alpha,
@@ -37,6 +36,7 @@ from juggleproof.proofs.paper.names import (
     height,
     meet,
     next_states,
+    paper_names,
     r,
     s,
     speed,
@@ -84,7 +84,7 @@ def line_between_b1_and_b2(printed: Printed) -> Statement:
     """The states that would meet the table just at its next bounce are those of this line, with the
     height as its parameter.
     """
-    return always(iff(meet(T), printed.formula(PAPER)))
+    return always(iff(meet(T), printed.formula(paper_names())))
 
 
 def is_just_as_fast() -> Formula:
@@ -113,11 +113,11 @@ def is_just_as_fast() -> Formula:
 )
 def point_p_is_the_intersection(printed: Printed) -> Statement:
     """p is where that line meets the states with the velocity of e_1."""
-    is_p = printed.formula(PAPER.extended({"p": b}))
+    is_p = printed.formula(paper_names().extended({"p": b}))
     return always(iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p), given=[different(v, r)])
 
 
-AT_P = PAPER.extended({"p": derived_vector("point_p")})
+AT_P = paper_names().extended({"p": derived_vector("point_p")})
 
 
 @claim(
@@ -267,7 +267,7 @@ def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
 )
 def boundary_of_the_region_is_mapped_into_it(printed: Printed) -> Statement:
     """f1 maps those boundary states of R that are in B1 into R."""
-    return always(printed.formula(PAPER.extended({r"\partial\mathcal{R}": BOUNDARY_OF_R})))
+    return always(printed.formula(paper_names().extended({r"\partial\mathcal{R}": BOUNDARY_OF_R})))
 
 
 @claim(

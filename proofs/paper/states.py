@@ -30,8 +30,6 @@ from juggleproof.proofs.paper.names import (
     B1_PLUS,
     B1_ZERO,
     B2,
-    NAMES,
-    PAPER,
     POINTS,
     STRIKES,
     WITH_INTEGER_K,
@@ -62,8 +60,10 @@ from juggleproof.proofs.paper.names import (
     g,
     height,
     impact_energy_change,
+    meanings,
     meet,
     only_at,
+    paper_names,
     r,
     r_0,
     speed,
@@ -85,7 +85,7 @@ from juggleproof.proofs.reading.values import Matrix, Region, StateFunction, Val
 NOT_LOSING = B1_PLUS | B1_ZERO
 E_max, dE_max = reals("E_max dE_max")
 # The meanings of prints in which both greatest energies are unknowns, said by what they are.
-UNKNOWN = PAPER.extended({r"E_{max}": E_max, r"\Delta E_{max}": dE_max})
+UNKNOWN = paper_names().extended({r"E_{max}": E_max, r"\Delta E_{max}": dE_max})
 # What the unknowns are: Delta E_max of (23) and (37); and E_max of (34) as well.
 GREATEST_GAIN = equal(dE_max, derived("delta_E_max"))
 BOTH_BOUNDS = [equal(E_max, derived("E_max")), GREATEST_GAIN]
@@ -259,14 +259,14 @@ def offset_with(time: Term) -> Vector:
 
 def is_fixed_point(printed: Printed) -> Statement:
     """A state is its own image exactly if it is what is printed for e_1."""
-    return always(iff(equals(f1(b), b), printed.formula(PAPER.extended({"e_1": b}))))
+    return always(iff(equals(f1(b), b), printed.formula(paper_names().extended({"e_1": b}))))
 
 
 def is_the_map(printed: Printed) -> list[Statement]:
     """What is printed for f holds of a state and of what becomes of the ball within a period, and
     of nothing else.
     """
-    stated = printed.formula(PAPER.extended({r"\overline f": image}))
+    stated = printed.formula(paper_names().extended({r"\overline f": image}))
     return [
         always(
             iff(equals(image, next_bounce(b, t)), stated),
@@ -410,11 +410,11 @@ BOUNDARY_OF_R = R & Region(
 # The meanings of prints about z = b - e_1; about the step from z_k to z_{k+1}; and about the band
 # around e_1, the next state being an unknown.
 AT_Z = Environment(
-    {**NAMES, r"K": kinetic_energy, r"z": z, r"b": b, r"u_2'": Matrix(((0, 1),))}, state=r"z"
+    {**meanings(), r"K": kinetic_energy, r"z": z, r"b": b, r"u_2'": Matrix(((0, 1),))}, state=r"z"
 )
 STEP = Environment(
     {
-        **NAMES,
+        **meanings(),
         r"K": kinetic_energy,
         r"f": relative_step,
         r"z_k": z,
@@ -428,7 +428,7 @@ STEP = Environment(
 )
 AROUND_E1 = Environment(
     {
-        **NAMES,
+        **meanings(),
         r"K": kinetic_energy,
         r"B_1": B1,
         r"R": R,
@@ -506,7 +506,7 @@ def is_the_period(printed: Printed) -> Statement:
     """After its launch the table is on the ground again exactly at the time that is printed for
     T.
     """
-    names = PAPER.extended({"T": since_launch})
+    names = paper_names().extended({"T": since_launch})
     return always(iff(LANDS, printed.formula(names)), given=[since_launch > 0])
 
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 import ast
 import operator
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from pathlib import Path
 from typing import Any
 
@@ -76,19 +76,33 @@ class Map:
         """The image of each piece in SymPy."""
         return tuple(tuple(map(expression, images)) for _, images in self.pieces)
 
+    @cached_property
+    def trees(self) -> tuple[tuple[ast.expr, tuple[ast.expr, ...]], ...]:
+        """Guards and images as syntax trees."""
+        return tuple((checker.parse(g), tuple(map(checker.parse, i))) for g, i in self.pieces)
+
+    def applying(self, point: Point) -> Iterator[Value]:
+        """For each piece, whether it applies at arrays of states; a comparison that several guards
+        share is made once.
+        """
+        known: dict[str, Value] = {}
+        shape = np.broadcast_shapes(*(np.shape(value) for value in point.values()))
+        for guard, _ in self.trees:
+            yield np.broadcast_to(_holds(guard, point, known), shape)
+
     def next(self, point: Point) -> tuple[Value, ...]:
         """The next state of arrays of states: floats, for searches alone.
 
         A state that no piece applies to becomes NaN.
         """
         shape = np.broadcast_shapes(*(np.shape(value) for value in point.values()))
+        point = {name: np.broadcast_to(values, shape) for name, values in point.items()}
         after = [np.full(shape, np.nan) for _ in self.state]
-        for guard, images in self.pieces:
-            here = np.broadcast_to(holds(guard, point), shape)
+        for here, (_, images) in zip(self.applying(point), self.trees):
             if here.any():
-                inside = {name: np.broadcast_to(v, shape)[here] for name, v in point.items()}
+                inside = {name: values[here] for name, values in point.items()}
                 for values, image in zip(after, images):
-                    values[here] = value(image, inside)
+                    values[here] = _value(image, inside, Fraction)
         return tuple(after)
 
     def exact_next(self, point: Mapping[str, Fraction]) -> tuple[int, dict[str, Fraction]]:
@@ -123,6 +137,9 @@ OPERATORS: Mapping[type, Callable[[Value, Value], Value]] = {
 NEGATED: Mapping[type, str] = {ast.Lt: ">=", ast.LtE: ">", ast.Gt: "<=", ast.GtE: "<"}
 
 
+unparsed = lru_cache(4096)(ast.unparse)
+
+
 def value(text: str, point: Point) -> Value:
     """The value of a term."""
     return _value(checker.parse(text), point, Fraction)
@@ -130,7 +147,7 @@ def value(text: str, point: Point) -> Value:
 
 def holds(text: str, point: Point) -> Value:
     """Whether a formula holds, for each state of an array."""
-    return _holds(checker.parse(text), point)
+    return _holds(checker.parse(text), point, {})
 
 
 def expression(text: str) -> Expr:
@@ -166,25 +183,32 @@ def _value(node: ast.expr, point: Point, number: Callable[[int], Value]) -> Valu
     return OPERATORS[type(node.op)](left, right)
 
 
-def _holds(node: ast.expr, point: Point) -> Value:
+def _holds(node: ast.expr, point: Point, known: dict[str, Value]) -> Value:
+    """Whether a formula holds; what its comparisons come to is kept in `known`."""
     if isinstance(node, ast.Compare):
-        sides = [_value(side, point, Fraction) for side in (node.left, *node.comparators)]
-        sides = [
-            float(side) if isinstance(side, Fraction) and _floats(point) else side for side in sides
-        ]
-        parts = [OPERATORS[type(op)](a, b) for op, a, b in zip(node.ops, sides, sides[1:])]
-        return reduce(operator.and_, parts)
+        text = unparsed(node)
+        if text not in known:
+            known[text] = _compared(node, point)
+        return known[text]
     if isinstance(node, ast.BoolOp):
         join = operator.and_ if isinstance(node.op, ast.And) else operator.or_
-        return reduce(join, (_holds(part, point) for part in node.values))
+        return reduce(join, (_holds(part, point, known) for part in node.values))
     if isinstance(node, ast.UnaryOp):
-        return np.logical_not(_holds(node.operand, point))
+        return np.logical_not(_holds(node.operand, point, known))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-        first, second = (_holds(part, point) for part in node.args)
+        first, second = (_holds(part, point, known) for part in node.args)
         if node.func.id == "iff":
             return np.equal(first, second)
         return np.logical_or(np.logical_not(first), second)
     raise ClaimError(f"{ast.unparse(node)} is no formula")
+
+
+def _compared(node: ast.Compare, point: Point) -> Value:
+    sides = [_value(side, point, Fraction) for side in (node.left, *node.comparators)]
+    if _floats(point):
+        sides = [float(side) if isinstance(side, Fraction) else side for side in sides]
+    parts = [OPERATORS[type(op)](a, b) for op, a, b in zip(node.ops, sides, sides[1:])]
+    return reduce(operator.and_, parts)
 
 
 def _floats(point: Point) -> bool:

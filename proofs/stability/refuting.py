@@ -5,6 +5,7 @@ function that grows near the point.
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import prod
 
@@ -23,6 +24,7 @@ from juggleproof.proofs.stability.samples import (
     Point,
     after,
     orbit_ends,
+    strays,
     with_point_licences,
     without_equations,
 )
@@ -30,6 +32,7 @@ from juggleproof.proofs.stability.samples import (
 LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
+MOST_ORBITS = 200  # that are looked at
 MOST_WORDS = 4
 SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
 MOST_TRIED = 12  # words whose orbits are sought in exact terms
@@ -42,35 +45,25 @@ def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
     """The words of pieces of periodic orbits that orbits of samples tend to, the most frequent
     first.
     """
-    system, states = setting.system, setting.states.points
-    with np.errstate(all="ignore"):
-        away = (orbit_ends(system, states, SETTLE) > STRAY).nonzero()[0][:200]
-        now = {name: values[away] for name, values in states.items()}
-        for _ in range(SETTLE):
-            now = after(system, now)
-    count: dict[tuple[int, ...], int] = {}
-    for k in range(len(away)):
-        word = _word(system, {name: values[k : k + 1] for name, values in now.items()})
-        if word:
-            count[word] = count.get(word, 0) + 1
+    system = setting.system
+    ends = orbit_ends(system, setting.states.points, SETTLE)
+    away = strays(system, ends, STRAY).nonzero()[0][:MOST_ORBITS]
+    count = Counter(_words_back(system, {name: values[away] for name, values in ends.items()}))
     return sorted(count, key=lambda word: (-count[word], word))[:MOST_WORDS]
 
 
-def _word(system: Map, state: Arrays) -> tuple[int, ...]:
-    """The pieces along the orbit until it is back; empty where it is not."""
-    start = np.array([state[name][0] for name in system.state])
-    word: list[int] = []
+def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
+    """The pieces along the orbit of each state until it is back, for those that are."""
+    start, letters = np.stack([states[name] for name in system.state]), []
+    open_ = np.full(start.shape[1], True)
     with np.errstate(all="ignore"):
         for _ in range(LONGEST):
-            here = [k for k, (guard, _) in enumerate(system.pieces) if np.all(holds(guard, state))]
-            if not here:
-                return ()
-            word.append(here[0])
-            state = after(system, state)
-            now = np.array([state[name][0] for name in system.state])
-            if np.allclose(now, start, rtol=1e-6, atol=1e-9):
-                return tuple(word)
-    return ()
+            letters.append(np.argmax([*system.applying(states)], axis=0))
+            states = after(system, states)
+            now = np.stack([states[name] for name in system.state])
+            back = open_ & np.isclose(now, start, rtol=1e-6, atol=1e-9).all(axis=0)
+            yield from map(tuple, np.stack(letters)[:, back].T.tolist())
+            open_ &= ~back
 
 
 def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:

@@ -31,6 +31,7 @@ from juggleproof.proofs.stability.given import (
 
 Floats = NDArray[np.float64]
 Arrays = dict[str, Floats]
+Bools = NDArray[np.bool_]
 
 SEED = 1995  # of all samples, so that every run searches in one way
 STATES = 40  # for each of the parameters
@@ -256,14 +257,19 @@ def after(system: Map, points: Arrays) -> Arrays:
     return found
 
 
-def orbit_ends(system: Map, points: Arrays, steps: int) -> Floats:
-    """The distance to the point after so many steps, relative to 1 + the point's size, for each
-    state; infinite where the orbit leaves all pieces.
-    """
+def orbit_ends(system: Map, points: Arrays, steps: int) -> Arrays:
+    """The states after so many steps."""
     now = dict(points)
     with np.errstate(all="ignore"):
         for _ in range(steps):
             now = after(system, now)
-        gaps = [np.abs(now[n + "_gap"]) / (1 + np.abs(now[n + "_point"])) for n in system.state]
-    worst = np.max(gaps, axis=0)
-    return np.where(np.isfinite(worst), worst, np.inf)
+    return now
+
+
+def strays(system: Map, states: Arrays, least: float) -> Bools:
+    """Whether the distance of each state to the point, relative to 1 + the point's size, is more
+    than this; also where the orbit has left all pieces.
+    """
+    gaps = [np.abs(states[n + "_gap"]) / (1 + np.abs(states[n + "_point"])) for n in system.state]
+    worst: Floats = np.max(gaps, axis=0)
+    return np.logical_not(worst <= least)

@@ -26,7 +26,6 @@ from juggleproof.proofs import forms
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
-    PAPER,
     STANDING,
     Placed,
     alpha,
@@ -39,6 +38,7 @@ from juggleproof.proofs.paper.names import (
     equals,
     f1,
     f2,
+    paper_names,
     s,
     w,
     x,
@@ -500,7 +500,7 @@ def in_units(energy: Term) -> Term:
 
 LEVEL_OF_R = in_units(LEVEL)  # the energy up to which R reaches
 TRUE_LOSS = in_units(-term(derived("delta_E_sup")))
-PRINTED_LOSS = in_units(-term(scalar(read(PRINTED_SUPREMUM).right(PAPER))))
+PRINTED_LOSS = in_units(-term(scalar(read(PRINTED_SUPREMUM).right(paper_names()))))
 ENOUGH = 2 * s * (1 - alpha + alpha**2) <= 3 - alpha - 2 * alpha**3
 MARGIN = (
     1,

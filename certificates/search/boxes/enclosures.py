@@ -152,6 +152,9 @@ def polished(
 # point: the searches, in order.
 
 Point = tuple[Fraction, ...]
+BySquares = Callable[
+    [Fraction], Node | None
+]  # a node, by squares times facts, that the polynomial is at least so much
 Prove = Callable[
     [Fraction, Node], bool
 ]  # whether the checker accepts that the polynomial is at least so much, by this node
@@ -159,6 +162,9 @@ SIMPLE = 10**6  # the denominator of a value that may be the minimum itself
 QUICK = 300  # boxes before squares are tried
 SQUARES = 100_000_000  # units of work for squares
 FINE = Fraction(1, 10**13)  # a width for which floating point has no point good enough
+LADDER = [Fraction(10) ** -k for k in range(-3, 17)]  # of widths
+NEAR, FAR = Fraction(1, 10**9), Fraction(1, 10**4)  # how far below it a simple value may be
+SIMPLEST = (1, 60, 1000, SIMPLE)  # its denominator
 SHARE = 8  # of the width, which the value at the point and its rounding may each take
 
 
@@ -253,16 +259,53 @@ def _decimal_below(value: Fraction) -> Fraction:
     return unit
 
 
-def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prove) -> Bounds:
+def search_enclosure(
+    problem: Problem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
+) -> Bounds:
     """A bound from below within `width` of the value at a point where the budget of boxes allows,
-    else the best that it came to.
+    else the best that it came to, also when other widths are asked for.
 
-    Trees first, in floating point unless the width is too small for it, then in integers; squares
-    around the best point where boxes are slow.
+    So no width fails where a wider one is reached with a quarter of the boxes, nor where a narrower
+    one is with few: from wide to narrow as far as they are reached, then narrower ones.
 
     Raises ClaimError where the polynomial is too large for the checker.
     """
+    found = _search_width(problem, width, budget, prove, by_squares)
+    for other in () if found.reached else LADDER:
+        if found.high - found.low <= width or found.boxes > 2 * budget:
+            break
+        if width <= other < found.high - found.low:
+            more = _search_width(problem, other, max(1, budget // 4), prove, by_squares)
+            found = _both(found, more, width)
+            if not more.reached:
+                break
+    for other in (*LADDER, Fraction(0)):
+        if found.high - found.low <= width or found.boxes > 2 * budget:
+            break
+        if other < width:
+            more = _search_width(problem, other, min(budget, 4 * QUICK), prove, by_squares)
+            found = _both(found, more, width)
+    return found
+
+
+def _both(first: Bounds, second: Bounds, width: Fraction) -> Bounds:
+    """The better bound of each side."""
+    below = max(first, second, key=lambda one: one.low)
+    above = min(first, second, key=lambda one: one.high)
+    reached, boxes = above.high - below.low <= width, first.boxes + second.boxes
+    return Bounds(below.low, above.high, above.point, below.node, boxes, reached)
+
+
+def _search_width(
+    problem: Problem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
+) -> Bounds:
+    """The bounds that one search comes to.
+
+    Trees first, in floating point unless the width is too small for it, then in integers; squares
+    around the best point where boxes are slow.
+    """
     best, done, squares_left = Best(problem.terms, problem.box, width), 0, budget >= QUICK
+    kept: Bounds | None = None
     floats = width >= 64 * ROUNDING * max(map(abs, problem.terms.values()))
     while budget:
         for exact in (False, True) if floats else (True,):
@@ -273,16 +316,16 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
             tree = branching.run(min(QUICK, most))
             if not tree.reached and squares_left:
                 squares_left = False
-                found = _squares(problem, best, done + tree.boxes, prove)
-                if found:
-                    return found
+                kept = _squares(problem, best, done + tree.boxes, prove, by_squares)
+                if kept and kept.reached:
+                    return kept
             tree = branching.run(most)
             done += tree.boxes
             found = (_reached if tree.reached else _unfinished)(
                 best, tree, done, ("boxes", problem.goal, problem.facts, tree.text), prove
             )
             if found:
-                return found
+                return _both(kept, found, width) if kept else found
         budget //= 4  # the checker's own count of work may have ended first
     raise ClaimError(
         "the polynomial is too large: the checker's counted work ends before its Bernstein"
@@ -290,15 +333,19 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
     )
 
 
-def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Bounds | None:
-    """Squares that show that the value at the best point is the minimum; or, for a positive width,
-    that the minimum is within the width of it.
+def _squares(
+    problem: Problem, best: Best, done: int, prove: Prove, by_squares: BySquares
+) -> Bounds | None:
+    """Squares that show that the value at the best point is the minimum, or a simple number just
+    below it; or, for a positive width, that the minimum is within the width of it.
     """
     low, high = best.bounds
-    for bound, top, point in [
+    simple = _simple_below(best)
+    centres = [
         (best.exact, best.exact, best.point),
-        *([(low, high, _shorter(best))] if best.width else []),
-    ]:
+        *([(low, high, _shorter(best, best.width / SHARE))] if best.width else []),
+    ]
+    for bound, top, point in centres:
         program = program_around(
             problem.terms,
             problem.box,
@@ -311,12 +358,26 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Bounds | 
         node = search_squares([program], Budget(SQUARES)) if program else None
         if node and prove(bound, node):
             return Bounds(bound, top, best.point, node, done, True)
+        node = by_squares(simple) if bound == best.exact and simple is not None else None
+        if node and simple is not None and prove(simple, node):
+            reached = best.exact - simple <= best.width
+            return Bounds(simple, best.exact, best.point, node, done, reached)
     return None
 
 
-def _shorter(best: Best) -> Point:
-    """A point about as good as the best one, with short binary numbers: around it squares are
-    shorter.
+def _simple_below(best: Best) -> Fraction | None:
+    """A number of small denominator at the value at the best point, or just below it."""
+    near = (1 + abs(best.exact)) * min(max(NEAR, best.width), FAR)
+    for most in SIMPLEST:
+        simple = best.exact.limit_denominator(most)
+        if simple <= best.exact <= simple + near:
+            return simple
+    return None
+
+
+def _shorter(best: Best, slack: Fraction) -> Point:
+    """A point whose value is at most `slack` above the best one's, with short binary numbers:
+    around it squares are shorter.
     """
     for bits in range(2, 200, 2):
         unit = Fraction(1, 2**bits)
@@ -324,7 +385,7 @@ def _shorter(best: Best) -> Point:
             min(max(rounded_down(x + unit / 2, unit), low), high)
             for x, (low, high) in zip(best.point, best.box)
         )
-        if value_at(best.terms, point) <= best.exact + best.width / SHARE:
+        if value_at(best.terms, point) <= best.exact + slack:
             return point
     return best.point
 
@@ -348,3 +409,64 @@ def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> 
         if prove(low, node):
             return Bounds(low, best.exact, best.point, node, done, best.exact - low <= best.width)
     return None
+
+
+# -------------------------------------------------------------------------------------------------
+# A bound that is asked: that a polynomial is nowhere negative, or everywhere positive, on a box.
+
+
+def search_positive(problem: Problem, weakly: bool, most: int, budget: Budget) -> Node | None:
+    """A node of a tree of at most `most` boxes, or of squares, that closes p < 0, or p <= 0 where
+    not `weakly`; None where p has such a value at a point, or none was found.
+
+    Squares close p < 0 also where p <= 0 is asked: then a number is added to them.
+
+    Raises Exhausted where the budget ends.
+    """
+    best = Best(problem.terms, problem.box, Fraction(0))
+
+    def target() -> Fraction:
+        """A number that all coefficients are to reach; any, where there is no such number."""
+        return best.exact / 16 if best.exact > 0 and not weakly else min(best.exact, Fraction(0))
+
+    def is_open() -> bool:
+        return best.exact > 0 or weakly and not best.exact
+
+    tried = False
+    for exact in (False, True):
+        branching = Branching(problem.terms, problem.box, target, best.offer, exact)
+        boxes, cost = 1, 2 + branching.numbers.root.size // 200
+        for most_here in (min(QUICK, most), min(most, branching.affordable())):
+            tree = branching.run(most_here) if is_open() else None
+            if tree is None or not is_open():
+                return None
+            budget.spend((tree.boxes - boxes) * cost)
+            boxes = tree.boxes
+            if tree.reached:
+                return "boxes", problem.goal, problem.facts, tree.text
+            node = None if tried else _squares_above(problem, best, target(), budget)
+            tried = True
+            if node is not None:
+                return node
+    return None
+
+
+def _squares_above(
+    problem: Problem, best: Best, bound: Fraction, budget: Budget
+) -> Node | None:
+    """Squares that show that p is at least the bound, by the fact -p > 0, or -p >= 0 where the
+    bound is positive.
+    """
+    point = best.point if best.exact == bound else _shorter(best, (best.exact - bound) / SHARE)
+    gap = value_at(problem.terms, point) - bound
+    program = program_around(
+        problem.terms, problem.box, point, problem.names, problem.facts, problem.goal, gap
+    )
+    node = search_squares([program], budget) if program else None
+    if node is None or node[0] != "psatz":
+        return None
+    own = ((problem.goal, 1),)
+    more = [
+        (str(Fraction(c) * bound), (), "1") for c, factors, _ in node[1] if factors == own and bound
+    ]
+    return "psatz", [*node[1], *more], []

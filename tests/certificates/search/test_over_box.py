@@ -63,4 +63,4 @@ def test_the_work_is_counted_holds() -> None:
         f"{left} <= {name} and {name} <= {right}" for name, (left, right) in box.items()
     )
     with pytest.raises(Exhausted):
-        close_over_box(state(f"{inside} and {poly} < {low}", "xyzw"), 100, Budget(20))
+        close_over_box(state(f"{inside} and {poly} < {low}", "xyzw"), 100, Budget(5))

@@ -1,10 +1,13 @@
-"""Theorems on the orbits of one's own maps as files that coqc accepts by themselves; what is forged
-or changed it refuses.
+"""Theorems on the orbits of one's own maps, and statements of one's own stores, as files that coqc
+accepts by themselves; what is forged or changed it refuses.  `make test` tries a fixed share of the
+changes; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 """
 
 from __future__ import annotations
 
 import copy
+import hashlib
+import os
 import re
 import subprocess
 from functools import cache
@@ -14,7 +17,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import NotWritten
+from juggleproof.certificates.coq import PRELUDE, NotWritten
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.show import export_coq
@@ -26,11 +29,13 @@ from tests.proofs.coq.development import coqc
 from tests.proofs.coq.maps import WORDS
 from tests.proofs.coq.test_development import REALS
 
+SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
+ALONE = (SHARP, EITHER)  # compiled as they are written; tests of examples do that as well
 
 
 def settles(point: str, of: str = "a", what: str = "", words: str = "Map.space {} Map.f") -> str:
@@ -79,15 +84,37 @@ def written(name: str, texts: dict[str, str], certificates: dict[str, Any]) -> s
     return theorem(name, checker.read_statements("\n\n".join(texts.values())), certificates)
 
 
-def taken(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
+OPENED = "From Coq Require Import Reals ZArith Lra Lia List.\n{}Open Scope R_scope.\n"
+THEORY = "\nModule States.\n"  # what is before it says nothing of the map
+
+
+@pytest.fixture(scope="session")
+def theories(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("theories")
+
+
+def alone(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
     """What coqc says of a file in a folder of its own."""
     (folder / "Own.v").write_text(text)
-    command = [coqc(), "-q", "Own.v"]
+    command = [coqc(), "-q", "-Q", ".", "", "Own.v"]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
 
 
+def taken(theories: Path, text: str) -> subprocess.CompletedProcess[str]:
+    """What coqc says of a file whose theory, which many files share, is compiled once."""
+    theory, begins, own = text.partition(THEORY)
+    assert begins
+    theory = theory[theory.index("From Coq") :]
+    name = f"Theory_{hashlib.sha256(theory.encode()).hexdigest()[:12]}"
+    if not (theories / f"{name}.vo").exists():
+        (theories / f"{name}.v").write_text(theory)
+        command = [coqc(), "-q", f"{name}.v"]
+        subprocess.run(command, cwd=theories, capture_output=True, timeout=600, check=True)
+    return alone(theories, OPENED.format(f"Require Import {name}.\n") + begins + own)
+
+
 @pytest.mark.parametrize("name", CONCLUSIONS)
-def test_coqc_accepts_a_theorem_alone_holds(name: str, tmp_path: Path) -> None:
+def test_coqc_accepts_a_theorem_holds(name: str, theories: Path, tmp_path: Path) -> None:
     coqc()
     text = written(name, *judged())
     says = " ".join(text.split(f"Theorem {coq_rules.theorem_name(name)} :")[1].split())
@@ -95,7 +122,7 @@ def test_coqc_accepts_a_theorem_alone_holds(name: str, tmp_path: Path) -> None:
         says = says.replace("'", "")
     assert says.startswith(f"forall {BOUND.get(name, 'a : R')}, {CONCLUSIONS[name]}")
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b(?!')", text)
-    result = taken(tmp_path, text)
+    result = alone(tmp_path, text) if name in ALONE else taken(theories, text)
     assert result.returncode == 0, result.stderr
     head, _, axioms = result.stdout.partition("Axioms:\n")
     found = re.findall(r"^([\w.]+)\s*:", axioms, flags=re.MULTILINE)
@@ -121,13 +148,13 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
         (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
         (EITHER, "switched/near", "falls-1-2", "falls-2-1"),
         (TURNED, "turned/swings", "bounded-1", "grows-1-1"),
-    ],
+    ][::SHARE],
 )
 def test_rejects_a_forged_certificate(
-    name: str, own: str, premise: str, other: str, tmp_path: Path
+    name: str, own: str, premise: str, other: str, theories: Path
 ) -> None:
     coqc()
-    result = taken(tmp_path, written(name, judged()[0], forged(own, premise, other)))
+    result = taken(theories, written(name, judged()[0], forged(own, premise, other)))
     assert result.returncode != 0 and "yntax" not in result.stderr
 
 
@@ -143,12 +170,12 @@ def test_rejects_a_forged_certificate(
         (COUNTED, "let n := IZR n in n > 0 /\\ n > 1.", "let n := IZR n in n > 0."),
         (COUNTED, "(x / n, x ^ 2 - x)", "(x, x ^ 2 - x)"),
         (WALKED, "Descent.rank_1_1 a of_s + INR 0 <= INR of_n ->\n  ", ""),
-    ],
+    ][::SHARE],
 )
-def test_rejects_a_changed_map(name: str, old: str, new: str, tmp_path: Path) -> None:
+def test_rejects_a_changed_map(name: str, old: str, new: str, theories: Path) -> None:
     text = written(name, *judged())
     assert old in text
-    result = taken(tmp_path, text.replace(old, new))
+    result = taken(theories, text.replace(old, new))
     assert result.returncode != 0 and "yntax" not in result.stderr
 
 
@@ -157,11 +184,11 @@ def test_rejects_a_certificate_of_another_shape() -> None:
         written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
 
 
-def test_rejects_another_map_with_the_certificates_of_one(tmp_path: Path) -> None:
+def test_rejects_another_map_with_the_certificates_of_one(theories: Path) -> None:
     coqc()
     texts = {**judged()[0]}
     texts["scaled/map"] = texts["scaled/map"].replace("a*x", "a*x^2 + a*x/8")
-    result = taken(tmp_path, written(SHARP, texts, judged()[1]))
+    result = taken(theories, written(SHARP, texts, judged()[1]))
     assert result.returncode != 0 and "yntax" not in result.stderr
 
 
@@ -207,12 +234,46 @@ def squares_are_not_negative():
 """
 
 
-def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
-    own = tmp_path / "own.py"
+SCRIPT = """
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (* x x x) 2))
+(check-sat)
+(push)(assert (< (+ (* x x) (* y y)) (* 2 x y)))(check-sat)(pop)
+(check-sat-assuming ((> (* 2 x y) 1)))
+"""
+BOUND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
+
+
+def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own, script, bound = tmp_path / "own.py", tmp_path / "mean.smt2", tmp_path / "bound"
     own.write_text(INEQUALITY)
-    says = f"{own}: no theorem on all orbits of a map; add a MapRule that concludes one"
-    with pytest.raises(ClaimError, match=re.escape(says)):
-        export_coq([str(own)], None)
+    script.write_text(SCRIPT)
+    assert run([*BOUND, "-o", str(bound)]) == 0
+    assert '["boxes",' in (bound / checker.CERTIFICATES).read_text()
+    texts, _ = list[str](), capsys.readouterr()
+    for name in (own, script, script.with_suffix(".certificates"), bound):
+        assert export_coq([str(name)], None) == 0
+        output = capsys.readouterr()
+        assert "not written" not in output.err
+        texts.append(output.out)
+    of_claim, of_script, of_folder, of_bound = texts
+    assert of_script == of_folder and of_script.count("\nLemma statement_") == 4
+    whole = PRELUDE + "".join(
+        text.removeprefix(PRELUDE) for text in (of_claim, of_folder, of_bound)
+    )
+    (tmp_path / "All.v").write_text(whole)
+    done = subprocess.run(
+        [coqc(), "All.v"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
+    with pytest.raises(ClaimError, match="no statements; name a folder that `juggleproof` wrote"):
+        export_coq([str(tmp_path)], None)
 
 
 @pytest.mark.parametrize(
@@ -224,6 +285,8 @@ def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
         ),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
+        (["none.smt2"], "none.smt2: no such file"),
+        (["a.smt2", "b.smt2"], "b.smt2: a second store; export them one after the other"),
     ],
 )
 def test_rejects_what_is_no_question(names: list[str], says: str) -> None:

@@ -91,10 +91,9 @@ def test_a_map_is_settled_on_both_sides_of_its_condition_holds(name: str, tmp_pa
     assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
 
 
-@pytest.mark.parametrize("text", [LOGISTIC.format("3.01"), CONVERTER.format("1/8 < k and k < 1/7")])
-def test_rejects_a_point_beyond_its_condition(text: str, tmp_path: Path) -> None:
+def test_rejects_a_point_beyond_its_condition(tmp_path: Path) -> None:
     path = tmp_path / "beyond.map"
-    path.write_text(text + "\n")
+    path.write_text(LOGISTIC.format("3.01") + "\n")
     assert not running.run("stability", str(path)).stdout.startswith("proved")
 
 
