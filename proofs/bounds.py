@@ -16,7 +16,8 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Monomial, Ring, monomials
 from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.certificates.nodes import Certificate, Node, Point
-from juggleproof.certificates.search.boxes.enclosures import Bounds, Problem, search_enclosure
+from juggleproof.certificates.search.boxes.descent import Problem
+from juggleproof.certificates.search.boxes.enclosures import Bounds, search_enclosure
 from juggleproof.certificates.search.psatz.problem import Problem as FactsOfState
 from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import state_of

@@ -5,9 +5,10 @@ The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
 - `first`: what needs little work; linear statements; the searches in turn
-- `boxes`: lower bounds of polynomials on boxes; rule `boxes`
+- `boxes`: lower bounds of polynomials on boxes, and states over boxes; rules `boxes`, `psatz`,
+  `sign`
 - `one_variable`: states over one variable, all of them
-- `over_box`: one fact over the box of the others; rule `boxes`
+- `by_variables`: forms that are no sums of squares, by cases of a variable; rules `sign`, `psatz`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
 - `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
 - `candidates`: simple values for one variable

@@ -24,8 +24,8 @@ STAGES = ((1, 0, False), (1, 2, False), (1, 4, False))
 
 
 def close_by_variables(state: State, ring: Ring, budget: Budget) -> Node | None:
-    """A node that closes a state whose facts are forms of even degree, by sums of squares where a
-    variable is 1, and again where it is 0; None where none was found.
+    """A node that closes a state by its facts that are forms of even degree: by sums of squares
+    where a variable is 1, and again where it is 0; None where none was found.
 
     >>> context = checker.Context()
     >>> for name in "xyz":
@@ -38,18 +38,21 @@ def close_by_variables(state: State, ring: Ring, budget: Budget) -> Node | None:
 
     Raises Exhausted where the budget ends.
     """
-    used = _variables_of_forms(state)
-    if not 1 < len(used) <= MOST_VARIABLES:
-        return None
-    node = _by_squares(state, ring, budget, STAGES[:1])
-    if node is not None:
+    forms = _forms_of(state)
+    return None if forms is None else _closed(forms, ring, budget)
+
+
+def _closed(forms: State, ring: Ring, budget: Budget) -> Node | None:
+    used = _variables(forms)
+    node = _by_squares(forms, ring, budget, STAGES[:1])
+    if node is not None or not 1 < len(used) <= MOST_VARIABLES:
         return node
     for name in used:
-        below, at, above = state.by_sign(name)
+        below, at, above = forms.by_sign(name)
         node = _by_squares(above, ring, budget)
         if node is None or not below.is_closed_by(node, {}):
             continue
-        zero = close_by_variables(at, ring, budget) or _by_squares(at, ring, budget)
+        zero = _closed(at, ring, budget)
         return None if zero is None else ("sign", name, node, zero, node)
     return None
 
@@ -62,22 +65,27 @@ def _by_squares(
     return node or search_squares(programs_of_facts(problem, budget, stages), budget)
 
 
-def _variables_of_forms(state: State) -> list[str]:
-    """The variables of the facts where all of them are forms of even degree, but for variables that
-    are 0; none where a fact is not.
+def _forms_of(state: State) -> State | None:
+    """The state in which 1 >= 0 stands for what is no form of even degree: so facts keep their
+    numbers.  None where no other fact is left.
     """
+    forms, one = state.branch(), state.context.number(1)
+    for index, (poly, _) in enumerate(state.facts):
+        degrees = {_degree(packed) for packed in poly.terms}
+        if len(degrees) != 1 or degrees.pop() % 2:
+            forms.facts[index] = one, ">="
+    return forms if _variables(forms) else None
+
+
+def _variables(forms: State) -> list[str]:
+    """The variables of the forms, but for those that are 0."""
     zero: set[str] = set()
     used: set[str] = set()
-    for poly, relation in state.facts:
-        names = checker.variables_of(state.context, poly)
-        if relation == "=" and poly.deg == 1 and len(poly.terms) == len(names) == 1:
-            zero |= names
-            continue
-        degrees = {_degree(packed) for packed in poly.terms}
-        if len(degrees) != 1 or any(degree % 2 for degree in degrees):
-            return []
-        used |= names
-    return [name for name in state.context.index if name in used - zero]
+    for poly, relation in forms.facts:
+        names = checker.variables_of(forms.context, poly)
+        is_zero = relation == "=" and poly.deg == 1 and len(poly.terms) == 1
+        (zero if is_zero else used).update(names)
+    return [name for name in forms.context.index if name in used - zero]
 
 
 def _degree(packed: int) -> int:

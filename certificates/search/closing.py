@@ -19,7 +19,9 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
-from juggleproof.certificates.search.box_cases import close_by_cuts
+from juggleproof.certificates.search.boxes.cuts import close_by_cuts
+from juggleproof.certificates.search.boxes.over_box import close_over_box
+from juggleproof.certificates.search.boxes.over_box_squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import (
@@ -28,8 +30,6 @@ from juggleproof.certificates.search.one_variable import (
     dense_poly,
     dense_text,
 )
-from juggleproof.certificates.search.over_box import close_over_box
-from juggleproof.certificates.search.over_box_squares import close_by_bounds
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -62,7 +62,7 @@ MANY_CASES = 100  # from which on they are led by conflicts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
-MOST_BOXES = 20_000  # of a tree that is sought beside sums of squares
+MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -225,8 +225,8 @@ class Closing:
         node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
-            node = close_by_bounds(inside, MOST_BOXES, self.budget)
-            node = node or close_by_variables(inside, problem.ring, self.budget)
+            node = close_by_variables(inside, problem.ring, self.budget)
+            node = node or close_by_bounds(inside, MOST_BOXES, self.budget)
             node = node or search_squares(programs, self.budget)
         elif (
             node is None

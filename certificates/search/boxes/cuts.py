@@ -15,8 +15,8 @@ from math import isqrt, prod
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node, Product
+from juggleproof.certificates.search.boxes.over_box import Bound, box_of, terms_of
 from juggleproof.certificates.search.boxes.small import Box, Terms, search_tree, value_at
-from juggleproof.certificates.search.over_box import Bound, box_of, terms_of
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
@@ -149,9 +149,7 @@ class Cuts:
                     if node is None:
                         return None
                     there, beyond = ball.at(name, way, fact), ball.beyond(name, way, fact)
-                    return _sign(
-                        text, [node, there, beyond] if way > 0 else [beyond, there, node]
-                    )
+                    return _sign(text, [node, there, beyond] if way > 0 else [beyond, there, node])
         sides = box_of(state)
         return self.piece(state, _constraints(state, sides), sides)
 
