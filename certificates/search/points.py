@@ -37,6 +37,7 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
     ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 3000, True), (24, 6, 8000, True)),
 )
 MANY = 12  # variables, or disjunctions
+VOTE = 100_000  # of Z3
 
 
 def search_values(
@@ -223,22 +224,23 @@ def assignments(
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
     if not many and (len(condition.variables()) >= MANY or disjunctions(condition) >= MANY):
         # Sampling would try few of so many values: models are asked for first.
-        yield from whole_models(condition, names, integers, budget, effort, roles)
+        yield from whole_models(condition, names, integers, budget, roles, VOTE)
     for width, last, nodes, irrational in ROUNDS[effort]:
         yield from Sampler(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
         ).search(condition, names)
         if effort and width == 6:
-            if not (many or integers):
-                yield from isolated_points(condition, names, budget)
             # Where Z3 sees that there is nothing, wider samples would be in vain.
-            answer = ask(condition, budget, integers, 100_000).verdict
+            answer = ask(condition, budget, integers, VOTE).verdict
             if answer == "unsat":
                 return
             if answer == "sat" and not many:
                 yield from model_assignments(condition, names, integers, budget, effort, roles)
+            if not (many or integers):
+                yield from isolated_points(condition, names, budget)
             if not many:
-                yield from whole_models(condition, names, integers, budget, effort, roles)
+                resources = VOTE if answer == "sat" else 0
+                yield from whole_models(condition, names, integers, budget, roles, resources)
 
 
 def disjunctions(condition: Condition) -> int:

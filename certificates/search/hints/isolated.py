@@ -1,5 +1,5 @@
-"""Points that equations alone determine: floats are refined by Newton's steps, and short integer
-relations tell their algebraic numbers.
+"""Points that equations alone determine, and points where sets touch: floats are refined by
+Newton's steps, and short integer relations tell their algebraic numbers.
 
 Source: Kannan, Lenstra, Lovasz, Polynomial factorization and nonrandomness of bits of algebraic and
 some transcendental numbers, Mathematics of Computation 50 (1988).
@@ -8,6 +8,7 @@ some transcendental numbers, Mathematics of Computation 50 (1988).
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_mat
 from flint import arb_mat as BallMatrix
@@ -21,6 +22,7 @@ from juggleproof.certificates.work import Budget
 BITS, STEPS = 1200, 9
 DEGREES = (2, 4, 8, 12, 16)
 MOST_VARIABLES = 4
+ATTAINED = fmpq(1, 10**4)
 SHORT = 40  # bits of a coefficient that is no chance
 COMBINATIONS = ((1, 0, 0, 0), (0, 1, 0, 0), (1, 1, 0, 0), (1, 2, 3, 5), (3, -1, 2, 7))
 
@@ -28,22 +30,61 @@ COMBINATIONS = ((1, 0, 0, 0), (0, 1, 0, 0), (1, 1, 0, 0), (1, 2, 3, 5), (3, -1, 
 def isolated_points(
     condition: Condition, names: Sequence[str], budget: Budget
 ) -> Iterator[Assignment]:
-    """Points near approximate ones at which as many equations as there are variables hold exactly;
-    inequalities are left to whoever uses them.
+    """Points near approximate ones at which equations, and inequalities as equations that seem to
+    be attained, hold exactly; the others are left to whoever uses them.
     """
     variables = [name for name in names if name in condition.variables()]
-    equations = [poly for poly, relation in condition.facts() if relation == "="]
-    if not 1 < len(variables) <= MOST_VARIABLES or len(equations) < len(variables):
+    if not 1 < len(variables) <= MOST_VARIABLES:
         return
     seen: list[dict[str, fmpq_poly]] = []
     for guide in approximate_points(condition, names, budget):
-        budget.spend(20_000)
-        point = refined(equations, variables, guide)
-        found = recognised(equations, variables, point) if point else None
-        if found is not None and found.values not in seen:
-            seen.append(found.values)
-            others = {name: fmpq_poly([1]) for name in names if name not in found.values}
-            yield Assignment({**others, **found.values}, found.number)
+        tight = [
+            poly
+            for poly, relation in condition.facts()
+            if relation == "=" or relation == ">=" and abs(valued(poly, guide) or 0) < ATTAINED
+        ]
+        for equations in (tight, tight + minors(tight, variables)):
+            if len(equations) < len(variables):
+                continue
+            budget.spend(20_000)
+            point = refined(equations, variables, guide)
+            found = recognised(equations, variables, point) if point else None
+            if found is not None and found.values not in seen:
+                seen.append(found.values)
+                others = {name: fmpq_poly([1]) for name in names if name not in found.values}
+                yield Assignment({**others, **found.values}, found.number)
+            if found is not None:
+                break
+
+
+def minors(equations: Sequence[fmpq_mpoly], variables: Sequence[str]) -> list[fmpq_mpoly]:
+    """The largest minors of the Jacobian, which vanish where the sets of the equations touch.
+
+    >>> from flint import Ordering, fmpq_mpoly_ctx
+    >>> x, y = fmpq_mpoly_ctx.get(["x", "y"], Ordering.lex).gens()
+    >>> minors([x**2 + y**2 - 1, 2 * x * y - 1], ["x", "y"])
+    [4*x^2 - 4*y^2]
+    """
+    if not 1 < len(equations) <= len(variables):
+        return []
+    place = places(equations[0].context())
+    slopes = [[poly.derivative(place[name]) for name in variables] for poly in equations]
+    return [
+        determinant([[row[k] for k in columns] for row in slopes])
+        for columns in combinations(range(len(variables)), len(equations))
+    ]
+
+
+def determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
+    """The determinant, along its first row."""
+    first, *rest = rows
+    if not rest:
+        return first[0]
+    total = first[0] * 0
+    for k, entry in enumerate(first):
+        part = entry * determinant([[*row[:k], *row[k + 1 :]] for row in rest])
+        total += part if k % 2 == 0 else -part
+    return total
 
 
 def refined(

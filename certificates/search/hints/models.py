@@ -13,7 +13,7 @@ from juggleproof.certificates.algebra.number_field import common_field
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, simplest_between
 from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.candidates import Value, trials
-from juggleproof.certificates.search.hints.asking import RESOURCES, ask
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.hints.few_values import point_by_few_values
 from juggleproof.certificates.search.samples import Assignment, Sampler
 from juggleproof.certificates.work import Budget
@@ -63,19 +63,20 @@ def whole_models(
     names: Sequence[str],
     integers: frozenset[str],
     budget: Budget,
-    effort: int,
     roles: Roles,
+    resources: int,
 ) -> Iterator[Assignment]:
     """A point where some variables have few values, or else Z3's model as it is, all of its values
     in one number field; none where Z3 sees none.
 
-    The first is quick at any number of variables; the second counts its work badly there.
+    The first is quick at any number of variables; Z3 counts the work of the second badly, which is
+    done within `resources` of it, or not at all.
     """
     point = None if integers else point_by_few_values(condition, budget, roles)
     if point is not None:
         yield Assignment({name: _constant(point.get(name, fmpq(1))) for name in names})
-    answer = ask(condition, budget, integers, RESOURCES << effort, model=True)
-    if answer.verdict == "sat":
+    answer = ask(condition, budget, integers, resources, model=True) if resources else None
+    if answer is not None and answer.verdict == "sat":
         field = common_field({name: answer.model.get(name, fmpq(1)) for name in names}, budget)
         if field is not None:
             yield Assignment(*field)
@@ -113,7 +114,7 @@ def _constant(value: fmpq) -> fmpq_poly:
 
 Array = NDArray[np.float64]
 STARTS, STEPS = 12, 40
-MARGINS = (0.2, 0.02, 0.001)  # by how much inequalities are to be met, ever less
+MARGINS = (0.2, 0.02, 0.001, 0.0)  # by how much inequalities are to be met, ever less
 
 
 class Residual:

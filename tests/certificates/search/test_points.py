@@ -82,6 +82,13 @@ given x^2 = 3*y*z
 show x <= 0""",
         1,
     ),
+    "a ball and a half-space touch": (
+        """statement t/touch
+forall x y z
+given x^2 + y^2 + z^2 <= 3
+show (x + 2*y - 2*z)^2 < 27 or x + 2*y <= 2*z""",
+        1,
+    ),
     "more variables than values can be tried for": (
         f"""statement t/many
 forall {" ".join(f"x{k}" for k in range(16))}
