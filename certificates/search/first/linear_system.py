@@ -177,7 +177,7 @@ def farkas(facts: Sequence[tuple[Row, str]], weights: Mapping[int, Fraction]) ->
     """The contradiction by these multiples, those of 1 > 0 last; None where they make none."""
     scale = Fraction(lcm(*(c.denominator for c in weights.values())))
     scale /= gcd(*(int(c * scale) for c in weights.values())) or 1
-    multiples = {r: int(c * scale) for r, c in weights.items()}
+    multiples = {r: int(c * scale) for r, c in sorted(weights.items())}
     one = multiples.pop(len(facts), 0)
     total: Row = {ONE: one}
     strict = one > 0
