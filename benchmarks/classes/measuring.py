@@ -208,7 +208,7 @@ def _row(title: str, classes: Sequence[Measured], solvers: Sequence[str]) -> lis
         str(sum(one.certified for one in classes)),
         f"{both}/{of_z3}",
         *(
-            f"{sum(timed.seconds for one in classes for timed in one.said[solver]):.2g}"
+            f"{sum(timed.seconds for one in classes for timed in one.said[solver]):.3g}"
             for solver in solvers
         ),
         str(sum(one.size for one in classes)),

@@ -166,7 +166,8 @@ def is_own(name: str) -> bool:
     >>> is_own("mine.py"), is_own("mean.certificates"), is_own("eq-37/main")
     (True, True, False)
     """
-    return Path(name).suffix in (".py", SCRIPT, ".certificates") or Path(name).is_dir()
+    path = Path(name)
+    return path.suffix in (".py", SCRIPT, ".certificates") or (path / checker.STATEMENTS).is_file()
 
 
 def export_lemmas(store: Store, names: Sequence[str], folder: Path | None) -> int:

@@ -57,6 +57,15 @@ def test_z3_and_we_say_what_each_problem_of_a_sample_is_holds() -> None:
     assert min(decided.values()) > 4
 
 
+def test_the_page_has_every_class_and_no_certificate_is_refused_holds() -> None:
+    rows = [row.strip("| ").split(" | ") for row in command.TABLE.text().splitlines()[2:]]
+    cells = {row[0]: row[1:] for row in rows if len(row) > 2}
+    assert [*cells] == [*CLASSES, "all"]
+    for group, (problems, _, _, ours, certified, *_) in cells.items():
+        assert int(problems) == (len(EVERY) if group == "all" else SEEDS)
+        assert ours == certified
+
+
 def measured(word: str) -> measuring.Measured:
     problem = Made("forms", "square-0", "unsat", "")
     said = {"ours": [Timed(measuring.Said(word), 0.1)]}

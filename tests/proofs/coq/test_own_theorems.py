@@ -273,7 +273,7 @@ def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
 
 def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
     with pytest.raises(ClaimError, match="no statements; name a folder that `juggleproof` wrote"):
-        export_coq([str(tmp_path)], None)
+        export_coq([str(tmp_path / "none.certificates")], None)
 
 
 @pytest.mark.parametrize(
