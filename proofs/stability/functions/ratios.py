@@ -50,7 +50,7 @@ MOST_STATES = 3
 MOST_SHIFTS = 2
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
 MOST_RULES = 2  # that are tried
-LONGEST = 600  # of V, in characters: what is multiplied out of a longer one is too large
+LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are too large
 
 
 def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
@@ -65,13 +65,11 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
         derivative = in_logarithms(setting, origin, put)
         for rows in sets_of_rows(len(system.state)):
             sums = sums_of(setting, derivative, rows)
-            if sums is None:
+            if sums is None or len(str(sums.matrix)) > LONGEST:
                 continue
             found = []
             for weights in weights_of(setting, sums.matrix):
                 terms = terms_of(setting, put, origin, rows, weights)
-                if len(" ".join(terms)) > LONGEST:
-                    continue
                 falls = falls_of(sums.matrix, weights)
                 for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
                     rank += len(" ".join(terms)) / 50
