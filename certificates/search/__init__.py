@@ -10,6 +10,7 @@ The files and folders, each after those that it imports:
 - `one_variable`: states over one variable, all of them
 - `by_variables`: forms that are no sums of squares, by cases of a variable; rules `sign`, `psatz`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
+- `at_number`: a state whose only variable is an algebraic number
 - `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns

@@ -13,7 +13,8 @@ from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.algebra.numbers import fraction
 from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.nodes import Adjoined, Node, Values, values_at
-from juggleproof.certificates.search.closing import AdjoinedNumber, close_at_number, search_closing
+from juggleproof.certificates.search.at_number import AdjoinedNumber, close_at_number
+from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.hints.isolated import isolated_points

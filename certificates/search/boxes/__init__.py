@@ -6,9 +6,8 @@ The files, each after those that it imports:
 - `small`: polynomials and box trees as plain data, without NumPy
 - `branching`: a box tree for any polynomial, the box of least bound first
 - `descent`: points of a box where a polynomial is small
-- `squares`: squares around a point, where halving boxes leads nowhere
-- `enclosures`: a bound within a width of the value at a point, by the two of them
 - `over_box`: one fact over the box of the others, by a small tree
-- `over_box_squares`: the same by a large tree, or by squares
+- `squares`: squares around a point, where halving boxes leads nowhere; facts over a box by them
+- `enclosures`: a bound within a width of the value at a point, by the two of them
 - `cuts`: several constraints over a box, which is cut
 """

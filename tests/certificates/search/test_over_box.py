@@ -8,7 +8,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.boxes.over_box import box_of, close_over_box
-from juggleproof.certificates.search.boxes.over_box_squares import close_by_bounds
+from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
