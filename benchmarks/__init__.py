@@ -6,6 +6,7 @@ it but `juggleproof bench`.
     processes  programs in processes of their own, ended in time
     figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts
+    classes    random SMT-LIB problems by classes: Z3, cvc5 and ours
     bounds     minima of the literature, enclosed and checked
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table

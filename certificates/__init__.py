@@ -10,6 +10,7 @@ In reading order:
 - `definitions`: the names by which a file of statements is shorter;
 - `algebra`: arithmetic that the search and the votes share;
 - `work`: counted work, and statements unfolded once;
+- `processes`: the same work on many items, over processes;
 - `states`: what a search assumes on one branch, and the branches below it;
 - `search`: finds certificates;
 - `votes`: other ways to decide a statement, recorded beside the certificate;

@@ -341,16 +341,18 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
 
 
 def _join(op: str, parts: Iterable[Formula], empty: str) -> Formula:
-    flat: list[Formula] = []
+    flat: dict[Formula, None] = {}
     for part in parts:
         if not isinstance(part, Formula):
             raise ClaimError(
                 f"{part!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)"
             )
         for piece in part.parts if part.op == op else (part,):
-            if piece.op != empty and piece not in flat:
-                flat.append(piece)
-    return flat[0] if len(flat) == 1 else Formula(op, *flat) if flat else Formula(empty)
+            if piece.op != empty:
+                flat[piece] = None
+    if len(flat) == 1:
+        return next(iter(flat))
+    return Formula(op, *flat) if flat else Formula(empty)
 
 
 def implies(premise: Formula, conclusion: Formula) -> Formula:

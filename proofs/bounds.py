@@ -13,10 +13,14 @@ from math import prod
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.polynomials import Monomial, monomials
+from juggleproof.certificates.algebra.polynomials import Monomial, Ring, monomials
 from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.certificates.nodes import Certificate, Node, Point
-from juggleproof.certificates.search.boxes.enclosures import Bounds, Problem, search_enclosure
+from juggleproof.certificates.search.boxes.descent import Problem
+from juggleproof.certificates.search.boxes.enclosures import Bounds, search_enclosure
+from juggleproof.certificates.search.psatz.problem import Problem as FactsOfState
+from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
+from juggleproof.certificates.states import state_of
 from juggleproof.certificates.store import (
     CERTIFICATES,
     STATEMENTS,
@@ -24,8 +28,11 @@ from juggleproof.certificates.store import (
     certificate_lines,
     write_file,
 )
+from juggleproof.certificates.work import Budget, Exhausted
 
 BUDGET = 20000  # boxes
+SQUARES = 1_000_000  # units of work for squares times facts
+STAGES = ((1, 0, True), (1, 0, False), (2, 0, False), (1, 2, True))
 MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100
 LOWER, ATTAINED = "bound/lower", "bound/attained"
 Number = int | Fraction
@@ -126,7 +133,8 @@ def enclose_minimum(
         [(2 * k, 2 * k + 1) for k in used],
         2 * len(ends),
     )
-    return question.enclosure(search_enclosure(problem, sought, budget, question.holds), used)
+    found = search_enclosure(problem, sought, budget, question.holds, question.by_squares)
+    return question.enclosure(found, used)
 
 
 class _Question:
@@ -174,6 +182,18 @@ class _Question:
     def holds(self, low: Fraction, node: Node) -> bool:
         """Whether the checker accepts the bound from below with this proof."""
         return self._reason(self.lower(low), self._lower_certificate(node)) == ""
+
+    def by_squares(self, low: Fraction) -> Node | None:
+        """A proof of the bound from below by squares times the facts."""
+        (statement,) = checker.read_statements(self.lower(low)).values()
+        unfolding = checker.Unfolding(statement, checker.Context())
+        state = state_of(unfolding).assume(unfolding.goal(False))
+        budget = Budget(SQUARES)
+        try:
+            facts = FactsOfState(state, Ring(tuple(state.context.index)), whole=True)
+            return search_squares(programs_of_facts(facts, budget, STAGES), budget)
+        except Exhausted:
+            return None
 
     def _reason(self, text: str, certificate: Certificate) -> str:
         key = text.encode() + canonical(certificate)

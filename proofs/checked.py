@@ -7,20 +7,17 @@ Every run reads everything; nothing of it is kept between runs.
 from __future__ import annotations
 
 import gc
-import os
-import signal
-import threading
-import time
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass
 from functools import lru_cache
-from multiprocessing import get_context, parent_process
+from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
+from juggleproof.certificates.processes import as_child
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
 
 Checked = list[tuple[str, str, str]]  # name, outcome, reason
@@ -158,22 +155,6 @@ def _read(folder: Path, check: Check = checker.check_one) -> Checked:
         return checker.check_folder(str(folder), check)
     except checker.Rejected:
         return []
-
-
-def as_child() -> None:
-    """A process of our own leaves interruptions to the one that started it, and ends with it,
-    however that one ends: its killing cannot be heard, so its absence is looked for.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_after, args=(parent.pid,), daemon=True).start()
-
-
-def _end_after(parent: int) -> None:
-    while os.getppid() == parent:
-        time.sleep(1)
-    os._exit(1)
 
 
 def _send(folder: Path, share: Set[str], sender: Connection) -> None:

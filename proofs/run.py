@@ -7,20 +7,18 @@ import json
 import os
 import sys
 import textwrap
-import threading
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from pathlib import Path
-from typing import TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.processes import alone, own_pool, spread
 from juggleproof.certificates.store import (
     Store,
     canonical,
@@ -28,7 +26,7 @@ from juggleproof.certificates.store import (
     write_file,
     write_store,
 )
-from juggleproof.proofs.checked import Checked, Reading, as_child, outcomes_of
+from juggleproof.proofs.checked import Checked, Reading, outcomes_of
 from juggleproof.proofs.claims import (
     Claim,
     FixedBody,
@@ -332,49 +330,7 @@ def _line_in(path: Path) -> int:
 # Runs the judgement of many claims over processes, or over any executor; results come in order and
 # do not depend on who does the work.
 
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 _work: tuple[Sequence[Claim], Resources] | None = None
-_alone = (
-    threading.Lock()
-)  # the checker counts its work in one place: threads of one process take turns
-
-
-def spread(
-    work: Callable[[Item], Result],
-    items: Sequence[Item],
-    executor: Executor | None,
-    done: Callable[[int, Result], None],
-) -> list[Result]:
-    """The results of the work on every item, in order; here where there is no executor.  `done`
-    is called with each as it is ready.
-
-    Raises what the work on the first item in order raised, when the others are finished.
-    """
-    results: dict[int, Result] = {}
-    problems: dict[int, ClaimError] = {}
-    futures = (
-        {executor.submit(work, item): index for index, item in enumerate(items)} if executor else {}
-    )
-    try:
-        for future in as_completed(futures):
-            try:
-                results[futures[future]] = future.result()
-                done(futures[future], results[futures[future]])
-            except ClaimError as problem:
-                problems[futures[future]] = problem
-        for index, item in enumerate(items if executor is None else ()):
-            results[index] = work(item)
-            done(index, results[index])
-    except BaseException:
-        for future in futures:
-            future.cancel()
-        raise
-    if problems:
-        raise problems[min(problems)]
-    return [results[index] for index in range(len(items))]
-
-
 # ------------------------------------------------------------ claims
 
 
@@ -394,17 +350,11 @@ def _loaded(module: str, name: str) -> Claim:
 
 def judge_sent(sent: Sent) -> tuple[Judgement, float]:
     """The judgement on a claim that was sent, and the seconds it took."""
-    with _alone:
+    with alone:
         began = time.perf_counter()
         claim = sent.claim if isinstance(sent.claim, Claim) else _loaded(*sent.claim)
         judgement = judge(claim, sent.resources)
         return judgement, time.perf_counter() - began
-
-
-def one_at_a_time(work: Callable[[Item], Result], item: Item) -> Result:
-    """The work on an item, while no other thread of this process does any."""
-    with _alone:
-        return work(item)
 
 
 def sent(claim: Claim, resources: Resources) -> Sent:
@@ -453,16 +403,8 @@ def judge_all(
     everything = range(len(claims))
     if jobs <= 1 or len(claims) == 1:
         return [judgement for judgement, _ in spread(_judge_one, everything, None, take)], seconds
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
-        try:
-            return [
-                judgement for judgement, _ in spread(_judge_one, everything, pool, take)
-            ], seconds
-        except ClaimError:
-            raise
-        except BaseException:
-            stop(pool)
-            raise
+    with own_pool(jobs) as pool:
+        return [judgement for judgement, _ in spread(_judge_one, everything, pool, take)], seconds
 
 
 def _judge_one(index: int) -> tuple[Judgement, float]:
@@ -470,13 +412,6 @@ def _judge_one(index: int) -> tuple[Judgement, float]:
         raise RuntimeError("a worker started without its claims")
     began = time.perf_counter()
     return judge(_work[0][index], _work[1]), time.perf_counter() - began
-
-
-def stop(pool: ProcessPoolExecutor) -> None:
-    """Ends the processes of a pool of our own at once."""
-    for process in list((pool._processes or {}).values()):
-        process.kill()
-    pool.shutdown(wait=False, cancel_futures=True)
 
 
 def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, str]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.benchmarks.bench.answers import Answer, Problem
-from juggleproof.certificates.search.boxes.enclosures import FloatPolynomial
+from juggleproof.certificates.search.boxes.descent import FloatPolynomial
 from juggleproof.certificates.search.boxes.small import Terms
 
 Array = NDArray[np.float64]

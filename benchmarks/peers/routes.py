@@ -201,29 +201,39 @@ def z3() -> Callable[[Check], tuple[str, str]]:
     return ask
 
 
-def cvc5(proof: bool = False) -> Callable[[Check], tuple[str, str]]:
-    """cvc5, each check in a solver of its own; if asked to, it writes its proof in its own format
-    and checks that itself.
+def reader_of_cvc5(**options: str) -> Callable[[str], tuple[Callable[[], str], str]]:
+    """What reads a script by cvc5, in a solver of its own: the text of its first proof, and all
+    that it writes.
     """
     from cvc5 import InputLanguage, InputParser, Solver
 
-    def ask(check: Check) -> tuple[str, str]:
+    def read(text: str) -> tuple[Callable[[], str], str]:
         solver = Solver()
-        solver.setOption("rlimit", str(CVC5_UNITS))
-        if proof:
-            solver.setOption("produce-proofs", "true")
-            solver.setOption("check-proofs", "true")
+        for option, value in {"rlimit": str(CVC5_UNITS), **options}.items():
+            solver.setOption(option.replace("_", "-"), value)
         parser = InputParser(solver)
-        text = f"(set-logic {check.logic})\n{check.text}(check-sat)\n"
         parser.setStringInput(InputLanguage.SMT_LIB_2_6, text, "check")
         output = ""
         while not (command := parser.nextCommand()).isNull():
             output += str(command.invoke(solver, parser.getSymbolManager()))
+        return lambda: str(solver.proofToString(solver.getProof()[0])), output
+
+    return read
+
+
+def cvc5(proof: bool = False) -> Callable[[Check], tuple[str, str]]:
+    """cvc5, each check in a solver of its own; if asked to, it writes its proof in its own format
+    and checks that itself.
+    """
+    proofs = {"produce_proofs": "true", "check_proofs": "true"} if proof else {}
+    read = reader_of_cvc5(**proofs)
+
+    def ask(check: Check) -> tuple[str, str]:
+        proof_text, output = read(f"(set-logic {check.logic})\n{check.text}(check-sat)\n")
         word = output.split()[0]
         if not proof or word != "unsat":
             return word, "proof" if proof else ""
-        written = str(solver.proofToString(solver.getProof()[0]))
-        return word, "steps on trust" if ":rule trust" in written else "every step by a rule"
+        return word, ("steps on trust" if ":rule trust" in proof_text() else "every step by a rule")
 
     return ask
 

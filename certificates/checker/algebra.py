@@ -15,7 +15,7 @@ from math import comb, gcd, lcm, prod
 from typing import Union
 
 MAX_DEGREE = 4000
-MAX_VARIABLES = 60
+MAX_VARIABLES = 400
 MAX_TERMS = 10**5
 MAX_BITS = 40000
 MAX_WORK = 2 * 10**7

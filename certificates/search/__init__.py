@@ -4,21 +4,25 @@ believed.
 The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
-- `boxes`: lower bounds of polynomials on boxes; rule `boxes`
+- `first`: what needs little work; linear statements; the searches in turn
+- `boxes`: lower bounds of polynomials on boxes, and states over boxes; rules `boxes`, `psatz`,
+  `sign`
 - `one_variable`: states over one variable, all of them
-- `over_box`: one fact over the box of the others; rule `boxes`
+- `by_variables`: forms that are no sums of squares, by cases of a variable; rules `sign`, `psatz`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
+- `at_number`: a state whose only variable is an algebraic number
 - `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns
 - `samples`: exact values for all variables of a condition
-- `models`: values near which floats or Z3 see a solution
+- `hints`: what Z3 and floats suggest: votes, models, conflicts of clauses
 - `scales`: the scales of a statement, a state with scales set to 1, and the way back
 - `templates`: terms for unknowns, tried on samples
 - `witness_terms`: what terms are sought for, and how the checker takes them
 - `ranges`: sets of one parameter, and verdicts along it
 - `lines`: terms over one parameter, piece by piece
 - `families`: terms on all of a state, split by signs; conditions solved for a parameter
+- `triangular`: points by equations, each root over the ones before it
 - `points`: points, counterexamples and witnesses, as the checker's `finds` takes them
 - `certificate`: the certificate of a statement for all reals or of existence, and of map rules:
   `universal`, `iterates`, `map`, `relation`, `descends`, `contracts`, `lyapunov`, `attracts`,

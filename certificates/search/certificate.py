@@ -17,7 +17,9 @@ from juggleproof.certificates.nodes import (
     by_sign,
 )
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
+from juggleproof.certificates.search.first.linear_system import search_linear
 from juggleproof.certificates.search.points import search_values
+from juggleproof.certificates.search.psatz.basis import last_basis
 from juggleproof.certificates.search.ranges import Violation
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -139,6 +141,9 @@ def _search(
     attempts: Attempts,
     roles: Roles,
 ) -> Certificate:
+    linear = search_linear(statement, budget.part(budget.left // 2), last_basis)
+    if linear is not None and checker.check_one(statement, linear, {}, {})[1] is None:
+        return linear
     ended: set[tuple[bool, int]] = (
         set()
     )  # attempts that were not cut short: more work would not help them

@@ -4,27 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import combinations
-
-from flint import fmpq_poly, fmpz_poly
+from math import prod
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.numbers import (
-    AlgebraicNumber,
-    fraction,
-    polynomial_text,
-    tree_below_zero,
-)
 from juggleproof.certificates.algebra.polynomials import Ring
-from juggleproof.certificates.nodes import Adjoined, Node, Sign
-from juggleproof.certificates.search.one_variable import (
-    HOLDS,
-    close_in_one_variable,
-    dense_poly,
-    dense_text,
-)
-from juggleproof.certificates.search.over_box import close_over_box
+from juggleproof.certificates.nodes import Node, Sign
+from juggleproof.certificates.search.boxes.cuts import close_by_cuts
+from juggleproof.certificates.search.boxes.over_box import close_over_box
+from juggleproof.certificates.search.boxes.squares import close_by_bounds
+from juggleproof.certificates.search.by_variables import close_by_variables
+from juggleproof.certificates.search.hints.clauses import search_by_conflicts
+from juggleproof.certificates.search.one_variable import close_in_one_variable
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -53,9 +44,11 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+MANY_CASES = 100  # from which on they are led by conflicts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
+MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -156,6 +149,8 @@ class Closing:
         if not sizes:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
+        if node is None and prod(sizes.values()) > MANY_CASES and self.effort:
+            return search_by_conflicts(state, lambda few: self.leaf(few, 0), self.budget)
         return node if node is not None else self.cases(state, sizes)
 
     def cases(self, state: State, sizes: Mapping[int, int]) -> Node | None:
@@ -216,16 +211,19 @@ class Closing:
         node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
-            node = search_squares(programs, self.budget)
+            node = close_by_variables(inside, problem.ring, self.budget)
+            node = node or close_by_bounds(inside, MOST_BOXES, self.budget)
+            node = node or search_squares(programs, self.budget)
         elif (
             node is None
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
             node = (
-                self.usual(problem, False)
-                or close_over_box(inside, FEW_BOXES, self.budget)
+                close_over_box(inside, FEW_BOXES, self.budget)
+                or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
+                or (None if depth else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
@@ -496,110 +494,3 @@ def wrapped(rounded: list[int], node: Node | None) -> Node | None:
     for index in reversed(rounded):
         node = None if node is None else ("integral", index, node)
     return node
-
-
-# -------------------------------------------------------------------------------------------------
-# Closing a state whose only variable is an adjoined algebraic number: signs on its interval,
-# arithmetic modulo its polynomial.
-
-
-class AdjoinedNumber:
-    """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial
-    rises through the root.
-    """
-
-    def __init__(
-        self, name: str, number: AlgebraicNumber, poly: fmpz_poly, low: Fraction, high: Fraction
-    ) -> None:
-        self.name, self.number, self.poly, self.low, self.high = name, number, poly, low, high
-
-    @staticmethod
-    def of(number: AlgebraicNumber, digits: int, name: str) -> AdjoinedNumber:
-        """The number between neighbouring decimals of so many digits."""
-        scale = 10**digits
-        number.narrow(Fraction(1, 4 * scale))
-        while (number.low * scale).__floor__() != (number.high * scale).__floor__():
-            number.refine()
-        low = Fraction((number.low * scale).__floor__(), scale)
-        high = low + Fraction(1, scale)
-        poly = number.poly
-        return AdjoinedNumber(
-            name,
-            number,
-            poly if number.sign_of(fmpq_poly(poly).derivative()) > 0 else -poly,
-            low,
-            high,
-        )
-
-    def text(self, poly: fmpq_poly) -> str:
-        """A polynomial in the number as text."""
-        return dense_text(poly, self.name) if poly.degree() > 0 else str(fraction(poly[0]))
-
-    def entry(self) -> Adjoined:
-        """The number as values adjoin it; its change of sign, of rationals, closes at once."""
-        text = polynomial_text([int(c) for c in self.poly.coeffs()], self.name)
-        return self.name, text, str(self.low), str(self.high), ("close",), ("close",)
-
-
-def close_at_number(state: State, adjoined: AdjoinedNumber) -> Node | None:
-    """A node that closes the state, whose only variable is the adjoined number; None where a fact's
-    sign is not yet visible.
-    """
-    if state.closed:
-        return ("close",)
-    for index, (poly, _) in enumerate(state.facts):
-        if checker.variables_of(state.context, poly) == {adjoined.name}:
-            node = _contradiction(state, index, adjoined)
-            if node is not None:
-                return node
-    if not state.choices:
-        return None
-    rest, nodes = state.branch(), []
-    del rest.choices[0]
-    for alternative in state.choices[0]:
-        node = close_at_number(rest.branch(alternative), adjoined)
-        if node is None:
-            return None
-        nodes.append(node)
-    return "cases", 0, nodes
-
-
-def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node | None:
-    poly, relation = state.facts[index]
-    dense, modulus = dense_poly(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
-    sign = adjoined.number.sign_of(dense)
-    if HOLDS[relation](sign):
-        return None
-    low, high, equation = _own_facts(state, adjoined)
-    if sign == 0:
-        quotient = dense // modulus
-        power, cofactor = (1, -quotient) if relation == ">" else (2, -quotient * dense)
-        cofactors = [(equation, dense_text(cofactor, adjoined.name))]
-        return "psatz", [("1", [(index, power)], "1")], cofactors
-    if relation == "=":
-        gcd, u, v = dense.xgcd(modulus)
-        cofactors = [
-            (index, dense_text(-u / gcd[0], adjoined.name)),
-            (equation, dense_text(-v / gcd[0], adjoined.name)),
-        ]
-        return "psatz", [("1", [], "1")], cofactors
-    tree = tree_below_zero(dense, adjoined.low, adjoined.high)
-    return None if tree is None else ("boxes", index, [(low, high)], tree)
-
-
-def _own_facts(state: State, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
-    """The numbers of the facts low <= number, number <= high and p(number) = 0."""
-    shift = checker.BITS * state.context.index[adjoined.name]
-    one = 1 << shift
-    found: dict[str, int] = {}
-    for index, (poly, relation) in enumerate(state.facts):
-        if relation == ">=" and set(poly.terms) <= {0, one} and one in poly.terms:
-            end = -Fraction(poly.terms.get(0, 0), poly.terms[one])
-            if poly.terms[one] > 0 and end == adjoined.low:
-                found.setdefault("low", index)
-            if poly.terms[one] < 0 and end == adjoined.high:
-                found.setdefault("high", index)
-        if relation == "=" and checker.variables_of(state.context, poly) == {adjoined.name}:
-            if dense_poly(state.context, poly, adjoined.name) == fmpq_poly(adjoined.poly):
-                found.setdefault("equation", index)
-    return found["low"], found["high"], found["equation"]

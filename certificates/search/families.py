@@ -22,8 +22,8 @@ from juggleproof.certificates.algebra.polynomials import term_of
 from juggleproof.certificates.language import End, SharpRange, bounds_of
 from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.lines import LineCover
-from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.ranges import QUICK
 from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal

@@ -20,7 +20,7 @@ from juggleproof.certificates.algebra.numbers import (
 from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.candidates import separate
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.ranges import Interval, Line
 from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal

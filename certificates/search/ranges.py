@@ -39,7 +39,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, separate
-from juggleproof.certificates.search.models import RESOURCES, ask
+from juggleproof.certificates.search.hints.asking import RESOURCES, ask
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.search.terms import ring_names
 from juggleproof.certificates.work import Budget, unfolded

@@ -118,6 +118,8 @@ class Sampler:
         if solved is not None:
             name, value = solved
             self._spend(condition)
+            if degree_after(condition, name, value) > MOST_DEGREE:
+                return
             changed = condition.replaced(name, value, condition.ring.constant(1))
             yield from self._descend(self._settled(changed, theta), [*steps, (name, value)], theta)
             return
@@ -280,6 +282,20 @@ class Sampler:
         if any(dense[n].degree() > 0 or (dense[n][0].q != 1) for n in self.integers if n in dense):
             return None
         return Assignment(dense, theta[1] if theta else None)
+
+
+MOST_DEGREE = 500  # of what values are put into
+
+
+def degree_after(condition: Condition, name: str, value: fmpq_mpoly) -> int:
+    """A bound on the degree of a condition when a term is put in place of a variable."""
+    place, degree = places(condition.ring)[name], max(1, value.total_degree())
+    grown = (
+        poly.total_degree() + int(poly.degrees()[place]) * (degree - 1)
+        for poly in (condition.polys[k] for k in condition.used())
+        if poly
+    )
+    return max(grown, default=0)
 
 
 def linear_remainder(p: fmpq_mpoly, q: fmpq_mpoly, name: str) -> fmpq_mpoly:

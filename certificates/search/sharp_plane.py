@@ -31,7 +31,7 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.nodes import Certificate, Sharp, Values
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
-from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.ranges import Violation
 from juggleproof.certificates.search.samples import base_samples
 from juggleproof.certificates.search.sharp import (

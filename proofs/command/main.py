@@ -250,7 +250,8 @@ def build_parser() -> argparse.ArgumentParser:
         "ids",
         nargs="*",
         metavar="ID",
-        help="claims or statements (default: all); with `coq` also a file of your own, FILE.py",
+        help="claims or statements (default: all); with `coq` also of your own: FILE.py, FILE.smt2,"
+        " or a folder of certificates",
     )
     export.add_argument(
         "-o",

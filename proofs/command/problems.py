@@ -6,18 +6,12 @@ from __future__ import annotations
 
 import argparse
 import os
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from pathlib import Path
-
-from rich.console import Console
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
-from juggleproof.proofs.checked import as_child
 from juggleproof.proofs.command.outputs import asked_of, refuse_unwritable
 from juggleproof.proofs.reports import problems
-from juggleproof.proofs.run import stop
 from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 
 
@@ -49,7 +43,7 @@ def certify(options: ProblemOptions) -> int:
             raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")
     refuse_unwritable(options.files, asked_of(options))
     answered = _answered(options)
-    problems.draw(answered, Console(highlight=False))
+    problems.draw(answered)
     for one in answered:
         if one.contradicts:
             print(
@@ -67,21 +61,10 @@ def certify(options: ProblemOptions) -> int:
 
 
 def _answered(options: ProblemOptions) -> list[Answered]:
-    jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
-    budget = options.budget or BUDGET
-    if jobs == 1:
-        return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh)
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
-        try:
-            return answer_files(
-                options.files,
-                budget=budget,
-                store=options.store,
-                fresh=options.fresh,
-                executor=pool,
-            )
-        except ClaimError:
-            raise
-        except BaseException:
-            stop(pool)
-            raise
+    return answer_files(
+        options.files,
+        budget=options.budget or BUDGET,
+        store=options.store,
+        fresh=options.fresh,
+        jobs=options.jobs if options.jobs > 0 else os.cpu_count() or 1,
+    )

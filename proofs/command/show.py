@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from rich.console import Console
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten, export
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file
+from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file, write_store
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.claims import VERDICTS, claim_named
 from juggleproof.proofs.command.outputs import busy, show
@@ -23,7 +25,10 @@ from juggleproof.proofs.reports.contents import entries_of, errata_text
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
 from juggleproof.proofs.run import claims_of_files, judge_some, refuse_duplicates, store_of
+from juggleproof.proofs.smtlib.answering import answer_files, folder_of
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+
+SCRIPT = ".smt2"
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof list` and `errata`: what is stored, without a search.
@@ -32,7 +37,7 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 def command(parsed: argparse.Namespace) -> int:
     """Runs one of these commands; returns its exit code."""
     if parsed.command == "export":
-        own = [one for one in parsed.ids if one.endswith(".py")]
+        own = [one for one in parsed.ids if is_own(one)]
         if own and parsed.format != "coq":
             raise ClaimError(f"{own[0]}: claims of your own are exported to coq only")
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
@@ -130,16 +135,43 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
     """Writes the statements named (or all) as Coq lemmas with proofs, after those that their
     certificates use; says on standard error how many of each class, and which it cannot write.
 
-    Of Python files of claims, writes the theorems on the orbits of maps, each whole.  Raises
+    Of Python files of claims, writes the theorems on the orbits of maps, each whole; where there
+    are none, and of scripts of SMT-LIB and folders of certificates, all statements.  Raises
     ClaimError for an unknown name, or where nothing at all can be written.
     """
-    files = [Path(one) for one in ids if one.endswith(".py")]
-    if files and len(files) < len(ids):
+    paths = [Path(one) for one in ids if is_own(one)]
+    if paths and len(paths) < len(ids):
         raise ClaimError("files and claims of the paper together; export them one after the other")
-    if files:
-        return export_theorems(files, folder)
-    store = Store(DEFAULT)
-    names = _names(store, ids)
+    if not paths:
+        store = Store(DEFAULT)
+        return export_lemmas(store, _names(store, ids), folder)
+    if len({path.suffix for path in paths}) > 1 or len(paths) > 1 and paths[0].suffix != ".py":
+        raise ClaimError(f"{paths[1]}: a second store; export them one after the other")
+    if paths[0].suffix == ".py":
+        return export_claims(paths, folder)
+    if paths[0].suffix == SCRIPT:
+        with busy("answering the script"):
+            answer_files(paths)
+        store = Store(folder_of(paths[0], None))
+    else:
+        store = Store(paths[0])
+    if not store.texts:
+        raise ClaimError(f"{paths[0]}: no statements; name a folder that `juggleproof` wrote")
+    return export_lemmas(store, list(store.texts), folder)
+
+
+def is_own(name: str) -> bool:
+    """Whether this names a file or folder of the user's, not a claim of the paper.
+
+    >>> is_own("mine.py"), is_own("mean.certificates"), is_own("eq-37/main")
+    (True, True, False)
+    """
+    path = Path(name)
+    return path.suffix in (".py", SCRIPT, ".certificates") or (path / checker.STATEMENTS).is_file()
+
+
+def export_lemmas(store: Store, names: Sequence[str], folder: Path | None) -> int:
+    """Writes statements of a store as lemmas; raises ClaimError where none can be written."""
     with busy("writing the statements for Coq"):
         exported = export(store, names)
     print("\n".join(exported.table()), file=sys.stderr)
@@ -156,25 +188,39 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
     return 0
 
 
-def export_theorems(files: Sequence[Path], folder: Path | None) -> int:
-    """Writes each certified theorem on the orbits of a map on which no other of the files rests, as
-    a file that coqc accepts by itself; 1 where one cannot be written, with a line that says why.
-
-    Raises ClaimError for files without such a claim, and for several without a folder.
+def export_claims(files: Sequence[Path], folder: Path | None) -> int:
+    """Writes the theorems on maps among the claims of these files; their statements, where there
+    are none.
     """
     claims = claims_of_files(files)
     refuse_duplicates(claims)
     with busy("judging the claims"):
         judgements = judge_some(claims, claims, store_of(files))
     texts = {name: text for one in judgements for name, text in one.statements}
-    outcomes = {name: word for one in judgements for name, word in one.outcomes.items()}
     certificates = {name: entry for one in judgements for name, entry in one.certificates.items()}
     statements = checker.read_statements("\n\n".join(texts.values()))
+    if theorems_in(statements):
+        outcomes = {name: word for one in judgements for name, word in one.outcomes.items()}
+        return export_theorems(files, statements, outcomes, certificates, folder)
+    with tempfile.TemporaryDirectory() as judged:
+        text = "\n\n".join(texts.values()) + "\n"
+        write_store(Path(judged), text, {"": certificates})
+        return export_lemmas(Store(Path(judged)), list(texts), folder)
+
+
+def export_theorems(
+    files: Sequence[Path],
+    statements: Mapping[str, checker.Statement],
+    outcomes: Mapping[str, str],
+    certificates: Mapping[str, Certificate],
+    folder: Path | None,
+) -> int:
+    """Writes each certified theorem on the orbits of a map on which no other of the files rests, as
+    a file that coqc accepts by itself; 1 where one cannot be written, with a line that says why.
+
+    Raises ClaimError for several without a folder.
+    """
     names, where = theorems_in(statements), " ".join(map(str, files))
-    if not names:
-        raise ClaimError(
-            f"{where}: no theorem on all orbits of a map; add a MapRule that concludes one"
-        )
     if len(names) > 1 and not folder:
         raise ClaimError(f"{where}: several theorems, {', '.join(names)}; give -o DIR")
     written = 0

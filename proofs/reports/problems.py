@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
-
-from rich.console import Console
-from rich.table import Table
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates.nodes import Json
 from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.smtlib.answering import Answered, in_script
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 COLUMNS = ("problem", "answer", "settled by")
 COLOURS = {"unsat": "green", "sat": "cyan", "unknown": "bold red"}
@@ -37,12 +40,14 @@ def rows(answered: Sequence[Answered]) -> list[tuple[str, str, str]]:
     ]
 
 
-def draw(answered: Sequence[Answered], console: Console) -> None:
+def draw(answered: Sequence[Answered], console: Console | None = None) -> None:
     """Draws the table on a terminal; plain columns, one row a line, where there is none."""
-    if not console.is_terminal:
+    if console is None and sys.stdout is not None and sys.stdout.isatty():
+        console = import_module("rich.console").Console(highlight=False)
+    if console is None or not console.is_terminal:
         print(plain([COLUMNS, *rows(answered)]))
         return
-    table = Table(*COLUMNS, header_style="bold")
+    table = import_module("rich.table").Table(*COLUMNS, header_style="bold")
     for row, one in zip(rows(answered), answered):
         colour = "bold red" if not one.settled else COLOURS[one.answer.word]
         table.add_row(row[0], f"[{colour}]{row[1]}[/{colour}]", row[2].replace("[", r"\["))

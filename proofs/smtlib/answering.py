@@ -9,27 +9,25 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import (
-    ClaimError,
-)
+from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate, Counterexample
-from juggleproof.certificates.search.certificate import (
-    SQUARES_FIRST,
-    search_certificate,
-)
+from juggleproof.certificates.search.first.stages import certificates_in_turn
 from juggleproof.certificates.store import Store, write_store
 from juggleproof.certificates.work import Budget, Exhausted
-from juggleproof.proofs.run import one_at_a_time, spread
 from juggleproof.proofs.smtlib.script import Problem, problems_of_file
 from juggleproof.proofs.smtlib.statements import denial, givens, statement_of
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 # -------------------------------------------------------------------------------------------------
 # Answers.  A question and its answer are plain text and data, so that they pass between processes
@@ -109,39 +107,57 @@ def answer(asked: Question) -> Answer:
             return Answer(asked.name, word, text, certificate)
     first: Answer | None = None
     for text in asked.texts:
-        certificate = _searched(asked.name, text, asked.budget)
-        word = settled(asked.name, text, certificate)
-        if word == "unsat" or word == "sat" and text == asked.texts[0]:
-            return Answer(asked.name, word, text, certificate)
-        reason = (
-            certificate
-            if "unknown" in certificate
-            else {"unknown": "the checker rejects what was found"}
-        )
-        first = first or Answer(asked.name, "unknown", text, reason)
+        found = _searched(asked, text)
+        if found.word != "unknown":
+            return found
+        first = first or found
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
 
 def settled(name: str, text: str, certificate: Certificate) -> str:
     """sat or unsat where the checker accepts the certificate, else unknown."""
-    outcome, _ = checker.check_one(checker.read_statements(text)[name], certificate, {}, {})
-    return WORDS.get(outcome, "unknown")
+    return settled_as(checker.read_statements(text)[name], certificate)
 
 
-def _searched(name: str, text: str, budget: int) -> Certificate:
+def settled_as(statement: checker.Statement, certificate: Certificate) -> str:
+    """The same of a statement that is read."""
+    return WORDS.get(checker.check_one(statement, certificate, {}, {})[0], "unknown")
+
+
+def _searched(asked: Question, text: str) -> Answer:
+    """The answer by one of the texts of a question; only the first says what is sat."""
     try:
-        return search_certificate(
-            checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST
-        )
-    except Exhausted:
-        return {"unknown": f"the budget of {budget} units ran out"}
+        statement = checker.read_statements(text)[asked.name]
     except checker.Rejected as reason:
-        return {"unknown": f"beyond the checker's limits: {reason}"}
+        return Answer(asked.name, "unknown", "", {"unknown": beyond_reading(text, reason)})
+    unknown: Certificate = {"unknown": "the checker rejects what was found"}
+    try:
+        for certificate in certificates_in_turn(statement, Budget(asked.budget)):
+            word = settled_as(statement, certificate)
+            if word == "unsat" or word == "sat" and text == asked.texts[0]:
+                return Answer(asked.name, word, text, certificate)
+            if "unknown" in certificate:
+                unknown = certificate
+    except Exhausted:
+        unknown = {"unknown": f"the budget of {asked.budget} units ran out"}
+    except checker.Rejected as reason:
+        unknown = {"unknown": f"beyond the checker's limits: {reason}"}
+    except RecursionError:
+        unknown = {"unknown": "it is nested too deep for the search"}
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
         # beyond floats, or beyond what Python writes
-        return {"unknown": "its numbers grow too long for the search"}
+        unknown = {"unknown": "its numbers grow too long for the search"}
+    return Answer(asked.name, "unknown", text, unknown)
+
+
+def beyond_reading(text: str, reason: checker.Rejected) -> str:
+    """Why the checker does not read a statement."""
+    if reason.kind is not checker.Kind.TEXT:
+        return f"beyond the checker's limits: {reason}"
+    longest = max(len(line) for line in text.split("\n"))
+    return f"beyond the checker's limits: a formula of {longest} letters when it is written out"
 
 
 def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
@@ -245,10 +261,11 @@ def answer_files(
     store: Path | None = None,
     fresh: bool = False,
     executor: Executor | None = None,
+    jobs: int = 1,
     progress: Callable[[Answer], None] = lambda answered: None,
 ) -> list[Answered]:
-    """Every problem of the scripts with its answer, in order; statements and certificates are
-    written, and the checker reads them again.
+    """Every problem of the scripts with its answer, in order, by an executor or by so many
+    processes; statements and certificates are written, and the checker reads them again.
 
     Raises ClaimError, one line, for what is no script of QF_NRA, or where two problems or two
     scripts would share a name.
@@ -270,11 +287,7 @@ def answer_files(
         stored = Store(Path(os.devnull) if fresh else folder)
         for problem, name in zip(problems, names_of(script, problems)):
             asked.append(question(problem, name, budget, stored))
-    answers = iter(
-        spread(
-            partial(one_at_a_time, answer), asked, executor, lambda _, answered: progress(answered)
-        )
-    )
+    answers = iter(_answers(asked, executor, jobs, progress))
     answered = [
         Answered(path, problem, next(answers)) for path, problems in read for problem in problems
     ]
@@ -293,6 +306,29 @@ def answer_files(
     ]
 
 
+def _answers(
+    asked: Sequence[Question],
+    executor: Executor | None,
+    jobs: int,
+    progress: Callable[[Answer], None],
+) -> list[Answer]:
+    if executor is None and (jobs == 1 or len(asked) == 1):
+        answers = []
+        for one in asked:
+            answers.append(answer(one))
+            progress(answers[-1])
+        return answers
+    processes = import_module("juggleproof.certificates.processes")  # dear to load
+    pool: AbstractContextManager[Executor] = (
+        processes.own_pool(jobs) if executor is None else nullcontext(executor)
+    )
+    with pool as own:
+        spread: list[Answer] = processes.spread(
+            partial(processes.one_at_a_time, answer), asked, own, lambda _, one: progress(one)
+        )
+    return spread
+
+
 def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     """Writes statements and certificates to the folder; what the checker rejects there, and
     why.
@@ -306,13 +342,15 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
             for variable in one.problem.variables
             if variable.name != variable.symbol
         ]
+        if not one.answer.text:
+            continue
         blocks.append((f"# {', '.join(renamed)}\n" if renamed else "") + one.answer.text)
         certificates.setdefault(one.answer.name.split("/")[0], {})[one.answer.name] = (
             one.answer.certificate
         )
     write_store(folder, "\n\n".join(blocks) + "\n", certificates)
-    return {
-        name: reason
-        for name, outcome, reason in checker.check_folder(str(folder))
-        if outcome == "rejected"
-    }
+    try:
+        checked = checker.check_folder(str(folder))
+    except checker.Rejected as reason:  # all of it is too large
+        return {one.answer.name: str(reason) for one in answered}
+    return {name: reason for name, outcome, reason in checked if outcome == "rejected"}

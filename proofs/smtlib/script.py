@@ -11,23 +11,22 @@ not looked at: what is read are real arithmetic without quantifiers, and Bools.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from juggleproof.certificates.language import NAME, ClaimError, Formula, real
+from juggleproof.certificates.language import NAME, ClaimError, Formula, Term, real
 from juggleproof.certificates.language import RESERVED as OUR_RESERVED
 from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
 from juggleproof.proofs.smtlib.terms import (
     RESERVED,
     SORTS,
     Function,
+    Meaning,
     Reader,
-    Scope,
-    Value,
     brief,
-    plain,
 )
+from juggleproof.proofs.smtlib.values import Value, plain
 
 # they ask for what is shown, and change nothing
 IDLE = frozenset(
@@ -86,8 +85,10 @@ class Problem:
     """What one `check-sat`, the `number`-th of its script, asks: whether all of the assertions can
     hold at once.
 
-    Each assertion stands with its line; `status`, `name` and `source` are what the script states of
-    the problem, empty where it states nothing; `commands` declare, define and assert all of it.
+    Each assertion stands with its line; `meanings` are those of the names that parts of assertions
+    have (`values.Parts`), perhaps with others; `status`, `name` and `source` are what the script
+    states of the problem, empty where it states nothing; `commands` declare, define and assert all
+    of it.
     """
 
     file: str
@@ -96,6 +97,7 @@ class Problem:
     variables: tuple[Variable, ...]
     assertions: tuple[tuple[int, Formula], ...]
     commands: tuple[Node, ...]
+    meanings: Mapping[str, Term | Formula]
     status: str = ""
     name: str = ""
     source: str = ""
@@ -121,7 +123,7 @@ class Problem:
 class Frame:
     """What was declared, defined and asserted since the last push, and by which commands."""
 
-    scope: dict[str, Value | Function] = field(default_factory=dict)
+    symbols: list[str] = field(default_factory=list)
     variables: list[Variable] = field(default_factory=list)
     assertions: list[tuple[int, Formula]] = field(default_factory=list)
     commands: list[Node] = field(default_factory=list)
@@ -131,7 +133,10 @@ class Session:
     """A script being read: a stack of frames, and the problems met so far."""
 
     def __init__(self, script: Script) -> None:
-        self.script, self.reader = script, Reader(script)
+        self.script = script
+        self.scope: dict[str, Meaning] = {}  # everything that is declared and defined
+        self.names: set[str] = set()  # that the variables bear in our language
+        self.reader = Reader(script, lambda: self.names)
         self.frames, self.problems = [Frame()], list[Problem]()
         self.status, self.name, self.source, self.ended = "", "", "", False
         self.lasting = False  # declarations outlive their (pop)
@@ -140,11 +145,6 @@ class Session:
     def declared(self) -> Frame:
         """Where declarations and definitions go."""
         return self.frames[0 if self.lasting else -1]
-
-    @property
-    def scope(self) -> Scope:
-        """Everything that is declared and defined."""
-        return {name: value for frame in self.frames for name, value in frame.scope.items()}
 
     def execute(self, command: Expression) -> None:
         """Carries out one command."""
@@ -229,16 +229,18 @@ class Session:
 
     def _declare_const(self, command: Node, word: Expression, sort: Expression) -> None:
         variable = Variable(
-            symbol := self._symbol(word), our_name(symbol, self.names()), self._sort(sort)
+            symbol := self._symbol(word),
+            our_name(symbol, self.names | self.reader.parts.meanings.keys()),
+            self._sort(sort),
         )
         self.declared.variables.append(variable)
-        self.declared.scope[symbol] = (
-            plain(real(variable.name)) if variable.sort == "Real" else real(variable.name) > 0
-        )
+        self.names.add(variable.name)
+        own = real(variable.name)
+        self._define(symbol, plain(own) if variable.sort == "Real" else own > 0)
 
-    def names(self) -> set[str]:
-        """The names that the variables bear in our language."""
-        return {variable.name for frame in self.frames for variable in frame.variables}
+    def _define(self, symbol: str, meaning: Meaning) -> None:
+        self.declared.symbols.append(symbol)
+        self.scope[symbol] = meaning
 
     def _declare_fun(
         self, command: Node, word: Expression, parameters: Expression, sort: Expression
@@ -266,19 +268,20 @@ class Session:
             self.script.fail(
                 command, f"{brief(parameters)} is no list of parameters", "write ((x Real) ..)"
             )
+        scope = {name: self.scope[name] for name in words_of(body) if name in self.scope}
         function = Function(
-            tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, self.scope
+            tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, scope
         )
         # read once with parameters that stand for anything, so that an error names the line of the
         # definition
-        inner = {
+        inner: dict[str, Meaning] = {
             name: plain(real("any")) if own == "Real" else real("any") > 0
             for name, own in function.parameters
         }
-        value = self._of_sort(sort_name, body, {**function.scope, **inner})
-        self.declared.scope[symbol] = function if function.parameters else value
+        value = self._of_sort(sort_name, body, {**scope, **inner})
+        self._define(symbol, function if function.parameters else value)
 
-    def _of_sort(self, sort: str, body: Expression, scope: Scope) -> Value:
+    def _of_sort(self, sort: str, body: Expression, scope: Mapping[str, Meaning]) -> Value:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
 
     def _define_const(
@@ -313,6 +316,7 @@ class Session:
                 variables,
                 assertions,
                 tuple(command for frame in self.frames for command in frame.commands),
+                self.reader.parts.meanings,
                 self.status,
                 self.name,
                 self.source,
@@ -327,7 +331,15 @@ class Session:
         levels = self._levels(command, count)
         if levels >= len(self.frames):
             self.script.fail(command, f"(pop {levels}) without that many (push)", "mend the count")
-        del self.frames[len(self.frames) - levels :]
+        kept = len(self.frames) - levels
+        self._forget(self.frames[kept:])
+        del self.frames[kept:]
+
+    def _forget(self, frames: Sequence[Frame]) -> None:
+        for frame in frames:
+            for symbol in frame.symbols:
+                del self.scope[symbol]
+            self.names -= {variable.name for variable in frame.variables}
 
     def _levels(self, command: Node, count: Expression | None) -> int:
         if count is not None and (
@@ -339,14 +351,28 @@ class Session:
         return 1 if count is None else int(str(count))
 
     def _reset(self, command: Node) -> None:
+        self._forget(self.frames)
         self.frames, self.lasting = [Frame()], False
         self.status, self.name, self.source = "", "", ""
 
     def _reset_assertions(self, command: Node) -> None:
         kept = self.frames[0] if self.lasting else Frame()
+        self._forget(self.frames[int(self.lasting) :])
         kept.assertions = []
         kept.commands = [one for one in kept.commands if str(one.items[0]) != "assert"]
         self.frames = [kept]
+
+
+def words_of(node: Expression) -> set[str]:
+    """The words in an expression."""
+    words, left = set[str](), [node]
+    while left:
+        one = left.pop()
+        if isinstance(one, Node):
+            left += one.items
+        else:
+            words.add(one.text)
+    return words
 
 
 COMMANDS = {

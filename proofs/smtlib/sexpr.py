@@ -12,7 +12,6 @@ from typing import NoReturn, Union
 
 from juggleproof.certificates.language import ClaimError
 
-DEEPEST = 200
 SYMBOL = r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*"
 SIMPLE = re.compile(SYMBOL)
 NUMERAL, END = r"(?:0|[1-9][0-9]*)", r"(?![^\s();\"|])"
@@ -49,7 +48,15 @@ class Node:
     line: int
 
     def __str__(self) -> str:
-        return f"({' '.join(map(str, self.items))})"
+        pieces: list[str] = []
+        left: list[Expression | str] = [self]
+        while left:
+            one = left.pop()
+            if isinstance(one, Node):
+                left += [")", *one.items[::-1]]
+            piece = "(" if isinstance(one, Node) else str(one)
+            pieces += [piece] if not pieces or piece == ")" or pieces[-1] == "(" else [" ", piece]
+        return "".join(pieces)
 
 
 Expression = Union[Word, Node]
@@ -77,12 +84,6 @@ class Script:
         opened: list[tuple[int, list[Expression]]] = []
         for kind, text, line in self._tokens():
             if text == "(" and kind == "paren":
-                if len(opened) >= DEEPEST:
-                    self.fail(
-                        line,
-                        f"parentheses nested more than {DEEPEST} deep",
-                        "define parts by define-fun or let",
-                    )
                 opened.append((line, []))
                 continue
             if kind == "paren":

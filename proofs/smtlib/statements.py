@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
     names_in,
     real,
 )
-from juggleproof.certificates.search.certificate import search_proof
+from juggleproof.certificates.search.first.stages import search_proof
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.smtlib.script import Problem, our_name
 
@@ -53,10 +53,11 @@ def statement_of(problem: Problem, name: str) -> Statement:
     forall x quotient
     show not (implies(x != 0, quotient*x = 1) and quotient = 0)
     """
-    parts = [part for _, formula in problem.assertions for part in conjuncts(formula)]
+    lets, meant = with_meanings(problem, [formula for _, formula in problem.assertions])
+    parts = [part for formula in meant for part in conjuncts(formula)]
     whole = [part for part in parts if next(divisions(part), None) is None]
     divided = [part for part in parts if next(divisions(part), None) is not None]
-    forall = used(problem, parts)
+    forall = used(problem, parts, lets)
     haves: list[Line] = []
     quotients: dict[Term, Term] = {}
     for k in range(len(divided)):
@@ -66,7 +67,7 @@ def statement_of(problem: Problem, name: str) -> Statement:
             if quotient.op != "/":
                 continue
             _, below = quotient.operands
-            lines = [("given", part) for part in whole] + haves
+            lines = [*lets, *(("given", part) for part in whole), *haves]
             licence = _licence(Statement(name, forall, tuple(lines)), below)
             if licence is not None:
                 haves += licence
@@ -79,14 +80,37 @@ def statement_of(problem: Problem, name: str) -> Statement:
     whole += [part for part in divided if next(divisions(part), None) is None]
     divided = [part for part in divided if next(divisions(part), None) is not None]
     if not divided:
-        return Statement(name, forall, (), Formula("not", conjunction(whole)))
+        return Statement(name, forall, lets, Formula("not", conjunction(whole)))
     givens: list[Line] = [("given", part) for part in whole]
-    return Statement(name, forall, (*givens, *haves), _negation(conjunction(divided)))
+    return Statement(name, forall, (*lets, *givens, *haves), _negation(conjunction(divided)))
 
 
 def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statement:
     """The statement that some formulas do not hold at once, without givens."""
-    return Statement(name, used(problem, formulas), (), Formula("not", conjunction(formulas)))
+    lets, _ = with_meanings(problem, formulas)
+    return Statement(
+        name, used(problem, formulas, lets), lets, Formula("not", conjunction(formulas))
+    )
+
+
+def with_meanings(
+    problem: Problem, formulas: Sequence[Formula]
+) -> tuple[tuple[Line, ...], list[Formula]]:
+    """The lines `let` of the names that occur in formulas, in order, and the formulas with what is
+    asserted of names that occur.
+    """
+    whole = dict.fromkeys(formulas)
+    left: list[Term | Formula] = list(formulas)
+    occurring: set[str] = set()
+    while left:
+        for name in names_in(left.pop()) & problem.meanings.keys() - occurring:
+            occurring.add(name)
+            meaning = problem.meanings[name]
+            left.append(meaning)
+            if isinstance(meaning, Formula):
+                whole[meaning] = None
+    lets = [(name, problem.meanings[name]) for name in problem.meanings if name in occurring]
+    return tuple(("let", (k, said)) for k, said in lets if isinstance(said, Term)), list(whole)
 
 
 def givens(statement: Statement) -> list[Formula]:
@@ -125,9 +149,11 @@ def _negation(formula: Formula) -> Formula:
     return formula.parts[0] if formula.op == "not" else Formula("not", formula)
 
 
-def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
-    """The variables of the script that occur, in its order, then other names."""
-    occurring = {name for formula in formulas for name in names_in(formula)}
+def used(problem: Problem, formulas: Sequence[Formula], lets: Sequence[Line]) -> tuple[str, ...]:
+    """The variables of the script that occur, in its order, then other names but those of `let`."""
+    given = dict(said for _, said in lets if isinstance(said, tuple))
+    occurring = {name for one in (*formulas, *given.values()) for name in names_in(one)}
+    occurring -= given.keys()
     declared = [variable.name for variable in problem.variables]
     return (
         *(name for name in declared if name in occurring),
@@ -157,7 +183,7 @@ def _licence(before: Statement, below: Term) -> list[Line] | None:
             return None
     for sign in (below > 0, below < 0, different(below, 0)):
         goal = Statement(before.name, before.forall, before.lines, sign)
-        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), effort=1) is not None:
+        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), 1) is not None:
             return [("have", sign)]
     return None
 

@@ -1,19 +1,19 @@
 """Terms of SMT-LIB in our language: core connectives, comparisons, rational arithmetic, let, and
 functions defined before.
 
-A term of sort Bool becomes a formula.  A term of sort Real becomes a term in cases, one for each
-way in which the conditions of its `ite` can come out.  Source: SMT-LIB 2.6, theories Core and
+A term of sort Bool becomes a formula, one of sort Real a term in cases.  Terms are read without
+recursion, however deep they are nested.  Source: SMT-LIB 2.6, theories Core and
 Reals.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
-from itertools import product
+from functools import partial, reduce
+from operator import add, mul, sub
 from typing import TypeVar, Union
 
 from juggleproof.certificates.language import (
@@ -28,151 +28,30 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
-
-# -------------------------------------------------------------------------------------------------
-# Real terms in cases.
-
-MOST_CASES = 64
-MOST_NODES = 20_000
-DEEPEST_TERM = 120  # the checker reads texts by Python's parser, which takes 200 nested parentheses
-Guards = tuple[tuple[Formula, bool], ...]
-
-
-class TooLarge(Exception):
-    """An expression has more cases, or more symbols when definitions are put in, than we take
-    on.
-    """
-
-
-@dataclass(frozen=True)
-class Real:
-    """A real term: in each case its value under the conditions of the case, of which exactly one
-    applies.
-    """
-
-    cases: tuple[tuple[Guards, Term], ...]
-
-    @property
-    def plain(self) -> Term | None:
-        """The term, where there are no cases to distinguish."""
-        return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
-
-
-Value = Union[Formula, Real]
-
-
-def plain(value: Term | int) -> Real:
-    """A term without cases."""
-    return Real((((), term(value)),))
-
-
-def merged(parts: Sequence[Guards]) -> Guards | None:
-    """All conditions together; None where one of them is wanted both true and false."""
-    joined: dict[Formula, bool] = {}
-    for condition, truth in (pair for part in parts for pair in part):
-        if joined.setdefault(condition, truth) is not truth:
-            return None
-    return tuple(joined.items())
-
-
-def combined(values: Sequence[Real], make: Callable[[Sequence[Term]], Term]) -> Real:
-    """The term made of the values, in every case that they can be in together."""
-    return Real(tuple((guards, make(terms)) for guards, terms in together(values)))
-
-
-def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
-    """The cases that several values can be in together, with the value of each."""
-    if len(values) == 1:
-        return [(guards, (value,)) for guards, value in values[0].cases]
-    joined: list[tuple[Guards, tuple[Term, ...]]] = [((), ())]
-    for value in values:
-        pairs = [
-            (merged((guards, more)), (*terms, last))
-            for (guards, terms), (more, last) in product(joined, value.cases)
-        ]
-        joined = [(guards, terms) for guards, terms in pairs if guards is not None]
-        if len(joined) > MOST_CASES:
-            raise TooLarge(f"an atom with more than {MOST_CASES} cases of ite")
-    return joined
-
-
-def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) -> Formula:
-    """The formula about the values: in one of the cases, its conditions and what `make` makes
-    hold.
-
-    >>> from juggleproof.certificates.language import reals
-    >>> x, y = reals("x y")
-    >>> larger = choice(x > y, plain(x), plain(y))
-    >>> str(relation([larger], lambda terms: terms[0] >= 0))
-    'x > y and x >= 0 or not x > y and y >= 0'
-    """
-    return disjunction(
-        [conjunction([*map(holding, guards), make(terms)]) for guards, terms in together(values)]
-    )
-
-
-def holding(guard: tuple[Formula, bool]) -> Formula:
-    """A condition, or its negation."""
-    return guard[0] if guard[1] else Formula("not", guard[0])
-
-
-def choice(condition: Formula, first: Real, second: Real) -> Real:
-    """The first value where the condition holds, else the second."""
-    pairs = [
-        (merged((((condition, truth),), guards)), value)
-        for truth, one in ((True, first), (False, second))
-        for guards, value in one.cases
-    ]
-    cases = tuple((guards, value) for guards, value in pairs if guards is not None)
-    if len(cases) > MOST_CASES:
-        raise TooLarge(f"a term with more than {MOST_CASES} cases of ite")
-    return Real(cases)
-
-
-class Sizes:
-    """The number of symbols of terms and formulas written out, and how deep they are; parts that
-    are shared are looked at once.
-    """
-
-    def __init__(self) -> None:
-        self.known: dict[int, tuple[object, int, int]] = {}
-
-    def of(self, expression: Term | Formula) -> tuple[int, int]:
-        """The size and the depth; raises TooLarge where they are beyond what we take on."""
-        if id(expression) not in self.known:
-            parts = [self.of(part) for part in expression.args if isinstance(part, (Term, Formula))]
-            size, depth = (
-                1 + sum(size for size, _ in parts),
-                1 + max((depth for _, depth in parts), default=0),
-            )
-            self.known[id(expression)] = expression, size, depth
-        _, size, depth = self.known[id(expression)]
-        if size > MOST_NODES or depth > DEEPEST_TERM:
-            raise TooLarge(
-                f"an expression of more than {MOST_NODES} symbols, or {DEEPEST_TERM} levels, when"
-                " its definitions are put in"
-            )
-        return size, depth
-
-    def check(self, value: Value) -> Value:
-        """The value, if it is not too large."""
-        if isinstance(value, Formula):
-            self.of(value)
-            return value
-        for guards, one in value.cases:
-            self.of(one)
-            for condition, _ in guards:
-                self.of(condition)
-        return value
-
+from juggleproof.proofs.smtlib.values import (
+    Parts,
+    Real,
+    TooLarge,
+    Value,
+    balanced,
+    plain,
+    relation,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Reading terms.
 
 LARGEST_POWER, LONGEST_NUMBER = 100, 1000
 NOT_POLYNOMIAL = frozenset({"sin", "cos", "tan", "arctan", "exp", "log", "ln", "sqrt", "pow"})
+Arities = Mapping[str, tuple[int, Union[int, None]]]  # the least and the most arguments
 SORTS = ("Real", "Bool")
-CONNECTIVES = {"not": 1, "and": 1, "or": 1, "=>": 2, "xor": 2}
+CONNECTIVES: Arities = {
+    "not": (1, 1),
+    "and": (1, None),
+    "or": (1, None),
+    "=>": (2, None),
+    "xor": (2, None),
+}
 RELATIONS: Mapping[str, Callable[[Term, Term], Formula]] = {
     "<": lambda a, b: a < b,
     "<=": lambda a, b: a <= b,
@@ -181,12 +60,18 @@ RELATIONS: Mapping[str, Callable[[Term, Term], Formula]] = {
     ">": lambda a, b: a > b,
     "distinct": different,
 }
-OPERATIONS: Mapping[str, tuple[int, int | None]] = {
+OPERATIONS: Arities = {
     "+": (1, None),
     "*": (1, None),
     "-": (1, None),
     "/": (2, None),
     "^": (2, 2),
+}
+ARITIES: Arities = {
+    "ite": (3, 3),
+    **CONNECTIVES,
+    **dict.fromkeys(RELATIONS, (2, None)),
+    **OPERATIONS,
 }
 RESERVED = frozenset(
     {
@@ -196,13 +81,10 @@ RESERVED = frozenset(
         "!",
         "forall",
         "exists",
-        "ite",
         "_",
         "as",
         "par",
-        *CONNECTIVES,
-        *RELATIONS,
-        *OPERATIONS,
+        *ARITIES,
     }
 )
 
@@ -210,36 +92,71 @@ RESERVED = frozenset(
 @dataclass(frozen=True)
 class Function:
     """A function that is defined in the script: the names and sorts of its parameters, its sort,
-    its body, and what was defined by then.
+    its body, and what the names in it mean.
     """
 
     parameters: tuple[tuple[str, str], ...]
     sort: str
     body: Expression
-    scope: Scope
+    scope: Mapping[str, Meaning]
 
 
-Scope = Mapping[str, Union[Value, Function]]  # a name -> its value, or the function that it is
-Joined = TypeVar("Joined")
+Compared = TypeVar("Compared", Formula, Real)
+Meaning = Union[Value, Function]  # of a name
+MOST_STEPS = 2_000_000  # terms that are read, those of functions each time they are applied
 
 
-def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:
-    """The parts joined by an associative operation, so that no text grows deep."""
-    if len(parts) <= 8:
-        return reduce(join, parts)
-    middle = len(parts) // 2
-    return join(balanced(join, parts[:middle]), balanced(join, parts[middle:]))
+@dataclass
+class Scope:
+    """What names mean: those of `let` and of parameters, and those around them."""
+
+    around: Mapping[str, Meaning]
+    own: dict[str, Meaning]
+
+    def get(self, name: str) -> Meaning | None:
+        """What the name means, if anything."""
+        found = self.own.get(name)
+        return self.around.get(name) if found is None else found
+
+
+# a term that is read asks for the values of its parts, and returns its own
+Reading = Generator[tuple[Expression, Scope], Value, Value]
 
 
 class Reader:
-    """Reads the terms of one script."""
+    """Reads the terms of one script; `taken`: the names of its variables in our language."""
 
-    def __init__(self, script: Script) -> None:
-        self.script, self.sizes = script, Sizes()
+    def __init__(self, script: Script, taken: Callable[[], Collection[str]]) -> None:
+        self.script, self.parts, self.steps = script, Parts(taken), 0
+        # a function applied to the same values again has the same value
+        self._known: dict[tuple[int, tuple[Value, ...]], tuple[Function, Value]] = {}
 
-    def formula(self, node: Expression, scope: Scope) -> Formula:
+    def formula(self, node: Expression, scope: Mapping[str, Meaning]) -> Formula:
         """A term of sort Bool."""
-        value = self.value(node, scope)
+        return self._bool(node, self.value(node, scope))
+
+    def real(self, node: Expression, scope: Mapping[str, Meaning]) -> Real:
+        """A term of sort Real."""
+        return self._real(node, self.value(node, scope))
+
+    def value(self, node: Expression, scope: Mapping[str, Meaning]) -> Value:
+        """The value of a term, read with a stack of our own."""
+        opened = [self._read(node, Scope(scope, {}))]
+        step = partial(next, opened[0])
+        while True:
+            try:
+                part, inside = step()
+            except StopIteration as read:
+                value: Value = read.value
+                opened.pop()
+                if not opened:
+                    return value
+                step = partial(opened[-1].send, value)
+            else:
+                opened.append(self._read(part, inside))
+                step = partial(next, opened[-1])
+
+    def _bool(self, node: Expression, value: Value) -> Formula:
         if isinstance(value, Real):
             self.script.fail(
                 node,
@@ -248,25 +165,27 @@ class Reader:
             )
         return value
 
-    def real(self, node: Expression, scope: Scope) -> Real:
-        """A term of sort Real."""
-        value = self.value(node, scope)
+    def _real(self, node: Expression, value: Value) -> Real:
         if isinstance(value, Formula):
             self.script.fail(
                 node, f"{brief(node)} is a Bool where a Real is expected", "use (ite condition a b)"
             )
         return value
 
-    def value(self, node: Expression, scope: Scope) -> Value:
-        """The value of a term."""
-        try:
-            return self.sizes.check(
-                self._word(node, scope) if isinstance(node, Word) else self._applied(node, scope)
-            )
-        except TooLarge as problem:
-            self.script.fail(node, str(problem), "split the problem")
+    def _of_sort(self, sort: str, node: Expression, value: Value) -> Value:
+        return self._real(node, value) if sort == "Real" else self._bool(node, value)
 
-    def _word(self, word: Word, scope: Scope) -> Value:
+    def _read(self, node: Expression, scope: Scope) -> Reading:
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            self.script.fail(
+                node,
+                f"more than {MOST_STEPS} terms, those of functions counted where they are applied",
+                "split the problem",
+            )
+        return self._word(node, scope) if isinstance(node, Word) else self._applied(node, scope)
+
+    def _word(self, word: Word, scope: Scope) -> Reading:
         if word.kind in ("numeral", "decimal"):
             if len(word.text) > LONGEST_NUMBER:
                 self.script.fail(
@@ -281,18 +200,20 @@ class Reader:
             )
         if word.text in ("true", "false"):
             return conjunction([]) if word.text == "true" else disjunction([])
-        if word.text not in scope and re.fullmatch(r"-[0-9.]+", word.text):
+        meant = scope.get(word.text)
+        if meant is None and re.fullmatch(r"-[0-9.]+", word.text):
             self.script.fail(word, f"{word.text} is a symbol", f"write (- {word.text[1:]})")
-        if word.text not in scope:
+        if meant is None:
             self.script.fail(
                 word,
                 f"{word.text} is not declared",
                 f"add (declare-const {word.text} Real) before it",
             )
-        meant = scope[word.text]
-        return self._call(word, meant, [], scope) if isinstance(meant, Function) else meant
+        if isinstance(meant, Function):
+            return (yield from self._call(word, meant, [], scope))
+        return meant
 
-    def _applied(self, node: Node, scope: Scope) -> Value:
+    def _applied(self, node: Node, scope: Scope) -> Reading:
         if not node.items:
             self.script.fail(node, "() where a term is expected", "write a term")
         head, rest = node.items[0], node.items[1:]
@@ -302,66 +223,58 @@ class Reader:
                 f"{brief(head)} is not the name of a function",
                 "only functions of the theory of reals are known",
             )
-        meant = scope.get(head.text)
+        name, meant = head.text, scope.get(head.text)
         if isinstance(meant, Function):
-            return self._call(node, meant, rest, scope)
-        if head.text in scope:
-            self.script.fail(node, f"{head.text} is no function", "write it without parentheses")
-        if head.text == "let":
-            return self._let(node, scope)
-        if head.text == "!":
+            return (yield from self._call(node, meant, rest, scope))
+        if meant is not None:
+            self.script.fail(node, f"{name} is no function", "write it without parentheses")
+        if name == "let":
+            return (yield from self._let(node, scope))
+        if name == "!":
             if not rest:
                 self.script.fail(node, "an annotation without a term", "write (! term :named name)")
-            return self.value(rest[0], scope)
-        if head.text in ("forall", "exists"):
-            self.script.fail(
-                node,
-                f"{head.text}: quantifiers are not taken on",
-                "free variables are sought",
-            )
-        if head.text == "ite":
-            return self._ite(node, rest, scope)
-        for table, read in (
-            (CONNECTIVES, self._connective),
-            (RELATIONS, self._relation),
-            (OPERATIONS, self._operation),
-        ):
-            if head.text in table:
-                return read(node, head.text, rest, scope)
-        if head.text in NOT_POLYNOMIAL:
-            self.script.fail(
-                node, f"{head.text} is not polynomial", "assert polynomial bounds of it instead"
-            )
-        self.script.fail(
-            node,
-            f"{head.text}: an unknown function",
-            "only functions of the theory of reals, and those defined before, are known",
-        )
+            return (yield rest[0], scope)
+        if name not in ARITIES:
+            self.script.fail(node, *unknown_function(name))
+        self._arity(node, name, len(rest), *ARITIES[name])
+        values: list[Value] = []
+        for part in rest:
+            values.append((yield part, scope))
+        try:
+            return self._made(node, name, values)
+        except TooLarge as problem:
+            self.script.fail(node, str(problem), "split the problem")
 
     def _call(
         self, at: Expression, function: Function, arguments: Sequence[Expression], scope: Scope
-    ) -> Value:
-        self._arity(
-            at, "the function", len(arguments), len(function.parameters), len(function.parameters)
-        )
-        values = {}
-        for (name, sort), argument in zip(function.parameters, arguments):
-            values[name] = (
-                self.real(argument, scope) if sort == "Real" else self.formula(argument, scope)
-            )
-        inner = {**function.scope, **values}
-        return (
-            self.real(function.body, inner)
-            if function.sort == "Real"
-            else self.formula(function.body, inner)
-        )
+    ) -> Reading:
+        count = len(function.parameters)
+        self._arity(at, "the function", len(arguments), count, count)
+        values: list[Value] = []
+        for (_, sort), argument in zip(function.parameters, arguments):
+            values.append(self._of_sort(sort, argument, (yield argument, scope)))
+        key = id(function), tuple(values)
+        if key not in self._known:
+            own = {name: value for (name, _), value in zip(function.parameters, values)}
+            value = yield function.body, Scope(function.scope, dict(own))
+            self._known[key] = function, self._of_sort(function.sort, function.body, value)
+        return self._known[key][1]
 
-    def _let(self, node: Node, scope: Scope) -> Value:
+    def _let(self, node: Node, scope: Scope) -> Reading:
         self._arity(node, "let", len(node.items) - 1, 2, 2)
-        bound = self.pairs(node.items[1], "let")
-        # all at once: none of them sees another
-        values = {name: self.value(value, scope) for name, value in bound}
-        return self.value(node.items[2], {**scope, **values})
+        values: dict[str, Meaning] = {}
+        for name, part in self.pairs(node.items[1], "let"):
+            # all at once: none of them sees another
+            values[name] = yield part, scope
+        before = {name: scope.own.get(name) for name in values}
+        scope.own.update(values)
+        value = yield node.items[2], scope
+        for name, meant in before.items():
+            if meant is None:
+                del scope.own[name]
+            else:
+                scope.own[name] = meant
+        return value
 
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:
         """A list of (name expression), each name once."""
@@ -386,33 +299,41 @@ class Reader:
             bound[name] = pair.items[1]
         return list(bound.items())
 
-    def _ite(self, node: Node, rest: Sequence[Expression], scope: Scope) -> Value:
-        self._arity(node, "ite", len(rest), 3, 3)
-        condition, first, second = (
-            self.formula(rest[0], scope),
-            self.value(rest[1], scope),
-            self.value(rest[2], scope),
-        )
+    def _made(self, node: Node, name: str, values: Sequence[Value]) -> Value:
+        """The value of what the theory knows, applied to values."""
+        parts = list(zip(node.items[1:], values))
+        if name == "ite":
+            return self._ite(node, values)
+        if name in CONNECTIVES:
+            return self._connective(name, [self._bool(*part) for part in parts])
+        if name in RELATIONS:
+            return self._relation(node, name, values)
+        return self._operation(node, name, [self._real(*part) for part in parts])
+
+    def _ite(self, node: Node, values: Sequence[Value]) -> Value:
+        condition = self._bool(node.items[1], values[0])
+        first, second = values[1:]
         if isinstance(first, Formula) and isinstance(second, Formula):
-            return (condition & first) | (Formula("not", condition) & second)
+            return self.parts.joined(
+                lambda own: (own[0] & own[1]) | (Formula("not", own[0]) & own[2]),
+                [condition, first, second],
+            )
         if isinstance(first, Real) and isinstance(second, Real):
-            return choice(condition, first, second)
+            return self.parts.chosen(condition, first, second)
         self.script.fail(node, "ite between a Bool and a Real", "give both the same sort")
 
-    def _connective(self, node: Node, name: str, rest: Sequence[Expression], scope: Scope) -> Value:
-        self._arity(node, name, len(rest), CONNECTIVES[name], 1 if name == "not" else None)
-        parts = [self.formula(part, scope) for part in rest]
+    def _connective(self, name: str, parts: Sequence[Formula]) -> Formula:
+        joined = self.parts.joined
         if name == "not":
-            return Formula("not", parts[0])
+            return _negation(parts[0])
         if name in ("and", "or"):
-            return conjunction(parts) if name == "and" else disjunction(parts)
+            return joined(conjunction if name == "and" else disjunction, parts)
         if name == "=>":
-            return reduce(lambda right, left: implies(left, right), reversed(parts))
-        return reduce(lambda left, right: iff(left, Formula("not", right)), parts)
+            *premises, goal = parts
+            return reduce(lambda right, left: joined(_implies, [left, right]), premises[::-1], goal)
+        return reduce(lambda left, right: joined(_xor, [left, right]), parts)
 
-    def _relation(self, node: Node, name: str, rest: Sequence[Expression], scope: Scope) -> Value:
-        self._arity(node, name, len(rest), 2, None)
-        values = [self.value(part, scope) for part in rest]
+    def _relation(self, node: Node, name: str, values: Sequence[Value]) -> Value:
         formulas = [value for value in values if isinstance(value, Formula)]
         reals = [value for value in values if isinstance(value, Real)]
         if formulas and (reals or name not in ("=", "distinct")):
@@ -421,46 +342,32 @@ class Reader:
                 f"{brief(node)} compares a Bool" + (" with a Real" if reals else ""),
                 "give both sides the sort Real",
             )
+        together = self.parts.joined
         if formulas:
-            if name == "=":
-                return conjunction([iff(one, other) for one, other in zip(formulas, formulas[1:])])
-            return conjunction(
-                [
-                    iff(one, Formula("not", other))
-                    for k, one in enumerate(formulas)
-                    for other in formulas[:k]
-                ]
-            )
-        if name == "distinct":
-            return conjunction(
-                [
-                    relation((one, other), lambda two: different(*two))
-                    for k, one in enumerate(reals)
-                    for other in reals[:k]
-                ]
+            make = _xor if name == "distinct" else _iff
+            return together(
+                conjunction, [together(make, pair) for pair in pairs_of(name, formulas)]
             )
         compare = RELATIONS[name]
-        return conjunction(
+        return together(
+            conjunction,
             [
-                relation((one, other), lambda two: compare(*two))
-                for one, other in zip(reals, reals[1:])
-            ]
+                relation(self.parts.few(pair), lambda two: compare(two[0], two[1]))
+                for pair in pairs_of(name, reals)
+            ],
         )
 
-    def _operation(self, node: Node, name: str, rest: Sequence[Expression], scope: Scope) -> Value:
-        self._arity(node, name, len(rest), *OPERATIONS[name])
-        values = [self.real(part, scope) for part in rest]
+    def _operation(self, node: Node, name: str, values: Sequence[Real]) -> Value:
+        combined = self.parts.combined
         if name == "^":
             return self._power(node, values)
         if name == "-" and len(values) == 1:
-            return combined(
-                values, lambda one: number(-one[0].value) if one[0].op == "num" else -one[0]
-            )
+            return combined(values, lambda one: _negative(one[0]))
         if name == "-":
-            return combined(values, lambda parts: reduce(lambda a, b: a - b, parts))
+            return combined(values, difference)
         if name == "/":
-            return combined(values, lambda parts: reduce(quotient, parts))
-        join = (lambda a, b: a + b) if name == "+" else (lambda a, b: a * b)
+            return reduce(lambda a, b: combined([a, b], lambda two: quotient(*two)), values)
+        join = add if name == "+" else mul
         return combined(values, lambda parts: balanced(join, parts))
 
     def _power(self, node: Node, values: Sequence[Real]) -> Value:
@@ -477,7 +384,7 @@ class Reader:
                 "write a polynomial, or a root as y*y = t",
             )
         power = int(exponent.value)
-        return combined(values[:1], lambda base: base[0] ** power)
+        return self.parts.combined(values[:1], lambda base: base[0] ** power)
 
     def _arity(self, at: Expression, name: str, count: int, least: int, most: int | None) -> None:
         if count < least or most is not None and count > most:
@@ -494,6 +401,48 @@ class Reader:
                 f" {count}",
                 "mend their number",
             )
+
+
+def pairs_of(name: str, values: Sequence[Compared]) -> list[tuple[Compared, Compared]]:
+    """The pairs that a chained relation compares: neighbours, or all for `distinct`."""
+    if name != "distinct":
+        return list(zip(values, values[1:]))
+    return [(one, other) for k, one in enumerate(values) for other in values[:k]]
+
+
+def _negation(one: Formula) -> Formula:
+    return one.parts[0] if one.op == "not" else Formula("not", one)
+
+
+def _implies(two: Sequence[Formula]) -> Formula:
+    return implies(two[0], two[1])
+
+
+def _iff(two: Sequence[Formula]) -> Formula:
+    return iff(two[0], two[1])
+
+
+def _xor(two: Sequence[Formula]) -> Formula:
+    return iff(two[0], Formula("not", two[1]))
+
+
+def difference(terms: Sequence[Term]) -> Term:
+    """The first term less all others; their sum is taken off where they are many."""
+    return reduce(sub, terms) if len(terms) <= 8 else terms[0] - balanced(add, terms[1:])
+
+
+def _negative(one: Term) -> Term:
+    return number(-one.value) if one.op == "num" else -one
+
+
+def unknown_function(name: str) -> tuple[str, str]:
+    """What is wrong with a function that the theory does not know, and how to mend it."""
+    if name in ("forall", "exists"):
+        return f"{name}: quantifiers are not taken on", "free variables are sought"
+    if name in NOT_POLYNOMIAL:
+        return f"{name} is not polynomial", "assert polynomial bounds of it instead"
+    known = "only functions of the theory of reals, and those defined before, are known"
+    return f"{name}: an unknown function", known
 
 
 def number(value: Fraction) -> Term:

@@ -19,6 +19,7 @@ from juggleproof.proofs.stability.certifying import (
     tried,
 )
 from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
+from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
@@ -94,12 +95,13 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 break
             if not tried(proof, rule, EFFORTS, BUDGET, log, signs_of(rule)):
                 return True
-    if in_boxes(proof, setting, log) or in_intervals(proof, setting, log, FIRST_BUDGET):
+    if in_boxes(proof, setting, log):
         return True
-    return any(
-        not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches)
-        for rule, searches in ratio_rules(setting, name)
-    )
+    for rule, searches in ratio_rules(setting, name):
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+            return True
+    chains = contracting_box_rules(setting, setting.system.name)
+    return any(proof.add_all(chain, (1, 2), log) for chain in chains)
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -115,7 +117,8 @@ def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
             if not tried(proof, rule, efforts, budget, log):
                 return True
         if count == 1 and (
-            in_intervals(proof, setting, log, INTERVAL_BUDGET)
+            len(setting.system.state) == 1
+            and in_boxes(proof, setting, log, INTERVAL_BUDGET)
             or any(enveloped(proof, setting, log, closed) for closed in (False, True))
         ):
             return True
@@ -137,17 +140,12 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
     return any(proof.add_all(one, (1, 2), log, signs) for one in rules)
 
 
-def in_boxes(proof: Proof, setting: Setting, log: Report) -> bool:
-    """The same, by functions whose sublevel sets are boxes."""
+def in_boxes(proof: Proof, setting: Setting, log: Report, budget: int = 0) -> bool:
+    """The same, by functions whose sublevel sets are boxes; of one variable, intervals."""
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    boxes = sorted(part_metric_rules(setting, space, name), key=lambda one: one[0])
-    return any(not tried(proof, rule, (1, 2), BOX_BUDGET, log) for _, rule in boxes[:MOST_BOXES])
-
-
-def in_intervals(proof: Proof, setting: Setting, log: Report, budget: int) -> bool:
-    """The same for a map of one variable, by functions whose sublevel sets are intervals."""
-    name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    found = sorted(two_sided_rules(setting, space, name), key=lambda one: one[0])
+    budget = budget or (BOX_BUDGET if len(setting.system.state) > 1 else FIRST_BUDGET)
+    every = [*part_metric_rules(setting, space, name), *two_sided_rules(setting, space, name)]
+    found = sorted(every, key=lambda one: one[0])
     return any(not tried(proof, rule, (1, 2), budget, log) for _, rule in found[:MOST_BOXES])
 
 

@@ -52,6 +52,36 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
     return found
 
 
+def without_cycles(system: Map, parameters: Arrays) -> list[tuple[Expr, bool]]:
+    """Terms that are > 0, or >= 0 where not strict, where a map of one variable that is affine in
+    pieces has no orbit of period two through two of its pieces.
+    """
+    state, found = symbols(system.state), []
+    if len(state) > 1 or any(sympy.diff(one, *state, 2) != 0 for (one,) in system.images):
+        return []
+    (x,) = state
+    for first, second in itertools.combinations(range(len(system.pieces)), 2):
+        (there,), (back,) = system.images[first], system.images[second]
+        slopes = sympy.diff(there, x) * sympy.diff(back, x)
+        if slopes == 1:
+            continue
+        start = sympy.cancel(back.subs(x, there.subs(x, 0)) / (1 - slopes))
+        ends = ((first, start), (second, sympy.cancel(there.subs(x, start))))
+        inside = [
+            (sympy.cancel(poly.subs(x, at)), strict)
+            for k, at in ends
+            for poly, strict in atoms(conjunction(system.space, system.pieces[k][0]))
+        ]
+        with np.errstate(all="ignore"):
+            signs = [np.asarray(value(written(term), parameters), float) >= 0 for term, _ in inside]
+        exists = np.logical_and.reduce(np.broadcast_arrays(*signs))
+        if exists.any() and not exists.all():
+            # one of the bounds alone says whether it exists
+            one = next((k for k, sign in enumerate(signs) if (sign == exists).all()), None)
+            found += [(-inside[one][0], not inside[one][1])] if one is not None else []
+    return found
+
+
 def jumps(system: Map, fixed: FixedPoint, term: Expr) -> bool:
     """Whether no other piece takes the point to itself too where the term, of a guard, is 0."""
     at = dict(zip(symbols(system.state), fixed.terms))
@@ -69,7 +99,8 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
     that change their sign there.
     """
     rows = []
-    for term, strict in conditions(system, fixed, closed):
+    every = [*conditions(system, fixed, closed), *without_cycles(system, parameters)]
+    for term, strict in every:
         term = without_root(term, parameters)
         if term is None or not term.free_symbols:
             continue

@@ -12,9 +12,7 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import Expr, Map, atoms, conjunction, symbols, written
-from juggleproof.proofs.stability.samples import around
-
-EACH = 40  # samples for each of the parameters
+from juggleproof.proofs.stability.samples import STATES, around
 
 
 def boxes_of(system: Map) -> list[str]:
@@ -79,7 +77,7 @@ def _ends(system: Map, image: Expr, side: int, known: set[Expr]) -> list[Expr]:
 def within(setting: Setting, box: str) -> Setting:
     """The same point, with states of the box only."""
     system = replace(setting.system, space=conjunction(setting.system.space, box))
-    states = around(system, setting.point, setting.parameters, EACH)
+    states = around(system, setting.point, setting.parameters, STATES)
     return replace(setting, system=system, states=states, outer=setting.system.space)
 
 

@@ -34,6 +34,7 @@ Arrays = dict[str, Floats]
 Bools = NDArray[np.bool_]
 
 SEED = 1995  # of all samples, so that every run searches in one way
+STATES = 40  # for each of the parameters
 ROUNDS = 40  # of drawing, before fewer samples than were asked for do
 FAR = 2.5  # powers of ten that unbounded variables run over
 

@@ -21,13 +21,12 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint
 from juggleproof.proofs.stability.samples import (
+    STATES,
     around,
     licence,
     region,
     with_point_licences,
 )
-
-STATES = 40  # samples for each of the parameters
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:

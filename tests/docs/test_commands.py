@@ -36,6 +36,7 @@ SMALLER = {
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
     "juggleproof bench": "--quick --seconds 1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
+    "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
     "python -m juggleproof.benchmarks.speed": "--only smt2 --runs 1",
     "python -m juggleproof.benchmarks.stability": "--only skew-tent",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",

@@ -1,10 +1,13 @@
-"""Lower bounds of polynomials on boxes, by trees of Bernstein coefficients or by squares; rules
-`boxes` and `psatz`.
+"""Lower bounds of polynomials on boxes, by trees of Bernstein coefficients or by squares; states
+over boxes; rules `boxes`, `psatz` and `sign`.
 
 The files, each after those that it imports:
 
 - `small`: polynomials and box trees as plain data, without NumPy
 - `branching`: a box tree for any polynomial, the box of least bound first
-- `squares`: squares around a point, where halving boxes leads nowhere
+- `descent`: points of a box where a polynomial is small
+- `over_box`: one fact over the box of the others, by a small tree
+- `squares`: squares around a point, where halving boxes leads nowhere; facts over a box by them
 - `enclosures`: a bound within a width of the value at a point, by the two of them
+- `cuts`: several constraints over a box, which is cut
 """

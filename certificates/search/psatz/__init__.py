@@ -5,6 +5,7 @@ Annalen 207 (1974).  The files, each after those that it imports:
 
 - `linear_program`: positive combinations that vanish identically, exact on the support that floats
   propose
+- `basis`: the last basis of a linear program, by floats
 - `facts`: the facts of a state; scales by homogeneity, equations used up, signs at sight
 - `problem`: the facts of one leaf, ready for a search; whether floats see a point that meets them
 - `lifting`: identities between them as nodes over the facts of the state

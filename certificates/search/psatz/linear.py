@@ -7,10 +7,10 @@ functions on compact convex polyhedra, Pacific Journal of Mathematics 132 (1988)
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product as choices
+from itertools import islice
 from math import prod
 
 import numpy as np
@@ -36,6 +36,7 @@ from juggleproof.certificates.search.psatz.lifting import (
     powers_of,
 )
 from juggleproof.certificates.search.psatz.linear_program import (
+    MOST_COLUMNS,
     Floats,
     Mask,
     Program,
@@ -57,9 +58,18 @@ Solution = tuple[
 ]
 
 
+MOST_TERMS = 3_000_000  # of the columns together: some 300 MB
+
+
+class TooLarge(Exception):
+    """A program would have more columns, or terms in them, than can be solved."""
+
+
 class Combination:
     """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
     times squares of the roots.
+
+    Columns are counted before they are made: raises TooLarge where there are too many.
     """
 
     def __init__(
@@ -73,6 +83,7 @@ class Combination:
         self.problem, self.roots, self.program = problem, roots, Program()
         self.blocks: list[Block] = []
         self.cofactors: list[MonomialCofactor] = []
+        self.columns = self.terms = 0
         facts, bounded = problem.facts, problem.bounded if bernstein else None
         others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
         if bounded is not None:
@@ -94,6 +105,7 @@ class Combination:
         levels: dict[int, Level] = {}
         for count in range(degree + 1):
             if count:
+                self._count(*products.sizes_with_facts())
                 products = products.times_facts()
             rooms = most - in_bounded[products.chosen].sum(axis=1)
             for room in np.unique(rooms).tolist():
@@ -118,6 +130,10 @@ class Combination:
             bernstein,
         )
 
+    def _count(self, columns: int, terms: int) -> None:
+        if columns > MOST_COLUMNS or terms > MOST_TERMS:
+            raise TooLarge
+
     def _height(self, poly: fmpz_mpoly) -> int:
         """The total degree in all but the bounded variable."""
         bounded = self.problem.bounded
@@ -131,6 +147,9 @@ class Combination:
     def _add(self, level: Level, products: Products, root: int) -> None:
         """A block of columns: every product times every Bernstein polynomial of one degree."""
         count, size = len(products.places), len(level.strict)
+        self.columns += count * size
+        self.terms += len(products.at) * len(level.at)
+        self._count(self.columns, self.terms)
         columns = (products.at[:, None] * size + level.at).ravel()
         keys = (products.keys[:, None] + level.keys).ravel()
         values = (products.values[:, None] * level.values).ravel()
@@ -169,12 +188,15 @@ class Combination:
         for place in places:
             equation = problem.reduction.left[place]
             room, own = top - total_degree(equation.poly), [int(d) for d in equation.poly.degrees()]
-            ranges = [
-                range(max(0, min(room, b * degree + (bernstein if b else 0) - o)) + 1 if b else 1)
+            tops = [
+                max(0, min(room, b * degree + bernstein - o)) if b else 0
                 for b, o in zip(bounds, own)
             ]
-            monomials = [exponents for exponents in choices(*ranges) if sum(exponents) <= room]
+            most = MOST_COLUMNS - self.columns
+            monomials = list(islice(exponents_up_to(tops, room), most + 1))
             keys, values = self.packing.row(equation.poly)
+            self.columns += len(monomials)
+            self._count(self.columns, self.terms + len(monomials) * len(keys))
             self.cofactors += [(place, exponents) for exponents in monomials]
             self.program.add_free(
                 len(monomials),
@@ -191,6 +213,20 @@ class Combination:
         used = [(self._column(k), c) for k, c in found[0].items()]
         cofactors = [(self.cofactors[k], c) for k, c in found[1].items()]
         return used, cofactors
+
+
+def exponents_up_to(tops: Sequence[int], room: int) -> Iterator[Monomial]:
+    """The exponents, each at most its top, whose sum is at most `room`, in order.
+
+    >>> list(exponents_up_to((1, 0, 2), 2))
+    [(0, 0, 0), (0, 0, 1), (0, 0, 2), (1, 0, 0), (1, 0, 1)]
+    """
+    if not tops:
+        yield ()
+        return
+    for first in range(min(tops[0], room) + 1):
+        for rest in exponents_up_to(tops[1:], room - first):
+            yield (first, *rest)
 
 
 @dataclass
@@ -245,6 +281,13 @@ class Products:
         new.places, new.strict, new.at, new.keys, new.values = places, strict, at, keys, values
         new.widths = np.bincount(at, minlength=len(places))
         return new
+
+    def sizes_with_facts(self) -> tuple[int, int]:
+        """How many products, and terms in them, there would be with one fact more."""
+        last = self.places[:, -1] if self.places.shape[1] else np.zeros(len(self.places), np.int64)
+        after = np.cumsum(self.lengths[::-1])[::-1]  # the terms of a fact and of those after it
+        terms = int(self.widths @ after[last]) if len(after) else 0
+        return int((len(self.others) - last).sum()), terms
 
     def times_facts(self) -> Products:
         """The products with one fact more, each once: the new fact is none before the last one.
@@ -341,6 +384,7 @@ class Level:
 
 MOST_FOR_TRIPLES = 10
 MOST_SOLVED = 5000
+TOO_LARGE = 1000  # units of work, for a program that is given up while it is made
 # (facts, stage) -> the solution, and the work that it takes: the same facts come back, in other
 # cases and at greater effort
 _solved: dict[tuple[Hashable, int, int, str], tuple[Solution | None, int]] = {}
@@ -442,8 +486,11 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
             if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
                 continue
             left = budget.left
-            program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
-            solution = program.solution(budget)
+            try:
+                program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
+                solution = program.solution(budget)
+            except TooLarge:
+                budget.spend(TOO_LARGE)
             if len(_solved) >= MOST_SOLVED:
                 _solved.clear()
             _solved[stage] = solution, left - budget.left

@@ -141,7 +141,8 @@ def solve(program: Program, budget: Budget) -> Solution | None:
 
 JITTER = (0.0, 0.7)
 DEEPEST = 60  # equations used one after another on one monomial
-NOISE = np.random.default_rng(7).random(20000)
+MOST_COLUMNS = 20_000
+NOISE = np.random.default_rng(7).random(MOST_COLUMNS)
 
 
 def assemble(program: Program, budget: Budget) -> Floats | None:
@@ -151,7 +152,7 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
     columns, values = program.columns, np.concatenate(program.values)
     keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
     budget.spend(20 + len(values) // 4)
-    if len(keys) * columns > MOST_ENTRIES or columns > len(NOISE):
+    if len(keys) * columns > MOST_ENTRIES or columns > MOST_COLUMNS:
         return None
     budget.spend(len(keys) * columns // 50)
     places = np.concatenate(program.places)

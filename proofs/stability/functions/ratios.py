@@ -50,6 +50,7 @@ MOST_STATES = 3
 MOST_SHIFTS = 2
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
 MOST_RULES = 2  # that are tried
+LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are too large
 
 
 def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
@@ -64,7 +65,7 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
         derivative = in_logarithms(setting, origin, put)
         for rows in sets_of_rows(len(system.state)):
             sums = sums_of(setting, derivative, rows)
-            if sums is None:
+            if sums is None or len(str(sums.matrix)) > LONGEST:
                 continue
             found = []
             for weights in weights_of(setting, sums.matrix):
@@ -77,7 +78,7 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
                     found.append((rank, rule))
             unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
             gaps = _gaps(setting)
-            squares = list(dict.fromkeys([*gaps, *_differences(setting)]))
+            squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
             searches: dict[str, Search] = {
                 f"falls-1-{k + 1}": partial(
                     proof_by_products,
@@ -404,11 +405,13 @@ def _gaps(setting: Setting) -> list[str]:
     return [f"{name}_gap" for name in sorted(names, key=lambda name: affine[name])]
 
 
-def _differences(setting: Setting) -> list[str]:
+def _differences(setting: Setting, put: dict[Expr, Expr]) -> list[str]:
     """Where an image is a sum of terms T, by how much T/T(e) differs from one to another: what the
     means of numbers differ by has the squares of these as factors.
     """
     state, names = symbols(setting.system.state), point_names(setting)
+    if not setting.have:  # premises do not name it
+        names = [put[one] for one in names]
     gaps = symbols([f"{one}_gap" for one in setting.system.state])
     at = dict(zip(state, names))
     moved = {one: e + gap for one, e, gap in zip(state, names, gaps)}

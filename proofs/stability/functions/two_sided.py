@@ -3,7 +3,9 @@ power of (e - l)/(s - l), for a lower bound l of the space, or the same with an 
 
     V = max(s - e, (e - s) ((e - l)/(s - l))^k),
 
-of degree less than the squares of these.
+of degree less than the squares of these; where the map is affine in pieces, the distances with a
+weight on each side: V = max(u (s - e), v (e - s)).  It falls where what is above the point comes
+below it to less than u/v times the distance, and what is below it above it to less than v/u times.
 """
 
 from __future__ import annotations
@@ -13,18 +15,23 @@ from dataclasses import replace
 from itertools import product
 
 import numpy as np
+import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
+from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
 from juggleproof.proofs.stability.given import (
+    Expr,
     as_factor,
     bounds,
     holds,
     renamed,
+    symbols,
+    written,
 )
-from juggleproof.proofs.stability.samples import Samples, ends_of
+from juggleproof.proofs.stability.samples import Samples, after, ends_of
 
 POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function
@@ -59,6 +66,41 @@ def functions(setting: Setting) -> Iterator[tuple[float, Function]]:
         if over[0] and under[0]:
             used = [as_factor(bound[state]) for _, power, bound in (over, under) if power]
             yield over[1] + under[1], Function((over[0], under[0]), divisor="*".join(used) or "1")
+    if is_affine(system) and len(system.pieces) > 1:
+        yield from ((0.0, function) for function in weighted(setting))
+
+
+def weighted(setting: Setting) -> Iterator[Function]:
+    """The distances with weights on each side, where one slope d alone takes states from a side to
+    the other, and slopes c back: d, and 1 - (the product of all 1 - c d)/2 on the other side, which
+    is between 1 and each of c d.
+    """
+    gap = f"{setting.system.state[0]}_gap"
+    slopes = {side: crossing(setting, side) for side in (1, -1)}
+    for side in (1, -1):
+        if len(slopes[side]) == 1 and slopes[-side]:
+            (other,) = slopes[side]
+            less = sympy.prod([1 - one * other for one in slopes[-side]])
+            near, far = (as_factor(written(one)) for one in (other, sympy.expand(1 - less / 2)))
+            over, under = (near, far) if side == 1 else (far, near)
+            yield Function((f"{over}*{gap}", f"-{under}*{gap}"))
+
+
+def crossing(setting: Setting, side: int) -> list[Expr]:
+    """The slopes, as terms in the parameters, of the pieces that take states on this side of the
+    point to the other.
+    """
+    system, points = setting.system, setting.states.points
+    gap = f"{system.state[0]}_gap"
+    (state,) = symbols(system.state)
+    crosses = (side * points[gap] > 0) & (side * after(system, points)[gap] < 0)
+    return list(
+        dict.fromkeys(
+            -sympy.diff(image, state)
+            for (guard, _), (image,) in zip(system.pieces, system.images)
+            if (crosses & holds(guard, points)).any()
+        )
+    )
 
 
 def distance(state: str, gap: str, bound: str, power: int) -> str:
@@ -81,13 +123,18 @@ def constants(
     radius, upper = next(small_balls(setting, function), ("", ""))
     if not radius or not (there < here).all():
         return
+    steep = here / np.abs(samples.points[f"{setting.system.state[0]}_gap"])
+    far = "distance"
+    if steep.min(initial=1.0) < 1 - CLOSE:
+        for _, bound in bounded_below(samples.least(steep, setting.count), setting.products, 1):
+            far = f"{as_factor(bound)}*distance"
     for power, divide in enumerate(("", "/(1 + {})")):
         least = samples.least((here - there) / here * (1 + here) ** power, setting.count)
         for rank, constant in bounded_below(least, setting.products):
             start = "" if constant == "1" else f"({constant})*"
             rows = [
                 ("loss", start + "value" + divide.format("value")),
-                ("least", start + "distance" + divide.format("level")),
+                ("least", start + far + divide.format("level")),
                 ("upper", upper),
                 ("radius", radius),
             ]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.over_box import box_of, close_over_box
+from juggleproof.certificates.search.boxes.over_box import box_of, close_over_box
+from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
@@ -25,7 +28,7 @@ GOLDSTEIN = (
 )
 
 
-def state(text: str, names: str) -> State:
+def state(text: str, names: Sequence[str]) -> State:
     context = checker.Context()
     for name in names:
         context.declare(name)
@@ -46,6 +49,37 @@ def test_a_minimum_over_a_box_is_proved_below_and_met_above_holds(
     assert words == ["unsat", "sat"]
 
 
+# minima that small trees do not reach: of the extended valley of Rosenbrock, which is 0, and of the
+# same less x0 x2 / 10, which is not met at a rational point
+VALLEY = " + ".join(f"100*(x{k + 1} - x{k}^2)^2 + (1 - x{k})^2" for k in range(2))
+PRODUCT = "*".join(f"(1 - x{k})" for k in range(12))
+
+
+@pytest.mark.parametrize(
+    "text", [f"{VALLEY} < 0", f"{VALLEY} <= -1/1000", f"{VALLEY} - x0*x2/10 < -1/8"]
+)
+def test_a_valley_is_closed_by_squares_holds(text: str) -> None:
+    inside = " and ".join(f"-2 <= x{k} and 2*x{k} <= 4" for k in range(3))
+    one = state(f"{inside} and {text}", ("x0", "x1", "x2"))
+    node = close_by_bounds(one, 1000, Budget(10**6))
+    assert node is not None and one.is_closed_by(node, {})
+
+
+def test_a_valley_that_is_met_stays_open_holds() -> None:
+    inside = " and ".join(f"-2 <= x{k} and x{k} <= 2" for k in range(3))
+    one = state(f"{inside} and {VALLEY} <= 0", ("x0", "x1", "x2"))
+    assert close_by_bounds(one, 1000, Budget(10**6)) is None
+
+
+def test_a_product_of_many_variables_is_closed_holds() -> None:
+    """Faces make its tree short: its Bernstein form has 4096 coefficients."""
+    names = [f"x{k}" for k in range(12)]
+    inside = " and ".join(f"0 <= {name} and {name} <= 1" for name in names)
+    one = state(f"{inside} and {PRODUCT} + {' + '.join(names)} < 1", names)
+    node = close_over_box(one, 40, Budget(10**6))
+    assert node is not None and one.is_closed_by(node, {})
+
+
 def test_the_closest_bounds_are_taken_holds() -> None:
     one = state("x > 0 and 2*x >= 1 and x <= 3 and x < 2 and y >= 0 and z >= 1 and z <= 1", "xyz")
     ((name, (low, high)),) = box_of(one).items()
@@ -63,4 +97,4 @@ def test_the_work_is_counted_holds() -> None:
         f"{left} <= {name} and {name} <= {right}" for name, (left, right) in box.items()
     )
     with pytest.raises(Exhausted):
-        close_over_box(state(f"{inside} and {poly} < {low}", "xyzw"), 100, Budget(20))
+        close_over_box(state(f"{inside} and {poly} < {low}", "xyzw"), 100, Budget(5))

@@ -66,6 +66,36 @@ exists x w
 show x >= 0 and w = 4 - alpha*w and x = alpha*(2*w - x) - 2""",
         0,
     ),
+    "a bound that two irrational values attain": (
+        """statement t/attained
+forall x y
+given x^2 + y^2 = 1
+show 2*x*y < 1""",
+        1,
+    ),
+    "three equations of three variables": (
+        """statement t/isolated
+forall x y z
+given x^2 + y^2 + z^2 = 1
+given x*y + y*z = z^2
+given x^2 = 3*y*z
+show x <= 0""",
+        1,
+    ),
+    "a ball and a half-space touch": (
+        """statement t/touch
+forall x y z
+given x^2 + y^2 + z^2 <= 3
+show (x + 2*y - 2*z)^2 < 27 or x + 2*y <= 2*z""",
+        1,
+    ),
+    "more variables than values can be tried for": (
+        f"""statement t/many
+forall {" ".join(f"x{k}" for k in range(16))}
+given {" and ".join(f"x{k}*x{k + 1} + x{k} > {k % 3}" for k in range(15))}
+show x0 > x15 or x3 >= 2*x12 - 1""",
+        0,
+    ),
     "a corner that sampling misses": (
         f"""statement t/corner
 forall alpha x w v

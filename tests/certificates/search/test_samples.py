@@ -17,7 +17,7 @@ from juggleproof.certificates.algebra.conditions import (
     valued,
 )
 from juggleproof.certificates.search.closing import Closing
-from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.psatz.linear import FIRST, search
 from juggleproof.certificates.search.terms import Point, Quotient, Trial
 from juggleproof.certificates.states import State

@@ -110,6 +110,35 @@ def test_a_larger_budget_comes_at_least_as_far() -> None:
     assert widths == sorted(widths, reverse=True) and widths[-1] <= Fraction(1, 10**9)
 
 
+# a polynomial whose least value is met on a curve or at several points, an end of its box, and that
+# value
+VALLEYS = {
+    "a square": ("(x^2 + y^2 - 1/2)^2", 1, Fraction(0)),
+    "two squares": ("(x^2 + y - 11)^2 + (x + y^2 - 7)^2", 5, Fraction(0)),
+    "a square times a side": ("(x^2 + y^2 - 1/2)^2*(x + 3) - 1/3", 1, Fraction(-1, 3)),
+    "Motzkin's polynomial": ("x^4*y^2 + x^2*y^4 - 3*x^2*y^2 + 1", 2, Fraction(0)),
+}
+
+
+@pytest.mark.parametrize("kind", VALLEYS)
+def test_what_a_wider_or_a_narrower_width_reaches_is_not_missed_holds(kind: str) -> None:
+    text, end, least = VALLEYS[kind]
+    box = dict.fromkeys("xy", (-end, end))
+    widths = [Fraction(1, 10**k) for k in (1, 4, 7, 9)]
+    found = [enclose_minimum(text, box, width, 2000) for width in (*widths, 0)]
+    for width, enclosure in zip(widths, found):
+        assert enclosure.reached and enclosure.low <= least <= enclosure.high
+        assert enclosure.width <= width
+    assert found[-1].low == least and found[-1].width < widths[-1]
+
+
+def test_what_is_asked_in_vain_comes_as_close_as_other_widths_do_holds() -> None:
+    text, box = "x^4 - 2*x^2*y + y^3 + x", {"x": (-1, 2), "y": (-1, 2)}
+    enclosure = enclose_minimum(text, box, 0)
+    other = enclose_minimum(text, box, Fraction(1, 10**9))
+    assert not enclosure.reached and other.reached and enclosure.width <= other.width
+
+
 def test_a_changed_bound_is_rejected() -> None:
     found = enclose_minimum("x^2 - x", UNIT, 0)
     assert found.low == found.high == Fraction(-1, 4)

@@ -1,6 +1,6 @@
-"""Theorems on the orbits of one's own maps as files that coqc accepts by themselves; what is forged
-or changed it refuses.  `make test` tries a fixed share of the changes; with JUGGLEPROOF_MUTANTS=all
-(as CI sets it) each.
+"""Theorems on the orbits of one's own maps, and statements of one's own stores, as files that coqc
+accepts by themselves; what is forged or changed it refuses.  `make test` tries a fixed share of the
+changes; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import NotWritten
+from juggleproof.certificates.coq import PRELUDE, NotWritten
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.show import export_coq
@@ -234,12 +234,46 @@ def squares_are_not_negative():
 """
 
 
-def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
-    own = tmp_path / "own.py"
+SCRIPT = """
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (* x x x) 2))
+(check-sat)
+(push)(assert (< (+ (* x x) (* y y)) (* 2 x y)))(check-sat)(pop)
+(check-sat-assuming ((> (* 2 x y) 1)))
+"""
+BOUND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
+
+
+def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own, script, bound = tmp_path / "own.py", tmp_path / "mean.smt2", tmp_path / "bound"
     own.write_text(INEQUALITY)
-    says = f"{own}: no theorem on all orbits of a map; add a MapRule that concludes one"
-    with pytest.raises(ClaimError, match=re.escape(says)):
-        export_coq([str(own)], None)
+    script.write_text(SCRIPT)
+    assert run([*BOUND, "-o", str(bound)]) == 0
+    assert '["boxes",' in (bound / checker.CERTIFICATES).read_text()
+    texts, _ = list[str](), capsys.readouterr()
+    for name in (own, script, script.with_suffix(".certificates"), bound):
+        assert export_coq([str(name)], None) == 0
+        output = capsys.readouterr()
+        assert "not written" not in output.err
+        texts.append(output.out)
+    of_claim, of_script, of_folder, of_bound = texts
+    assert of_script == of_folder and of_script.count("\nLemma statement_") == 4
+    whole = PRELUDE + "".join(
+        text.removeprefix(PRELUDE) for text in (of_claim, of_folder, of_bound)
+    )
+    (tmp_path / "All.v").write_text(whole)
+    done = subprocess.run(
+        [coqc(), "All.v"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
+    with pytest.raises(ClaimError, match="no statements; name a folder that `juggleproof` wrote"):
+        export_coq([str(tmp_path / "none.certificates")], None)
 
 
 @pytest.mark.parametrize(
@@ -251,6 +285,8 @@ def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
         ),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
+        (["none.smt2"], "none.smt2: no such file"),
+        (["a.smt2", "b.smt2"], "b.smt2: a second store; export them one after the other"),
     ],
 )
 def test_rejects_what_is_no_question(names: list[str], says: str) -> None:

@@ -32,6 +32,10 @@ CONVERTER = (
 SIGMOID = "over r\ndomain r > 2\nstate x\nspace x >= {}\npiece r*x^2/(1 + x^2)"
 HARVEST = "over r h\ndomain r > 1 and {}\nstate x\nspace x > 0\npiece (1 - h)*r*x/(1 + x)"
 MOMENTUM = "over h m\ndomain {} and 0 <= m and m < 1\nstate x y\npiece (1 - h)*(x + m*(x - y)), x"
+BORDER = (
+    "over a b\ndomain {} and -1 < b and b < 0\nstate x\n"
+    "piece x <= 0 -> a*x + 1\npiece x > 0 -> b*x + 1"
+)
 LOGISTIC = "state x\nspace 0 < x and x < 1\npiece {}*x*(1 - x)"
 SETTLED = {  # name: (text, first line)
     "converter": (CONVERTER.format("0 < k and k < 0.03"), f"proved   converter: 25 {STABLE}"),
@@ -60,6 +64,14 @@ SETTLED = {  # name: (text, first line)
     "too-long-steps": (
         MOMENTUM.format("7/4 <= h and h < 2 and m >= 1/2"),
         "refuted  too-long-steps: (0, 0) is not stable",
+    ),
+    "border": (
+        BORDER.format("-3 < a and a < 0"),
+        f"proved   border: (-1/(b - 1)) {STABLE} at least where -a*b + 1 > 0",
+    ),
+    "cycle": (
+        BORDER.format("-3 < a and a < -2 and a*b > 1"),
+        "refuted  cycle: (-1/(b - 1)) does not attract ((-b - 1)/(a*b - 1)), which is periodic",
     ),
     "logistic-inside": (LOGISTIC.format("2.99"), f"proved   logistic-inside: 199/299 {STABLE}"),
     "logistic-at-end": (LOGISTIC.format("3"), f"proved   logistic-at-end: 2/3 {STABLE}"),

@@ -179,8 +179,8 @@ LINES = [
     ),
     (
         "more variables than the limit",
-        ["forall " + " ".join(f"x{i}" for i in range(61)), TRUE],
-        (Kind.VARIABLES, "x60"),
+        ["forall " + " ".join(f"x{i}" for i in range(401)), TRUE],
+        (Kind.VARIABLES, "x400"),
     ),
 ]
 NAMES = [

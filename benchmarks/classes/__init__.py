@@ -1,0 +1,11 @@
+"""Random problems of SMT-LIB by classes, from counted seeds, true and false ones: how many Z3, cvc5
+and we decide, and what each takes.
+
+    writing      random polynomials, and scripts about them
+    polynomials  few variables: boxes, forms, one variable, equations, several constraints
+    scripts      divisions, size, many variables, commands
+    classes      the classes and their problems
+    measuring    the answers of each solver, and the table
+
+Run as `python -m juggleproof.benchmarks.classes`.
+"""

@@ -1,0 +1,236 @@
+"""What Z3, cvc5 and we answer to the problems, in CPU seconds, and what the bare checker says of
+our certificates; as a table.
+"""
+
+from __future__ import annotations
+
+import re
+import statistics
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
+
+from z3 import Context, Z3_eval_smtlib2_string, Z3Exception, set_param
+
+from juggleproof.benchmarks.classes.classes import Made
+from juggleproof.benchmarks.peers.routes import reader_of_cvc5
+from juggleproof.benchmarks.processes import Timed, children_seconds, each, output_of
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.store import certificate_lines, write_store
+from juggleproof.proofs.smtlib.answering import answer, question
+from juggleproof.proofs.smtlib.script import read_problems
+
+ROOT = Path(__file__).resolve().parents[2]
+CHECKER = ROOT / "certificates/checker"
+Z3_UNITS = 10_000_000  # Z3's rlimit
+SECONDS = 6.0  # CPU, that end what no counted limit ends
+OUTCOMES = ("unsat", "sat")
+
+
+@dataclass(frozen=True)
+class Said:
+    """An answer: sat, unsat, unknown, or why it is none; ours with its statement and
+    certificate.
+    """
+
+    word: str
+    text: str = ""
+    certificate: Certificate = field(default_factory=Certificate)
+
+
+Ask = Callable[[], Callable[[Made], Callable[[], Said]]]
+
+# -------------------------------------------------------------------------------------------------
+# The solvers: each reads the script itself, within a counted limit.
+
+
+def ours() -> Callable[[Made], Callable[[], Said]]:
+    """Our search with its check, at the default budget."""
+
+    def run(problem: Made) -> Said:
+        try:
+            (one,) = read_problems(problem.script, problem.name)
+            found = answer(question(one, statement_of(problem)))
+        except ClaimError as error:
+            return Said(f"refused: {error}")
+        return Said(found.word, found.text, found.certificate)
+
+    return lambda problem: partial(run, problem)
+
+
+def statement_of(problem: Made) -> str:
+    """The name of its statement."""
+    return f"{problem.group.replace(' ', '-')}/{problem.name}"
+
+
+def z3() -> Callable[[Made], Callable[[], Said]]:
+    """Z3, each script in a context of its own; where the script sets an option that is read before
+    a context is made, by the program that comes with it.
+    """
+    set_param("rlimit", Z3_UNITS)
+
+    def run(problem: Made) -> Said:
+        context = Context()  # which lives until all is read
+        try:
+            output = Z3_eval_smtlib2_string(context.ref(), problem.script)
+        except Z3Exception:
+            program = [str(Path(sys.executable).with_name("z3")), "-in", f"rlimit={Z3_UNITS}"]
+            output = output_of(program, problem.script) or ""
+        return Said(last_word(output))
+
+    return lambda problem: partial(run, problem)
+
+
+def cvc5() -> Callable[[Made], Callable[[], Said]]:
+    """cvc5, each script in a solver of its own."""
+    read = reader_of_cvc5()
+
+    def run(problem: Made) -> Said:
+        try:
+            return Said(last_word(read(problem.script)[1]))
+        except RuntimeError as error:
+            return Said(f"refused: {error}")
+
+    return lambda problem: partial(run, problem)
+
+
+def last_word(output: str) -> str:
+    """The last answer in what a solver writes.
+
+    >>> last_word("unsat\\nunknown\\n"), last_word("")
+    ('unknown', 'unknown')
+    """
+    return output.split()[-1] if output.split() else "unknown"
+
+
+# -------------------------------------------------------------------------------------------------
+# What all of them say of the problems of a class, and the bare checker of our certificates.
+
+SOLVERS: Mapping[str, Ask] = {"Z3": z3, "cvc5": cvc5, "ours": ours}
+_SUMMARY = re.compile(r"\d+ statements: (\d+) certified, (\d+) refuted, 0 unknown, 0 rejected")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The answers to the problems of a class by solver, each with its CPU seconds; the bytes of our
+    certificates, and the CPU seconds of the bare checker, which takes so many of them.
+    """
+
+    group: str
+    problems: Sequence[Made]
+    said: Mapping[str, Sequence[Timed[Said]]]
+    certified: int
+    size: int
+    checking: float
+
+    def decided(self, solver: str) -> dict[str, float]:
+        """The problems that a solver decides, with their CPU seconds."""
+        return {
+            problem.name: one.seconds
+            for problem, one in zip(self.problems, self.said.get(solver, ()))
+            if one.answer and one.answer.word in OUTCOMES
+        }
+
+    def faults(self) -> list[str]:
+        """One line for each wrong answer, and where the checker does not take every certificate."""
+        lines = [
+            f"WRONG: {problem.group}: {problem.name} is {problem.status}; {solver} says"
+            f" {one.answer.word}"
+            for solver, said in self.said.items()
+            for problem, one in zip(self.problems, said)
+            if one.answer and one.answer.word in OUTCOMES and one.answer.word != problem.status
+        ]
+        if self.certified != len(self.decided("ours")):
+            lines.append(f"REJECTED: {self.group}: the checker takes {self.certified} only")
+        return lines
+
+
+def measured(group: str, problems: Sequence[Made]) -> Measured:
+    """What every solver that is installed says of the problems, one after the other."""
+    said = {
+        solver: list(each(start, problems, SECONDS))
+        for solver, start in SOLVERS.items()
+        if solver != "cvc5" or find_spec("cvc5")
+    }
+    found = {
+        statement_of(problem): one.answer
+        for problem, one in zip(problems, said["ours"])
+        if one.answer and one.answer.word in OUTCOMES
+    }
+    return Measured(group, problems, said, *checked(found))
+
+
+def checked(found: Mapping[str, Said]) -> tuple[int, int, float]:
+    """How many certificates the checker takes for what we say, in a process of its own; their
+    bytes, and its CPU seconds.
+    """
+    certificates = {name: one.certificate for name, one in found.items()}
+    with tempfile.TemporaryDirectory() as folder:
+        text = "\n\n".join(one.text for one in found.values()) + "\n"
+        write_store(Path(folder), text, {"": certificates})
+        before = children_seconds()
+        output = output_of([sys.executable, "-I", "-S", str(CHECKER), folder], "") or ""
+        seconds = children_seconds() - before
+    taken = _SUMMARY.search(output)
+    words = [one.word for one in found.values()]
+    claimed = tuple(str(words.count(word)) for word in OUTCOMES)
+    accepted = len(found) if taken and taken.groups() == claimed else 0
+    return accepted, len(certificate_lines(certificates)), seconds
+
+
+# -------------------------------------------------------------------------------------------------
+# The table.
+
+
+def table(classes: Sequence[Measured]) -> str:
+    """A row for each class, and for all of them, in Markdown."""
+    solvers = [solver for solver in SOLVERS if solver in classes[0].said]
+    heads = ["class", "problems", *solvers, "certified", "ours of Z3's"]
+    heads += [*(f"{solver}, CPU s" for solver in solvers), "bytes", "checker, CPU s"]
+    rows = [heads, ["---"] * len(heads)]
+    rows += [_row(one.group, [one], solvers) for one in classes]
+    rows.append(_row("all", classes, solvers))
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+def _row(title: str, classes: Sequence[Measured], solvers: Sequence[str]) -> list[str]:
+    both = sum(len(one.decided("Z3").keys() & one.decided("ours").keys()) for one in classes)
+    of_z3 = sum(len(one.decided("Z3")) for one in classes)
+    return [
+        title,
+        str(sum(len(one.problems) for one in classes)),
+        *(str(sum(len(one.decided(solver)) for one in classes)) for solver in solvers),
+        str(sum(one.certified for one in classes)),
+        f"{both}/{of_z3}",
+        *(
+            f"{sum(timed.seconds for one in classes for timed in one.said[solver]):.3g}"
+            for solver in solvers
+        ),
+        str(sum(one.size for one in classes)),
+        f"{sum(one.checking for one in classes):.2g}",
+    ]
+
+
+def ratios(classes: Sequence[Measured]) -> list[str]:
+    """Our CPU seconds as multiples of each other solver's, over the problems that both decide."""
+    lines = []
+    for solver in list(SOLVERS)[:-1]:
+        pairs = [
+            (one.decided("ours")[name], seconds)
+            for one in classes
+            for name, seconds in one.decided(solver).items()
+            if name in one.decided("ours")
+        ]
+        if pairs:
+            total = sum(own for own, _ in pairs) / sum(peer for _, peer in pairs)
+            middle = statistics.median(own / peer for own, peer in pairs)
+            lines.append(
+                f"Of the {len(pairs)} problems that both decide, ours takes {total:.2g} times the"
+                f" CPU seconds of {solver} in all, and {middle:.2g} times in the median."
+            )
+    return lines

@@ -1,0 +1,360 @@
+"""Boxes around the point that the map takes into smaller ones of the same shape, one bound of which
+after another is entered by every orbit: V is the greatest of the distances to the point, each by
+that of the box's side.
+
+A bound is where the variable does not change while the others are at those ends of the box that
+favour it most, moved so far that it does: for two competing species the capacities and, below
+them, what one keeps while the other is at its capacity.
+
+Sources: H. L. Smith, The discrete dynamics of monotonically decomposable maps, Journal of
+Mathematical Biology 53 (2006); M. R. S. Kulenović, O. Merino, A global attractivity result for maps
+with invariant boxes, Discrete and Continuous Dynamical Systems B 6 (2006).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations, product
+
+import numpy as np
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.functions.part_metric import CLOSE
+from juggleproof.proofs.stability.functions.ratios import (
+    at_parameters,
+)
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import (
+    FEW_FOLD,
+    Setting,
+    bounded_below,
+    inverse,
+    positive_factors,
+    power_products,
+)
+from juggleproof.proofs.stability.given import (
+    Expr,
+    as_factor,
+    bounds,
+    conjunction,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.points import roots_of
+from juggleproof.proofs.stability.samples import (
+    SEED,
+    Floats,
+    Samples,
+    licence,
+)
+
+MOST_STATES = 3
+EACH = 60  # states for each of the parameters
+FAR = 1e-3  # of the value on the faces, what is not rounding
+SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of a side; -1: any
+TOGETHER = 3  # of the factors of a constant
+SPAN = 2.5  # powers of ten below and above 1 that a side without an end runs over
+LOW, HIGH = -1, 1
+Side = tuple[int, int]  # the number of a variable, LOW or HIGH
+Ends = dict[Side, Expr]  # as terms in the parameters
+
+
+def contracting_box_rules(setting: Setting, name: str) -> Iterator[list[MapRule]]:
+    """The statements, in order, by which the point attracts every state; what samples refute is
+    left out.
+    """
+    system = setting.system
+    plain = not (setting.point.roots or setting.outer)
+    if not plain or not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
+        return
+    setting = replace(setting, have=())
+    box = box_of(setting)
+    if box is None:
+        return
+    point = list(map(expression, setting.point.terms))
+    widths = [sympy.factor(side * (end - point[k])) for (k, side), end in box.items()]
+    domain = setting.domain
+    for end in box.values():
+        for factor, _ in sympy.factor_list(sympy.fraction(sympy.together(end))[1])[1]:
+            domain = conjunction(domain, licence(factor, domain))
+    if beyond(setting.domain, domain, system.parameters):
+        return
+    setting = replace(setting, domain=domain)
+    entered, descents = bounds_of_space(setting), []
+    for side, end in box.items():
+        step = step_of(setting, entered, side, end)
+        if not step:
+            return
+        entered = entered | {side: end}
+        descents.append((step, condition(setting, side, end)))
+    yield from _statements(setting, box, widths, descents, name)
+
+
+def _statements(
+    setting: Setting,
+    box: Ends,
+    widths: Sequence[Expr],
+    descents: Sequence[tuple[str, str]],
+    name: str,
+) -> Iterator[list[MapRule]]:
+    """One descent for each bound, on a map whose space has the bounds before it."""
+    system, space = setting.system, setting.system.space
+    maps: list[MapRule] = []
+    falling: list[MapRule] = []
+    attracting: list[MapRule] = []
+    radii = bounded_below(below_all(setting, widths), products_of(setting), 1)
+    if not radii:
+        return
+    names = ["", *(f"-{k}" for k in range(1, len(descents)))]
+    for suffix, following, (rank, bound) in zip(names, [*names[1:], ""], descents):
+        maps.append(replace(system, space=space, domain=setting.domain).rule(f"{name}/map{suffix}"))
+        space = conjunction(space, bound)
+        rows = [("map", maps[-1].name), ("domain", setting.domain), ("rank", rank)]
+        falling.append(MapRule(f"{name}/descends{suffix}", (*rows, ("stage", bound))))
+        then = [("lyapunov", f"{name}/lyapunov")]
+        if following:
+            then = [("attraction", f"{name}/attracts{following}"), ("radius", radii[0][1])]
+        rows = [("descent", falling[-1].name), *then]
+        attracting.append(MapRule(f"{name}/attracts{suffix}", tuple(rows)))
+    for rule in lyapunov_rules(setting, box, widths, descents[-1][1], f"{name}/lyapunov"):
+        inner = replace(rule, rows=(("map", maps[-1].name), *rule.rows[1:]))
+        yield [*maps[1:], inner, *falling, *reversed(attracting)]
+
+
+def lyapunov_rules(
+    setting: Setting, box: Ends, widths: Sequence[Expr], on: str, name: str
+) -> Iterator[MapRule]:
+    """That V, which has one value on all faces of the box, falls by a share of it."""
+    names = setting.system.state
+    weights = weights_of(setting, widths)
+    terms = [
+        f"{as_factor(written(weight))}*{names[k]}_gap"
+        if side == HIGH
+        else f"-{as_factor(written(weight))}*{names[k]}_gap"
+        for (k, side), weight in zip(box, weights)
+    ]
+    function = Function(tuple(terms))
+    samples = states_of(setting, box)
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    far = here > FAR * at_parameters(setting, weights[0] * widths[0])[samples.which]
+    shares = samples.where(far).least((here - there)[far] / here[far], setting.count)
+    products = products_of(setting)
+    least, most, size = (
+        bounded_below(below_all(setting, every), products, 1)
+        for every in (weights, [1 / one for one in weights], widths)
+    )
+    losses = bounded_below(shares, products)
+    for (_, loss), (_, slope), (_, steep), (_, radius) in product(losses, least, most, size):
+        drop = f"{as_factor(loss)}*"
+        rows = [
+            ("on", on),
+            ("loss", f"{drop}value"),
+            ("least", f"{drop}{as_factor(slope)}*distance"),
+            ("upper", inverse(steep)),
+            ("radius", radius),
+        ]
+        yield setting.rule(name, function, rows)
+
+
+def weights_of(setting: Setting, widths: Sequence[Expr]) -> list[Expr]:
+    """Positive polynomials that are to one another as the inverses of the widths."""
+    inverses = [sympy.together(1 / width) for width in widths]
+    below = sympy.lcm([sympy.fraction(one)[1] for one in inverses])
+    found = sympy.Matrix([sympy.cancel(one * below) for one in inverses])
+    found = (found / sympy.gcd(list(found))).applyfunc(sympy.factor)
+    return list(found if at_parameters(setting, found[0]).max() > 0 else -found)
+
+
+def below_all(setting: Setting, terms: Sequence[Expr]) -> Floats:
+    """The least of positive terms, at the parameters."""
+    found: Floats = np.min([at_parameters(setting, one) for one in terms], axis=0)
+    return found
+
+
+# -------------------------------------------------------------------------------------------------
+# The box.
+
+
+def box_of(setting: Setting) -> Ends | None:
+    """The ends of the box, in the order in which orbits enter them."""
+    given = bounds_of_space(setting)
+    every = [(k, side) for side in (HIGH, LOW) for k in range(len(setting.system.state))]
+    still: Ends = {}
+    for _ in every:
+        for side in every:
+            if side not in still:
+                end = still_at(setting, given | still, side)
+                still |= {side: end} if end is not None else {}
+    if len(still) < len(every):
+        return None
+    found: Ends = {}
+    for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
+        limit = limit_of(setting, found, side) if side[1] == HIGH else None
+        limit = given.get(side) if limit is None else limit
+        if limit is None:
+            return None
+        found[side] = sympy.factor((still[side] + limit) / 2)
+    return {side: found[side] for side in still}
+
+
+def still_at(setting: Setting, ends: Ends, side: Side) -> Expr | None:
+    """Where the variable does not change, on this side of the point, while the others are at the
+    ends that move it most to this side; None where there is none, or such an end is missing.
+    """
+    state = symbols(setting.system.state)
+    one = state[side[0]]
+    image = worst(setting, ends, side, one)
+    if image is None:
+        return None
+    equation = sympy.numer(sympy.together(image - one))
+    return beside(setting, side, ends.get(side), roots_of(equation, one))
+
+
+def limit_of(setting: Setting, low: Ends, side: Side) -> Expr | None:
+    """How far the upper end may be for the other variables to grow at their lower ends."""
+    one = symbols(setting.system.state)[side[0]]
+    found: list[Expr] = []
+    for (k, _), end in low.items():
+        if k != side[0] and slope_of(setting, k, side[0]) == -1:
+            image = worst(setting, {**low, side: one}, (k, LOW), end)
+            if image is not None:
+                found += roots_of(sympy.numer(sympy.together(image - end)), one)
+    return beside(setting, side, bounds_of_space(setting).get(side), found)
+
+
+def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]) -> Expr | None:
+    """Of these terms the first that at all parameters is on this side of the point, and inside of
+    the end.
+    """
+    point = setting.constants[f"{setting.system.state[side[0]]}_point"]
+    for one in every:
+        if not one.is_rational_function():
+            continue  # a root, which a map cannot name
+        at = at_parameters(setting, one)
+        inside = end is None or (side[1] * (at_parameters(setting, end) - at) > 0).all()
+        gap = side[1] * (at - point)
+        if inside and (gap > -CLOSE).all() and np.median(gap) > CLOSE:
+            return one
+    return None
+
+
+def slope_of(setting: Setting, image: int, variable: int) -> int | None:
+    """The sign of the derivative of an image by a variable, where it has one at all samples."""
+    system = setting.system
+    term = expression(system.pieces[0][1][image])
+    slope = sympy.cancel(sympy.diff(term, symbols(system.state)[variable]))
+    at = np.asarray(value(written(slope), setting.states.points), float)
+    return next((sign for sign in (0, 1, -1) if (np.sign(at) * (sign or 1) == sign**2).all()), None)
+
+
+def worst(setting: Setting, ends: Ends, side: Side, at: Expr) -> Expr | None:
+    """The image of a variable at a term, the others at the ends that move it most to this side;
+    None where one is missing.
+    """
+    system, (k, direction) = setting.system, side
+    state, put = symbols(system.state), {}
+    for other, one in enumerate(state):
+        slope = slope_of(setting, k, other)
+        if other == k:
+            put[one] = at
+        elif slope is None or slope and (other, direction * slope) not in ends:
+            return None
+        elif slope:
+            put[one] = ends[other, direction * slope]
+    return sympy.cancel(expression(system.pieces[0][1][k]).subs(put, simultaneous=True))
+
+
+def products_of(setting: Setting) -> list[tuple[str, Floats]]:
+    """Products of powers of three of the terms that the domain says to be positive, those that go
+    to 0 or grow over it, as text and at the parameters.
+    """
+    known = setting.parameters
+    factors = [
+        one
+        for one in positive_factors(setting.system, setting.domain, known)
+        if np.ptp(np.log(np.asarray(value(one, known), float))) > FEW_FOLD
+    ]
+    found: dict[str, Floats] = {}
+    for few in combinations(factors, min(TOGETHER, len(factors))):
+        found |= dict(power_products(few, known, setting.count))
+    return list(found.items())
+
+
+# -------------------------------------------------------------------------------------------------
+# How orbits enter it.
+
+
+def condition(setting: Setting, side: Side, end: Expr) -> str:
+    """The bound as a formula."""
+    return f"{setting.system.state[side[0]]} {'<' if side[1] == HIGH else '>'} {written(end)}"
+
+
+def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
+    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: the
+    distance to the lower end of the space, or its inverse, times a term in the parameters; nothing
+    where samples fall by less.
+    """
+    (k, direction), system = side, setting.system
+    name, lower = system.state[k], bounds_of_space(setting)[k, LOW]
+    limit = entered.get(side)
+    samples = states_of(setting, {**entered, (k, -direction): end, side: limit})
+    points = samples.points
+    image = system.next({one: points[one] for one in system.names})[k]
+    start = at_parameters(setting, lower)[samples.which]
+    with np.errstate(all="ignore"):
+        if direction == HIGH:
+            falls = points[name] - image
+        else:
+            falls = 1 / (points[name] - start) - 1 / (image - start)
+    fits = np.isfinite(falls)
+    least = samples.where(fits).least(falls[fits], setting.count)
+    found = bounded_below(least, products_of(setting), 1)
+    if not found:
+        return ""
+    distance = as_factor(written(symbols([name])[0] - lower))
+    factor = as_factor(inverse(found[0][1]))
+    return f"{factor}*{distance}" if direction == HIGH else f"{factor}/{distance}"
+
+
+def bounds_of_space(setting: Setting) -> Ends:
+    """The ends that the space has."""
+    state = symbols(setting.system.state)
+    found: Ends = {}
+    for side, texts in zip((LOW, HIGH), bounds(setting.system)):
+        for k, one in enumerate(state):
+            if str(one) in texts:
+                end = sympy.expand(one + side * expression(texts[str(one)]))
+                found |= {(k, side): end} if not end.free_symbols & set(state) else {}
+    return found
+
+
+def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:
+    """States between the ends, many of them at one, with the number of the parameters that each
+    comes with.
+    """
+    rng = np.random.default_rng(SEED + 3)
+    which = np.repeat(np.arange(setting.count), EACH)
+    points = {name: values[which] for name, values in setting.constants.items()}
+    for k, name in enumerate(setting.system.state):
+        share = rng.choice(SHARES, len(which))
+        share = np.where(share < 0, rng.random(len(which)), share)
+        wide = 10 ** (SPAN * (2 * share - 1)) - 10**-SPAN
+        low, high = (
+            None if end is None else at_parameters(setting, end)[which]
+            for end in (ends.get((k, LOW)), ends.get((k, HIGH)))
+        )
+        if low is not None and high is not None:
+            points[name] = low + (high - low) * share
+        elif low is not None:
+            points[name] = low + wide
+        else:
+            points[name] = wide if high is None else high - wide
+        points[f"{name}_gap"] = points[name] - points[f"{name}_point"]
+    inside = np.broadcast_to(holds(setting.system.space, points), which.shape)
+    return Samples(points, which).where(inside)

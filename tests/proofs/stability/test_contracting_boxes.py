@@ -1,0 +1,63 @@
+"""Boxes that a map takes into smaller ones, and how orbits enter them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Proof
+from juggleproof.proofs.stability.functions.contracting_boxes import (
+    HIGH,
+    LOW,
+    box_of,
+    contracting_box_rules,
+)
+from juggleproof.proofs.stability.functions.values import Setting
+from juggleproof.proofs.stability.given import expression, of_rule
+from juggleproof.proofs.stability.points import fixed_points
+from juggleproof.proofs.stability.samples import with_licences
+from juggleproof.proofs.stability.settings import setting_of
+
+COMPETITION = "2*x/(1 + x + c*y), 3*y/(1 + y + c*x)"
+
+
+def setting(piece: str, domain: str) -> Setting:
+    rows = [("over", "c"), ("domain", domain), ("state", "x y"), ("space", "x > 0 and y > 0")]
+    system = with_licences(of_rule(MapRule("m", (*rows, ("piece", piece)))))
+    (fixed,) = fixed_points(system)
+    return setting_of(system, fixed, system.domain)
+
+
+def test_the_ends_of_the_box_of_two_competing_species_holds() -> None:
+    found = box_of(replace(setting(COMPETITION, "0 < c and c < 1/2"), have=()))
+    assert found is not None
+    # capacities 1 and 2; 1 - 2 c and 2 - c are left below them, and halved; 1/2 + c = c y at y
+    ends = {(0, HIGH): "(1 + (2 + c)/(2*c))/2", (1, HIGH): "(2 + (1 + 2*c)/(2*c))/2"}
+    ends |= {(0, LOW): "1/2 - c", (1, LOW): "1 - c/2"}
+    assert list(found) == list(ends)  # in the order in which orbits enter them
+    assert all(sympy.cancel(found[one] - expression(ends[one])) == 0 for one in ends)
+
+
+def test_competing_species_come_to_rest_holds() -> None:
+    of = setting(COMPETITION, "0 < c and c < 1/2")
+    proof = Proof()
+    assert proof.add(of.system.rule("m/map")) == ""
+    chain = next(contracting_box_rules(of, "m"))
+    assert proof.add_all(chain, (1, 2), print)
+    assert [rule.name for rule in chain[-2:]] == ["m/attracts-1", "m/attracts"]
+    assert dict(chain[-1].rows)["descent"] == "m/descends"
+
+
+def test_a_box_fails_without_weak_competition() -> None:
+    assert box_of(replace(setting(COMPETITION, "2 < c and c < 3"), have=())) is None
+
+
+def test_rejects_a_bound_that_orbits_do_not_enter() -> None:
+    of = setting(COMPETITION, "0 < c and c < 1/2")
+    proof = Proof()
+    assert proof.add(of.system.rule("m/map")) == ""
+    (descent,) = (one for one in next(contracting_box_rules(of, "m")) if one.name == "m/descends")
+    rows = tuple((key, "x < 1/2" if key == "stage" else text) for key, text in descent.rows)
+    assert "falls-1" in proof.add(MapRule(descent.name, rows), (1,), 100_000)
