@@ -59,11 +59,13 @@ def tampered(certificate: Json) -> list[Json]:
     """Changes of every place of a certificate: digits and indices, signs, keys and entries removed,
     doubled or swapped.
     """
-    changes = list(changed_somewhere(certificate))
-    return changes[:: 1 + len(changes) // MOST]
+    changes = list(changes_somewhere(certificate))
+    chosen = changes[:: 1 + len(changes) // MOST]
+    return [replaced([certificate], path, change)[0] for path, change in chosen]
 
 
-def changed_somewhere(certificate: Json) -> Iterator[Json]:
+def changes_somewhere(certificate: Json) -> Iterator[tuple[list[Any], Json]]:
+    """Places, and what is put there."""
     for path, value in places([certificate], []):
         if isinstance(value, int):
             changes: list[Json] = [value + 1, value - 1, -value, True, str(value), value + 0.5]
@@ -94,7 +96,7 @@ def changed_somewhere(certificate: Json) -> Iterator[Json]:
             ]
         for change in changes:
             if type(change) is not type(value) or change != value:
-                yield replaced([certificate], path, change)[0]
+                yield path, change
 
 
 SWAPS = [
