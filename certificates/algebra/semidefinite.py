@@ -409,11 +409,13 @@ class LinearEquations:
 
     def combination(self, values: Sequence[Fraction]) -> list[Fraction]:
         """The left side of every equation at these values."""
-        left = [Fraction(0)] * self.rows
+        common = lcm(*(value.denominator for value in values))
+        left = [0] * self.rows
         for value, column in zip(values, self.terms):
-            for row, c in column.items() if value else ():
-                left[row] += c * value
-        return left
+            whole = value.numerator * (common // value.denominator)
+            for row, c in column.items() if whole else ():
+                left[row] += c * whole
+        return [Fraction(value, common) for value in left]
 
     def spread(self, missing: list[Fraction]) -> list[Fraction] | None:
         """What is missing in each equation, spread over the entries that stand in no other; None

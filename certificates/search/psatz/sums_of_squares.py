@@ -382,12 +382,17 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
     roots = [keys(block.basis) for block in blocks]
     owed = keys(cofactors)
     alive = [np.ones(len(one), dtype=bool) for one in roots]
+    fixed: list[NDArray[Any]] = [
+        owed[:0] for _ in blocks
+    ]  # what squares of each cannot reach alone
+    changed = set(range(len(blocks)))
     while True:
-        fixed, squares, positive, owners = [owed], [], [], []
+        squares, positive, owners = [], [], []
         for k, (term, sign) in enumerate(zip(terms, signs)):
             root = roots[k][alive[k]]
-            pairs = np.unique((root[:, None] + root)[np.triu_indices(len(root), 1)])
-            fixed.append(np.unique(pairs[:, None] + term))
+            if k in changed and len(roots[k]) > 1:
+                pairs = np.unique((root[:, None] + root)[np.triu_indices(len(root), 1)])
+                fixed[k] = np.unique(pairs[:, None] + term)
             squares.append((2 * root[:, None] + term).ravel())
             positive.append(np.tile(sign, len(root)))
             places = np.flatnonzero(alive[k])
@@ -396,12 +401,14 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
         above = np.zeros(len(whole), dtype=int)
         np.add.at(above, where, np.concatenate(positive))
         one_sign = (above == 0) | (above == np.bincount(where, minlength=len(whole)))
-        dead = (one_sign & ~np.isin(whole, np.concatenate(fixed)))[where]
+        dead = (one_sign & ~np.isin(whole, np.concatenate([owed, *fixed])))[where]
         if not dead.any():
             break
+        changed = set()
         for place in np.flatnonzero(dead):
             k, i = owners[place]
             alive[k][i] = False
+            changed.add(k)
     for block, kept in zip(blocks, alive):
         block.basis = [b for b, is_kept in zip(block.basis, kept) if is_kept]
     return [block for block in blocks if block.basis]
