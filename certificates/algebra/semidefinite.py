@@ -177,7 +177,7 @@ def _room(points: list[Floats], directions: list[Floats]) -> float:
 
     def eigenvalues(x: Floats, d: Floats) -> Floats:
         lower = np.linalg.inv(np.linalg.cholesky(x))
-        return np.linalg.eigvalsh(lower @ d @ lower.swapaxes(1, 2))
+        return np.asarray(np.linalg.eigvalsh(lower @ d @ lower.swapaxes(1, 2)), dtype=np.float64)
 
     least = min(0.0, *(float(found[0]) for found in _at_once(eigenvalues, points, directions)))
     return -1.0 / least if least < -1e-12 else 1e9
