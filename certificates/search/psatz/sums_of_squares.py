@@ -283,7 +283,7 @@ class ProductsOfFacts:
         self.used = [v for v in range(self.ring.size) if any(p.degrees()[v] for p in polys)]
         self.flips = self._flips(polys)
         self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
-        self.blocks = list(self._blocks(count, budget))
+        self.blocks = [] if self._is_too_large() else list(self._blocks(count, budget))
         equations = [equation.poly for equation in problem.reduction.left]
         self.cofactors = [
             ((place, monomial), poly * self.ring.ctx.from_dict({monomial: 1}))
@@ -296,6 +296,13 @@ class ProductsOfFacts:
             self.blocks = []
         budget.spend(products // 4)
         self.blocks = pruned(self.blocks, [poly for _, poly in self.cofactors])
+
+    def _is_too_large(self) -> bool:
+        """Whether the squares alone have too many products of monomials, as a count of these tells
+        where no equation leaves some out.
+        """
+        monomials = comb(len(self.used) + self.degree // 2, self.degree // 2)
+        return not self.leading and monomials**2 > 2 * MOST_ENTRIES << len(self.flips)
 
     def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
         """The sets of variables whose signs can be changed without changing any fact or equation,
