@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -534,6 +534,7 @@ class Signs:
 # problem.
 
 MOST = 6  # of the candidates of one kind
+MOST_PAIRS = 500  # of facts with a resultant
 
 
 class Pool:
@@ -559,41 +560,52 @@ def squares(
     differences of variables.
     """
     pool = Pool()
+    for poly in _worth_squaring(ring, facts, parameter):
+        pool.add(poly)
+        if len(pool.polys) == most:
+            break
+    return pool.polys
+
+
+def _worth_squaring(
+    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int
+) -> Iterator[fmpz_mpoly]:
     used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
     for poly in facts:
         if total_degree(poly) > 1:
             for factor, exponent in ring.factors(poly):
                 if exponent > 1:
-                    pool.add(factor)
+                    yield factor
     for poly in reversed(facts):
         for v in used:
             if poly.degrees()[v] == 2:
                 for factor, _ in ring.factors(poly.derivative(v)):
                     if factor.degrees()[v]:
-                        pool.add(factor)
+                        yield factor
     for v in used:
-        pool.add(ring.gens[v])
+        yield ring.gens[v]
     for v, w in combinations(used, 2):
-        pool.add(ring.gens[v] - ring.gens[w])
-        pool.add(ring.gens[v] + ring.gens[w])
-    return pool.polys[:most]
+        yield ring.gens[v] - ring.gens[w]
+        yield ring.gens[v] + ring.gens[w]
 
 
 def resultants(
     ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
 ) -> list[fmpz_mpoly]:
     """Factors of resultants of two facts in a variable that is linear in one of them, smallest
-    first.
+    first; none where there are too many pairs.
     """
     pool = Pool()
-    for v in range(ring.size):
-        if v == parameter:
-            continue
-        having = [p for p in facts if p.degrees()[v]]
-        for p, q in combinations(having, 2):
-            if min(p.degrees()[v], q.degrees()[v]) == 1:
-                for factor, _ in ring.factors(p.resultant(q, v)):
-                    pool.add(factor)
+    pairs = [
+        (p, q, v)
+        for v in range(ring.size)
+        if v != parameter
+        for p, q in combinations([p for p in facts if p.degrees()[v]], 2)
+        if min(p.degrees()[v], q.degrees()[v]) == 1
+    ]
+    for p, q, v in pairs if len(pairs) <= MOST_PAIRS else ():
+        for factor, _ in ring.factors(p.resultant(q, v)):
+            pool.add(factor)
     found = [
         p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)
     ]

@@ -285,6 +285,8 @@ class ProductsOfFacts:
         self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
         self.blocks = [] if self._is_too_large() else list(self._blocks(count, budget))
         equations = [equation.poly for equation in problem.reduction.left]
+        rooms = [degree - total_degree(poly) for poly in equations]
+        budget.spend(sum(comb(len(self.used) + room, room) for room in rooms if room > 0))
         self.cofactors = [
             ((place, monomial), poly * self.ring.ctx.from_dict({monomial: 1}))
             for place, poly in enumerate(equations)
