@@ -547,6 +547,12 @@ def checked(
     return results
 
 
+def up_to(text: str, name: str) -> str:
+    """The text without the statements after this one."""
+    before, head, rest = text.partition(f"statement {name}\n")
+    return before + head + rest.split("\n\n")[0].rstrip() + "\n"
+
+
 def edited(text: str, kind: str, old: str, new: str) -> str:
     """The text with one change in the statement of this kind."""
     blocks = text.strip().split("\n\n")

@@ -32,6 +32,7 @@ from tests.certificates.checker.maps import (
     edited,
     read,
     searched,
+    up_to,
 )
 
 Json = Any
@@ -229,7 +230,7 @@ def test_a_rule_fails_without_its_premise(
 ) -> None:
     text, name = edited(whole, kind, old, new), named(whole, kind)
     assert searched(text)[name] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, searched(whole))[name]
+    outcome, reason = checked(up_to(text, name), searched(whole))[name]
     assert outcome == "rejected" and reason is not None
     assert reason.place.startswith("premise ") or reason.kind is Kind.PREMISES
 
@@ -249,7 +250,7 @@ def test_joined_statements_fail_without_what_joins_them(
     text, name = edited(whole, kind, old, new), named(whole, joined)
     found = searched(text)
     assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, {**found, name: searched(whole)[name]})[name]
+    outcome, reason = checked(up_to(text, name), {**found, name: searched(whole)[name]})[name]
     assert outcome == "rejected" and reason is not None
     assert reason.place == f"premise {premise} of {name}"
 
