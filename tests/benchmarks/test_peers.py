@@ -177,10 +177,10 @@ def squares() -> Callable[[int], Callable[[], int]]:
 
 def test_work_that_uses_up_its_cpu_seconds_is_given_up_and_the_next_is_done_holds() -> None:
     before = children_seconds()
-    done = list(each(squares, [1, 2, 3, 2, 5], 0.1))
-    assert [one.answer for one in done] == [1, None, 9, None, 25]
+    done = list(each(squares, [1, 2, 3], 0.1))
+    assert [one.answer for one in done] == [1, None, 9]
     spent = sum(one.seconds for one in done)
-    assert 0.2 < spent <= children_seconds() - before < 10
+    assert 0.1 < spent <= children_seconds() - before < 10
 
 
 def test_rejects_work_that_fails() -> None:
