@@ -61,7 +61,7 @@ ELSEWHERE = {
     },
     "pytest --juggleproof": (
         "tests/proofs/test_pytest_plugin.py",
-        'runpytest_subprocess("--juggleproof", "-v", "-s")',
+        'runpytest_inprocess("--juggleproof", "-v", "-s")',
     ),
     "pytest --juggleproof juggleproof::eq-37": (
         "tests/proofs/test_pytest_plugin.py",
@@ -101,7 +101,7 @@ ELSEWHERE = {
     "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
     "python -m juggleproof.benchmarks.peers": (
         "tests/benchmarks/test_peers.py",
-        'peers.main(["--share", "400"',
+        'peers.main(["--share", ',
     ),
 }
 NEEDS = {
