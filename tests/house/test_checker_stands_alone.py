@@ -84,7 +84,7 @@ def trespasses(tree: ast.Module) -> list[str]:
         if isinstance(node, ast.ClassDef):  # a meter of one's own would count as one pleases
             meters = {"Work", *(f"{module}.Work" for module in modules)}
             found += [node.name for base in node.bases if ast.unparse(base) in meters]
-        for target in targets(node):
+        for target in targets(node) if isinstance(node, (ast.Attribute, ast.Call)) else ():
             owner = ast.unparse(target.value)
             metered = target.attr in METER and owner != "self"
             if metered or owner.split(".")[0] in modules:
