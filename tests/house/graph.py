@@ -52,6 +52,9 @@ def loaded_by_name(path: Path) -> Iterator[str]:
     """What `import_module` may load: its literal, or a beginning with each string of the file after
     it, up to a colon (as in "module:function"); and the files of a lazy package.
     """
+    text = path.read_text(encoding="utf-8")
+    if "import_module" not in text and "lazy_names" not in text:
+        return
     tree = tree_of(path)
     package = module_of(path.with_name("__init__.py"))
     words = {
