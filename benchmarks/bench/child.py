@@ -19,7 +19,7 @@ from juggleproof.benchmarks.processes import GRACE, allow, cpu_seconds
 
 # more than so many repeats only while they take less than so many seconds: answers of a millisecond
 # vary most
-REPEATS, LONG = 3, 0.3
+REPEATS, LONG = 3, 0.1
 
 
 class Over(BaseException):

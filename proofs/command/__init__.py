@@ -10,6 +10,7 @@ explain           `explain ID`
 theorem           `explain theorem`: the paper's bounds, and one state with its orbit
 bound             `bound` and `bench`
 report            `report`
+formats           what it writes in each format
 simulate_options  what `simulate` takes
 simulate          `simulate juggler`
 orbit_tables      the tables that it prints

@@ -6,25 +6,25 @@ import argparse
 import json
 import textwrap
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 
-from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.language import ClaimError, origins_in
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs import paper
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.outputs import busy
-from juggleproof.proofs.command.theorem import explain_bounds, explain_state
 from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.orbit_rules import RULES, conclusion
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.reports.errata import counterexample, words_of
 from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
 from juggleproof.proofs.run import claims_of_files, judge_some, lemmas, store_of
 
+THEOREM = "juggleproof.proofs.command.theorem"  # loads SymPy, which few explanations need
 WIDTH = 96  # of what a rule concludes
 OF_THEOREM = (
     "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
@@ -50,13 +50,13 @@ def command(parsed: argparse.Namespace) -> int:
     if parsed.bounds:
         if len(of_theorem) > 1 or parsed.premises or parsed.lines:
             raise ClaimError("--bounds stands alone; it has its own alphas and states")
-        return explain_bounds()
+        return int(import_module(THEOREM).explain_bounds())
     if of_theorem:
         if len(of_theorem) < 2 or parsed.premises or parsed.lines:
             raise ClaimError(
                 "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
             )
-        return explain_state(parsed.alpha, parsed.state)
+        return int(import_module(THEOREM).explain_state(parsed.alpha, parsed.state))
     return explain(parsed.id, parsed.files, parsed.premises, parsed.lines)
 
 
@@ -70,7 +70,8 @@ def explain(
     certificates or counterexamples, sharp range, verdict; the tree of its rules.  Its place is one
     of the transcription where lines are asked for.  Raises ClaimError for an unknown name.
     """
-    claims = {claim.id: claim for claim in (claims_of_files(files) if files else paper_claims())}
+    found = claims_of_files(files) if files else paper.paper_claims()
+    claims = {claim.id: claim for claim in found}
     claim = claims[claim_named(claim_id, claims)]
     store = store_of(files) if files else DEFAULT
     with busy(f"judging {claim.id}"):
@@ -79,7 +80,8 @@ def explain(
     print(f"{claim.id}   {claim.where if files else place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for one in derivations_of(statements_of(claim, judgement.correction)):
+    stated = statements_of(claim, judgement.correction)
+    for one in paper.derivations_of(stated) if [*origins_in(stated)] else ():
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(claim.body())}")
     used = lemmas([*claims.values()], [claim])

@@ -9,7 +9,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
-from importlib import import_module, metadata
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -51,6 +51,7 @@ class _Version(argparse.Action):
     """Prints name and version, as installed."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        metadata = import_module("importlib.metadata")  # some hundredths of a second
         try:
             print("juggleproof", metadata.version("juggleproof"))
         except metadata.PackageNotFoundError:

@@ -19,12 +19,32 @@ a1_a2_energy          the energy that impacts sustain, and its greatest change
 a3_a4_supremum        the least loss outside R, and the count of impacts
 b_summary             the summary of appendix B
 inclusions            the inclusions of regions that section 4 rests on
+
+What derives the paper's terms loads SymPy; of this package it is loaded when first used, so that
+claims of one's own are judged without.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from juggleproof.proofs import part, theorem
 from juggleproof.proofs.claims import Claim, claims_in
+from juggleproof.symbolic.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from juggleproof.proofs.paper.derivations import behind as behind
+    from juggleproof.proofs.paper.derivations import derivations_of as derivations_of
+    from juggleproof.proofs.paper.derivations import derived as derived
+    from juggleproof.proofs.paper.derivations import derived_vector as derived_vector
+    from juggleproof.proofs.paper.names import collide as collide
+    from juggleproof.proofs.paper.names import definitions as definitions
+else:
+    LAZY = {  # the same once more, for whoever runs
+        ".derivations": "behind derivations_of derived derived_vector",
+        ".names": "collide definitions",
+    }
+    _, __getattr__, __dir__ = lazy_names(__name__, LAZY)
 
 SECTIONS = (
     "s0_s2_1_setting",

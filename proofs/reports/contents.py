@@ -9,17 +9,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
+from juggleproof.proofs import paper
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.judgement import Correction, Judgement, statements_of
 from juggleproof.proofs.judging import settle_by_rules
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
 from juggleproof.proofs.register import (
     PATH,
     Change,
@@ -33,6 +33,9 @@ from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
 from juggleproof.proofs.run import Options, Run, judge_some, judge_stored
 from juggleproof.proofs.theorem import THEOREM
+
+if TYPE_CHECKING:
+    from juggleproof.proofs.paper.derivations import Derivation
 
 # -------------------------------------------------------------------------------------------------
 # All that reports show, gathered once: claims with verdicts, derivations and statements; the
@@ -157,7 +160,7 @@ def gather(register: Path = PATH) -> Contents:
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
     before = load_register(register)
-    done = judge_stored(paper_claims(), Options(DEFAULT))
+    done = judge_stored(paper.paper_claims(), Options(DEFAULT))
     settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, done.claims)
     return contents_of(done, before)
 
@@ -168,7 +171,7 @@ def contents_of(done: Run, before: Register) -> Contents:
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = _judged(done.claims, judgements)
     entries = _entries(done.claims, judgements, by_id, store)
-    derived = {one.function: one for entry in entries for one in behind(entry.steps)}
+    derived = {one.function: one for entry in entries for one in paper.behind(entry.steps)}
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
         entries,
@@ -189,7 +192,7 @@ def entries_of(claims: Sequence[Claim]) -> tuple[Entry, ...]:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    judgements = judge_some(claims, paper_claims(), DEFAULT)
+    judgements = judge_some(claims, paper.paper_claims(), DEFAULT)
     by_id = {**load_register(), **_judged(claims, judgements)}
     return _entries(claims, judgements, by_id, Store(DEFAULT))
 
@@ -203,7 +206,7 @@ def _entries(
 ) -> tuple[Entry, ...]:
     entries = list[Entry]()
     for claim, judgement in zip(claims, judgements):
-        steps = derivations_of(statements_of(claim, judgement.correction))
+        steps = paper.derivations_of(statements_of(claim, judgement.correction))
         reading = reading_of(claim.body())
         entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading))
     return tuple(entries)
@@ -214,7 +217,7 @@ def errata_text() -> str:
 
     Raises ClaimError, one line, where no verdict is registered yet.
     """
-    register, claims = {**load_register()}, paper_claims()
+    register, claims = {**load_register()}, paper.paper_claims()
     if not register:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"

@@ -122,9 +122,10 @@ def _broken_steps(details: frozenset[tuple[str, str]]) -> frozenset[str]:
     """The refuted steps of arguments whose conclusion stands by rules of the theorem, as texts
     without their names.
     """
-    by_id, found = dict(details), set[str]()
-    for claim in paper_claims():
-        body = claim.body() if by_id.get(claim.id, "").startswith("step ") else None
+    by_id = {name: detail for name, detail in details if detail.startswith("step ")}
+    found = set[str]()
+    for claim in paper_claims() if by_id else ():  # else a false claim of one's own loads the paper
+        body = claim.body() if claim.id in by_id else None
         if isinstance(body, Argument) and body.rests_on:
             steps = by_id[claim.id].removeprefix("step ").partition(" is false")[0].split(", ")
             for name, text in stated_texts(claim).items():

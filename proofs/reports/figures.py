@@ -5,6 +5,7 @@ the trap with what they show.
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from sympy import Expr, Rational, Symbol
@@ -13,12 +14,16 @@ from juggleproof.certificates.language import ClaimError, Formula, Term
 from juggleproof.proofs import kept as cache
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.contents import Contents, gather
-from juggleproof.proofs.reports.words import rows, without_alpha
+from juggleproof.proofs.reports.contents import Entry as Judged
+from juggleproof.proofs.reports.results import NO_RANGE
+from juggleproof.proofs.reports.words import read
 from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 from juggleproof.scenes.figures import TABLE, Entry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from juggleproof.scenes.figures.ours import Row
 
 FORMS = ("svg", "pdf")
 
@@ -44,6 +49,23 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
         "fig-trap": what_the_trap_shows,
     }
     return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+
+
+def rows(entries: Iterable[Judged]) -> list[Row]:
+    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
+    them.
+    """
+    return [
+        (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
+        for entry in entries
+        if entry.sharp != NO_RANGE
+        for label, intervals in read(entry.sharp)
+    ]
+
+
+def without_alpha(entries: Iterable[Judged]) -> int:
+    """The number of claims in which alpha does not occur."""
+    return sum(entry.sharp == NO_RANGE for entry in entries)
 
 
 def labels(one: Entry) -> tuple[str, str, str, str]:

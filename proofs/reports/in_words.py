@@ -26,9 +26,8 @@ from juggleproof.certificates.formulas import (
     substitute,
     term,
 )
+from juggleproof.proofs import paper
 from juggleproof.proofs.evaluating import Point, is_true_at, value_at
-from juggleproof.proofs.paper.derivations import derived, derived_vector
-from juggleproof.proofs.paper.names import collide, definitions
 from juggleproof.proofs.reading.values import Vector
 
 STATES = {"b": ("beta", "v"), "b_0": ("beta0", "v0"), "the start": ("y", "u")}
@@ -116,18 +115,18 @@ MAPS = {  # each with the region where it is the next state
 @cache
 def named_terms() -> tuple[Definition, ...]:
     """The definitions of the statement file that are terms, and more derived terms with a noun."""
-    v, at_e_1 = real("v"), derived_vector("e_1").component(2)
-    relative = derived("relative_kinetic_energy")
+    v, at_e_1 = real("v"), paper.derived_vector("e_1").component(2)
+    relative = paper.derived("relative_kinetic_energy")
     own, of_e_1, apart = (substitute(relative, {"z2": one}) for one in (v, at_e_1, v - at_e_1))
-    change = derived("relative_kinetic_energy_change")
-    after = collide(Vector((0, real("u"))))(Vector((0, v))).component(2)
+    change = paper.derived("relative_kinetic_energy_change")
+    after = paper.collide(Vector((0, real("u"))))(Vector((0, v))).component(2)
     return (
         Definition("distance_of_kinetic_energies", ("v",), (own - of_e_1) ** 2),
         Definition("relative_kinetic_energy", ("v",), apart),
         Definition("relative_kinetic_energy_change", (), change),
-        Definition("collision_time", ("beta", "v"), derived("collision_time")),
+        Definition("collision_time", ("beta", "v"), paper.derived("collision_time")),
         Definition("velocity_after_impact", ("v", "u"), term(after)),
-        *(one for one in definitions() if not isinstance(one.body, Formula)),
+        *(one for one in paper.definitions() if not isinstance(one.body, Formula)),
     )
 
 
@@ -142,13 +141,6 @@ class Named(NamedTuple):
     def whole(self) -> str:
         """The name where another one stands beside it."""
         return " ".join(part for part in self if part)
-
-
-def call_of(part: Term) -> ast.Call | ast.Name | None:
-    """The variable that this is, or the named term with its arguments; None of anything else."""
-    named = instance(part, named_terms())
-    tree = ast.parse(str(named), mode="eval").body if named.op in ("call", "var") else None
-    return tree if isinstance(tree, (ast.Call, ast.Name)) else None
 
 
 def name_of(node: ast.expr | None) -> str:
@@ -180,6 +172,7 @@ class Failure:
     premises: tuple[Formula, ...]
     goals: tuple[Formula, ...]
     nouns: Mapping[str, str]  # empty where the statement is not about ball and table
+    terms: Sequence[Definition]  # that have a name; none there either
 
     @cached_property
     def states(self) -> dict[str, tuple[Fraction, Fraction]]:
@@ -190,11 +183,19 @@ class Failure:
             if self.nouns and {height, speed} <= {*self.point}
         }
 
+    def call_of(self, part: Term) -> ast.Call | ast.Name | None:
+        """The variable that this is, or the named term with its arguments; None of anything
+        else.
+        """
+        named = instance(part, self.terms)
+        tree = ast.parse(str(named), mode="eval").body if named.op in ("call", "var") else None
+        return tree if isinstance(tree, (ast.Call, ast.Name)) else None
+
     @cached_property
     def mentioned(self) -> set[str]:
         """The variables and named terms that the statement mentions."""
         formulas = (*self.premises, *self.goals)
-        return {name_of(call_of(part)) for one in formulas for part in terms_in(one)}
+        return {name_of(self.call_of(part)) for one in formulas for part in terms_in(one)}
 
     @cached_property
     def times(self) -> dict[str, Named]:
@@ -203,7 +204,7 @@ class Failure:
         if not self.nouns:
             return known
         for atom in (one for premise in self.premises for one in parts_of(premise)):
-            node, other = map(call_of, atom.sides) if atom.op == "=" else (None, None)
+            node, other = map(self.call_of, atom.sides) if atom.op == "=" else (None, None)
             if not isinstance(node, ast.Call) or name_of(node) != "F_beta":
                 continue
             time, body = name_of(node.args[-1]), self.body(node.args[:-1])
@@ -243,7 +244,7 @@ class Failure:
             text = f"{ball} is at height {height}, {motion if speed else 'at rest'}"
             if "region_margin" in self.mentioned:
                 own = dict(zip(("beta", "v"), map(real, STATES[letter])))
-                margin = self.value(substitute(derived("region_margin"), own))
+                margin = self.value(substitute(paper.derived("region_margin"), own))
                 text += f", {'in' if height >= 0 and margin >= 0 else 'outside'} R"
             if self.mentioned & {"collision_margin", "collision_time"} and height >= 0:
                 text += f", and {meeting(height, speed, self.point['r'], self.point['g'])}"
@@ -298,7 +299,7 @@ class Failure:
             )
         ]
         values = [self.value(left), self.value(right)]
-        node = call_of(left)
+        node = self.call_of(left)
         collides = (name_of(node), str(right)) == ("collision_margin", "0")
         if self.nouns and isinstance(node, ast.Call) and collides:
             return self.impact(node.args, values[0])
@@ -340,7 +341,7 @@ class Failure:
         """What a term is called: by its noun, by what the premises say of it, else by the name that
         is given, or by its formula where that is short.
         """
-        node = call_of(part)
+        node = self.call_of(part)
         name = name_of(node)
         if name in self.times:
             return self.times[name]
@@ -390,7 +391,7 @@ class Failure:
     def is_mapped(self, branch: str, letter: str) -> bool:
         """Whether f maps this state by f1, or by f2: whether it lies in B1, or in B2."""
         height, speed = self.states[letter]
-        region = {one.name: one.body for one in definitions()}[MAPS[branch]]
+        region = {one.name: one.body for one in paper.definitions()}[MAPS[branch]]
         return is_true_at(str(region), {**self.point, "beta": height, "v": speed}) is True
 
     def flown(self, args: Sequence[ast.expr]) -> str:
@@ -440,7 +441,8 @@ def in_words(text: str, point: Point, of_paper: bool = True) -> str:
         tuple(formula_of(checker.parse(one)) for word, one in lines if word == keyword)
         for keyword in ("given", "show")
     )
-    failure = Failure(lines[0][1], point, premises, goals, NOUNS if of_paper else {})
+    nouns, terms = (NOUNS, named_terms()) if of_paper else ({}, ())
+    failure = Failure(lines[0][1], point, premises, goals, nouns, terms)
     chosen = next((one for word, one in lines if word == "exists"), "")
     for letter, pair in STATES.items() if of_paper else ():  # a state that is chosen, by its letter
         chosen = chosen.replace(" ".join(pair), letter)

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.ledger.places import place_of
-from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import FIRST, GROUPS
@@ -24,6 +23,8 @@ from juggleproof.proofs.reports.words import parts_of
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+    from juggleproof.proofs.paper.derivations import Derivation
 
 # -------------------------------------------------------------------------------------------------
 # The LaTeX report: fragments that an author can input, and documents that hold them all, from

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import starmap
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
@@ -13,13 +14,15 @@ from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.ledger.remarks import NAMES, PROSE, meanings, names_of
-from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reading.tree import Operator, Tree, spelled
 from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.errata import WRONG, is_latex
 from juggleproof.proofs.reports.latex import NOTATION, latex_of, narrow, with_macros
 from juggleproof.proofs.reports.words import SIGN, pieces
+
+if TYPE_CHECKING:
+    from juggleproof.proofs.paper.derivations import Derivation
 
 SPECIAL = {
     "\\": r"\textbackslash{}",

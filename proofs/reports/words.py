@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING
@@ -299,33 +299,14 @@ def _numeral(word: str) -> str:
 # Sharp ranges of alpha, read from their text into intervals that can be drawn.
 
 if TYPE_CHECKING:
-    from juggleproof.proofs.reports.contents import Entry
-    from juggleproof.scenes.figures.ours import Interval, Row
+    from juggleproof.scenes.figures.ours import Interval
 
-WITHOUT_ALPHA = "no alpha"
 NUMBERS_SHOWN = (2, 3)  # what is put for K or n, where the range depends on one
 _READING = re.compile(r"([A-Za-z][\w-]*): (.*)", re.DOTALL)
 _END = re.compile(r"(c\d+) = (-?\d+\.\d+)\.\.\., a root of .*", re.DOTALL)
 _POINT = re.compile(r"alpha = (.+)")
 _BETWEEN = re.compile(r"(.+?) (<=?) alpha (<=?) (.+)")
 _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
-
-
-def rows(entries: Iterable[Entry]) -> list[Row]:
-    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
-    them.
-    """
-    return [
-        (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
-        for entry in entries
-        if entry.sharp != WITHOUT_ALPHA
-        for label, intervals in read(entry.sharp)
-    ]
-
-
-def without_alpha(entries: Iterable[Entry]) -> int:
-    """The number of claims in which alpha does not occur."""
-    return sum(entry.sharp == WITHOUT_ALPHA for entry in entries)
 
 
 def read(text: str) -> list[tuple[str, list[Interval] | None]]:

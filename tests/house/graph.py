@@ -42,10 +42,19 @@ def names_in(tree: ast.AST) -> Iterator[str]:
             yield from (f"{begin}.{alias.name}" for alias in node.names)
 
 
+@cache
+def names_of(path: Path) -> tuple[str, ...]:
+    """What the import statements of a file name."""
+    return tuple(names_in(tree_of(path)))
+
+
 def loaded_by_name(path: Path) -> Iterator[str]:
     """What `import_module` may load: its literal, or a beginning with each string of the file after
     it, up to a colon (as in "module:function"); and the files of a lazy package.
     """
+    text = path.read_text(encoding="utf-8")
+    if "import_module" not in text and "lazy_names" not in text:
+        return
     tree = tree_of(path)
     package = module_of(path.with_name("__init__.py"))
     words = {
@@ -88,7 +97,7 @@ def graph() -> Graph:
     found = {}
     for module, path in paths.items():
         here = module_of(path.with_name("__init__.py"))
-        absolute = (here + name if name[0] == "." else name for name in names_in(tree_of(path)))
+        absolute = (here + name if name[0] == "." else name for name in names_of(path))
         named = {*absolute, *loaded_by_name(path)}
         ends = {name if name in paths else name.rpartition(".")[0] for name in named}
         found[module] = frozenset((ends & set(paths)) - {module})

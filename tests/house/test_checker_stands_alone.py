@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 import doctest
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,7 @@ def others() -> list[Path]:
     ]
 
 
+@cache
 def with_examples(tree: ast.Module) -> list[ast.AST]:
     """The nodes of a file and of the examples in its docstrings."""
     texts = [
@@ -47,13 +49,18 @@ def with_examples(tree: ast.Module) -> list[ast.AST]:
     return [node for each in trees for node in ast.walk(each)]
 
 
+def names_one(node: ast.AST, names: Set[str]) -> bool:
+    """Whether the node is one of these names, and no more."""
+    return isinstance(node, ast.Name) and node.id in names
+
+
 def targets(node: ast.AST) -> Iterator[ast.Attribute]:
     """The attributes that a statement, or a call of `setattr`, assigns to or deletes.  Not those
     that pytest puts back: a test may put a double in place of a function that others call.
     """
     if isinstance(node, ast.Attribute) and isinstance(node.ctx, (ast.Store, ast.Del)):
         yield node
-    if isinstance(node, ast.Call) and ast.unparse(node.func) == "setattr":
+    if isinstance(node, ast.Call) and names_one(node.func, {"setattr"}):
         object_, *names = node.args
         name = names[0].value if names and isinstance(names[0], ast.Constant) else ""
         yield ast.Attribute(object_, str(name), ast.Store())
@@ -72,12 +79,12 @@ def trespasses(tree: ast.Module) -> list[str]:
             allowed = public if node.module == WHOLE else set()
             found += [f"{node.module}.{one.name}" for one in node.names if one.name not in allowed]
     for node in nodes:
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) in modules:
+        if isinstance(node, ast.Attribute) and names_one(node.value, modules):
             found += [] if node.attr in public else [ast.unparse(node)]
         if isinstance(node, ast.ClassDef):  # a meter of one's own would count as one pleases
             meters = {"Work", *(f"{module}.Work" for module in modules)}
             found += [node.name for base in node.bases if ast.unparse(base) in meters]
-        for target in targets(node):
+        for target in targets(node) if isinstance(node, (ast.Attribute, ast.Call)) else ():
             owner = ast.unparse(target.value)
             metered = target.attr in METER and owner != "self"
             if metered or owner.split(".")[0] in modules:
@@ -100,7 +107,9 @@ def parts_used(tree: ast.Module) -> set[str]:
     return {
         node.attr
         for node in with_examples(tree)
-        if isinstance(node, ast.Attribute) and ast.unparse(node) in {f"checker.{x}" for x in PARTS}
+        if isinstance(node, ast.Attribute)
+        and node.attr in PARTS
+        and names_one(node.value, {"checker"})
     }
 
 

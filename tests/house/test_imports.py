@@ -19,8 +19,7 @@ from tests.house.graph import (
     graph,
     imports_inside_functions,
     longest_chain,
-    names_in,
-    tree_of,
+    names_of,
 )
 
 MAY_IMPORT = {
@@ -92,7 +91,7 @@ def imported(path: Path) -> set[str]:
     """What a file imports, also inside functions: our modules in full, others by their first
     name.
     """
-    names = {name for name in names_in(tree_of(path)) if not name.startswith(".")}
+    names = {name for name in names_of(path) if not name.startswith(".")}
     return {name if name.split(".")[0] == NAME else name.split(".")[0] for name in names}
 
 

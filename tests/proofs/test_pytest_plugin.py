@@ -8,11 +8,16 @@ import json
 import subprocess
 import sys
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
+from juggleproof.proofs import pytest_items
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
+from juggleproof.proofs.run import Options, Run, run
 from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, file_with
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,6 +32,14 @@ def inner(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     monkeypatch.delenv("PYTEST_ADDOPTS", raising=False)
     return pytester
+
+
+@pytest.fixture(scope="module")
+def paper() -> list[Claim]:
+    """The claims of the paper, loaded before a pytest inside this one would load them for itself
+    and forget them: a claim is loaded once in a process.
+    """
+    return paper_claims()
 
 
 def lines(result: Result) -> list[str]:
@@ -147,10 +160,12 @@ def test_rejects_name_of_no_claim(inner: pytest.Pytester) -> None:
     )
 
 
-def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester) -> None:
+def test_rejects_claim_of_a_file_with_a_name_of_the_paper(
+    inner: pytest.Pytester, paper: list[Claim]
+) -> None:
     path = file_with(inner.path, HOLDS)
     path.write_text(path.read_text(encoding="utf-8").replace("squares", "eq-1"), encoding="utf-8")
-    result = inner.runpytest_subprocess(  # in this process the paper's claims would load twice
+    result = inner.runpytest_inprocess(
         "--juggleproof", "--juggleproof-claims", "mine.py", "juggleproof::eq-1"
     )
     assert result.ret != 0 and any(
@@ -158,37 +173,24 @@ def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester
     )
 
 
-COUNTING = """
-from juggleproof.proofs import register
-from pathlib import Path
-
-register.PATH = Path(__file__).with_name("register.json")
-from juggleproof.proofs import pytest_items
-judged, run = [], pytest_items.run
-
-def counted(*arguments):
-    judged.append(arguments)
-    return run(*arguments)
-
-pytest_items.run = counted
-
-def pytest_sessionfinish():
-    print(f"judged {len(judged)} times")
-"""
-
-
 def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
-    inner: pytest.Pytester,
+    inner: pytest.Pytester, paper: list[Claim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    register = load_register()
+    register, judged = {**load_register()}, list[Options]()
     count = len(register)
+
+    def counted(claims: Sequence[Claim], options: Options) -> Run:
+        judged.append(options)
+        return run(claims, options)
+
+    monkeypatch.setattr(pytest_items, "run", counted)
+    monkeypatch.setattr(pytest_items, "PATH", inner.path / "register.json")
     register["eq-2"], register["vanished"] = {"verdict": "holds"}, {"verdict": "gap"}
     (inner.path / "register.json").write_text(json.dumps(register), encoding="utf-8")
-    inner.makeconftest(COUNTING)
     store = {
         path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
     }
-    result = inner.runpytest_subprocess("--juggleproof", "-v", "-s")
+    result = inner.runpytest_inprocess("--juggleproof", "-v", "-s")
     result.assert_outcomes(passed=count - 1, failed=2)
     result.stdout.fnmatch_lines(
         [
@@ -203,14 +205,16 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
             "the claim is gone from the sources",
         ]
     )
-    assert result.stdout.str().count("judged 1 times") == 1
+    assert len(judged) == 1
     assert {
         path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
     } == store
 
 
-def test_a_node_id_selects_a_claim_of_the_paper_holds(inner: pytest.Pytester) -> None:
-    result = inner.runpytest_subprocess("--juggleproof", "juggleproof::eq-37", "--collect-only")
+def test_a_node_id_selects_a_claim_of_the_paper_holds(
+    inner: pytest.Pytester, paper: list[Claim]
+) -> None:
+    result = inner.runpytest_inprocess("--juggleproof", "juggleproof::eq-37", "--collect-only")
     assert result.ret == 0 and "collected 1 item" in result.stdout.str()
     assert "<ClaimItem eq-37>" in result.stdout.str()
 

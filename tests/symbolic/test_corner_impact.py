@@ -16,7 +16,7 @@ from sympy import Expr, S, lambdify
 
 import juggleproof.symbolic as s
 
-COUNT = 3000
+COUNT = 1500
 NAMES = (s.B1, s.B2, s.B3, s.S0, s.C0, s.e, s.mu, s.sigma, s.P_y)
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs import extras
-from juggleproof.proofs.command import report
+from juggleproof.proofs.command import formats, report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import page
 from juggleproof.proofs.reports.contents import Contents
@@ -73,7 +73,7 @@ def test_missing_library_is_named_and_nothing_written_holds(
         raise ImportError(name)
 
     monkeypatch.setattr(report, "gather", contents)
-    monkeypatch.setattr(report, "pictures", lambda contents: ())
+    monkeypatch.setattr(formats, "pictures", lambda contents: ())
     monkeypatch.setattr(extras, "import_module", absent)
     assert "jinja2 is needed for this report" in fault(
         capsys, "--format", "html", "-o", str(tmp_path / "there")
@@ -85,7 +85,7 @@ def test_figures_are_left_out_where_matplotlib_is_absent_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
-    monkeypatch.setattr(report.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(formats.importlib.util, "find_spec", lambda name: None)
     assert run(["report", "--format", "html", "-o", str(tmp_path)]) == 0
     assert "figures are left out" in capsys.readouterr().err
     page = (tmp_path / "juggleproof.html").read_text(encoding="utf-8")

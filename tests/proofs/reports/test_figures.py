@@ -14,7 +14,8 @@ import pytest
 
 from juggleproof.certificates.language import ClaimError, equal, reals
 from juggleproof.proofs.reports import figures
-from juggleproof.proofs.reports.words import read, rows, without_alpha
+from juggleproof.proofs.reports.figures import rows, without_alpha
+from juggleproof.proofs.reports.words import read
 
 if TYPE_CHECKING:
     from juggleproof.scenes.figures.ours import Interval

@@ -1,0 +1,109 @@
+"""What `juggleproof report` writes in each format."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import clear
+from juggleproof.proofs.reports.ci import badge, markdown
+from juggleproof.proofs.reports.contents import Contents, as_json
+from juggleproof.proofs.reports.figures import saved
+from juggleproof.proofs.reports.page import FILE, build, pictures
+from juggleproof.proofs.reports.part import kept_results
+from juggleproof.proofs.reports.tex import compiled, files
+from juggleproof.scenes.figures import TABLE
+
+Files = Mapping[str, bytes]
+
+
+def write_all(files: Files, place: Path) -> None:
+    """Writes the files, each aside and renamed, and prints their paths."""
+    clear()
+    for name, content in files.items():
+        write_file(place / name, content)
+        print(place / name)
+
+
+def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return {FILE: build(contents, pictures(contents) if _can_draw() else (), kept_results())}, []
+
+
+def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return (
+        files(
+            contents,
+            [
+                (
+                    one.slug,
+                    f"Figure {one.number}. {one.title}" if one.number else one.title,
+                    one.caption,
+                )
+                for one in TABLE
+            ],
+        ),
+        [],
+    )
+
+
+def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    sources = {**_latex(contents, place)[0], **_figures(contents)}
+    write_all(sources, place)  # the sources stand, whatever becomes of the PDF
+    made, faults = dict[str, bytes](), list[str]()
+    for document in ("juggleproof", "juggleproof-twocolumn"):
+        made[f"{document}.pdf"], complaints = compiled(sources, document)
+        faults += [f"{document}.tex: {one}" for one in complaints]
+    return made, faults
+
+
+def _markdown(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return {"juggleproof.md": markdown(contents).encode()}, []
+
+
+def _json(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return {"juggleproof.json": as_json(contents)}, []
+
+
+def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return {"juggleproof-badge.json": badge(contents)}, []
+
+
+def _figures(contents: Contents) -> dict[str, bytes]:
+    """The figures as PDF; none, with a line on standard error, where matplotlib is absent."""
+    if not _can_draw():
+        return {}
+    return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}
+
+
+def _can_draw() -> bool:
+    """Whether matplotlib is there; says so where it is not."""
+    if importlib.util.find_spec("matplotlib") is not None:
+        return True
+    print(
+        "juggleproof: matplotlib is absent, so figures are left out; pip install matplotlib"
+        " brings it",
+        file=sys.stderr,
+    )
+    return False
+
+
+def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    return {
+        f"figures/{slug}.{form}": content
+        for form in ("svg", "pdf")
+        for slug, *_, content in saved(contents, form)
+    }, []
+
+
+FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {
+    "html": _html,
+    "latex": _latex,
+    "pdf": _pdf,
+    "markdown": _markdown,
+    "json": _json,
+    "badge": _badge,
+    "figures": _drawings,
+}
