@@ -144,6 +144,7 @@ class Named(NamedTuple):
         return " ".join(part for part in self if part)
 
 
+@cache
 def call_of(part: Term) -> ast.Call | ast.Name | None:
     """The variable that this is, or the named term with its arguments; None of anything else."""
     named = instance(part, named_terms())

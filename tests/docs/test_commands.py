@@ -67,7 +67,7 @@ ELSEWHERE = {
         '"-I", "-S", "certificates/checker"',
     ),
     "juggleproof certify --json F --junit G --markdown H": (
-        "tests/proofs/test_register.py",
+        "tests/proofs/reports/test_register.py",
         'for option in ("json", "junit", "markdown")',
     ),
     "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
@@ -75,8 +75,14 @@ ELSEWHERE = {
         '"--question",',
     ),
     "juggleproof bench --quick": ("tests/docs/test_commands.py", '"juggleproof bench": "--quick'),
-    "juggleproof certify --only eq-36": ("tests/proofs/test_register.py", 'command("--only", '),
-    "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
+    "juggleproof certify --only eq-36": (
+        "tests/proofs/reports/test_register.py",
+        'command("--only", ',
+    ),
+    "juggleproof certify --only eq-36 --accept": (
+        "tests/proofs/reports/test_register.py",
+        "--accept",
+    ),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
         "tests/certificates/checker/test_mutants.py",
         "found = dict(judge_all(",

@@ -24,6 +24,7 @@ from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.reports.results import summary
 from juggleproof.proofs.run import FINDINGS, Options, Run, run
 from tests.certificates.checker.maps import SUBTRACT, searched
+from tests.proofs.stores import part_of_store
 
 BOUND, RANGED = "eq-37/bound", "eq-21"
 FALSE_PROOF = {"certified": ["proof", [], ["close"]], "point": [BOUND, [], {}, ["close"]]}
@@ -34,8 +35,8 @@ Json = Any
 @pytest.fixture(scope="module")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What is stored of two claims."""
-    folder = tmp_path_factory.mktemp("small") / "store"
-    shutil.copytree(DEFAULT, folder)
+    kept = {claim.id for claim in CLAIMS}
+    folder = part_of_store(tmp_path_factory.mktemp("small") / "store", kept.__contains__)
     run(CLAIMS, Options(folder, jobs=1))
     return folder
 

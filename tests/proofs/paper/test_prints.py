@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cache
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -21,29 +23,31 @@ from juggleproof.proofs.reading.meaning import read
 # are written.
 
 
-def content(claim: Claim, latex: str) -> list[Any]:
-    """What would be judged if the claim's print were this LaTeX; equal lists mean the same
-    statements.
+def content(claim: Claim, latex: str) -> Iterator[Any]:
+    """What would be judged if the claim's print were this LaTeX, part by part; equal parts mean the
+    same statements.
 
     Raises ClaimError where the print is refused and checker.Rejected where the statement is.
     """
     body = claim.body(read(latex))
-    found: list[Any] = [type(body).__name__, getattr(body, "proved_by", "")]
+    yield type(body).__name__, getattr(body, "proved_by", "")
     for prefix, assertion in assertions(body):
         for part in named_statements(claim.id, prefix, assertion):
-            statement = checker.read_statements(part.text())[part.name]
             if isinstance(part, Statement):
-                story = checker.Unfolding(statement, checker.Context())
-                goals = normal(list(story.goals))
-                said = (
-                    str(part.show) if goals in (("True",), ("False",)) else ""
-                )  # an identity folds to a constant, its relation with it
-                found.append(
-                    (part.name, normal(list(story.premises)), goals, relations(said), part.exists)
-                )
+                yield unfolded(part.name, part.text(), str(part.show)), part.exists
             else:
-                found.append(part.text())
-    return found
+                checker.read_statements(part.text())
+                yield part.text()
+
+
+@cache
+def unfolded(name: str, text: str, show: str) -> tuple[Any, ...]:
+    """The name of a statement and its formulas; most changes leave most statements of a claim."""
+    story = checker.Unfolding(checker.read_statements(text)[name], checker.Context())
+    goals = normal(list(story.goals))
+    # an identity folds to a constant, its relation with it
+    said = show if goals in (("True",), ("False",)) else ""
+    return name, normal(list(story.premises)), goals, relations(said)
 
 
 def relations(text: str) -> list[str]:
@@ -93,10 +97,12 @@ def reviewed() -> set[tuple[str, str]]:
 def unnoticed(claim: Claim) -> list[tuple[str, str]]:
     """The changes of a print that are neither refused nor change what is judged."""
     same = []
-    original = content(claim, claim.printed)
+    unfolded.cache_clear()
+    original = list(content(claim, claim.printed))
     for change, latex in mutations(claim.printed):
         try:
-            if content(claim, latex) == original:
+            pairs = zip_longest(content(claim, latex), original)
+            if all(one == other for one, other in pairs):
                 same.append((change, latex))
         except (ClaimError, checker.Rejected) as refusal:
             assert str(refusal), (claim.id, change)
