@@ -122,9 +122,7 @@ def compare(text: str, latex: str, random: Random, points: int) -> None:
         raise Different(f"values at {compared} points only: {why}")
 
 
-def both(
-    one: Node, other: Node, point: Point, known: dict[int, Fraction]
-) -> tuple[object, object]:
+def both(one: Node, other: Node, point: Point, known: dict[int, Fraction]) -> tuple[object, object]:
     """The two values; a NotRead in the place of one that is not there."""
     found: list[object] = []
     for node in (one, other):

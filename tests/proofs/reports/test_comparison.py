@@ -156,7 +156,7 @@ def test_rejects_a_name_without_a_value() -> None:
 # Whether an edit changes the meaning is SymPy's to say: relations of cancelled differences, whose
 # order in `and` and `or` does not matter.
 
-EVERY = 3  # of the statements, for the edits
+EVERY = 6  # of the statements, for the edits
 EDITS_EACH = 4
 LONGEST = 160
 

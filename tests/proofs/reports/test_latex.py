@@ -382,6 +382,7 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
+    monkeypatch.setattr(report, "saved", lambda contents, form: ())
     monkeypatch.setattr(shutil, "which", lambda name: None)
     assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
     assert (
