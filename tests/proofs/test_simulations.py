@@ -21,7 +21,7 @@ from juggleproof.scenes.part.onsets import table_one
 from juggleproof.scenes.part.setting import Scene, scene
 from tests.proofs.conftest import Loaded
 
-ENSEMBLES = 8  # of the 24 that are kept
+ENSEMBLES = 4  # of the 24 that are kept
 
 
 @pytest.fixture(scope="module")
