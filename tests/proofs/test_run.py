@@ -21,6 +21,7 @@ from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import Options, claims_of_file, run
+from juggleproof.proofs.theorem import THEOREM
 from tests.proofs.stores import part_of_store
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem.
@@ -33,7 +34,7 @@ def claims() -> list[Claim]:
     return [
         one
         for one in paper_claims()
-        if one.id in CHOSEN or one.section in sections or one.id.startswith("theorem")
+        if one.id in CHOSEN or one.section in sections or one.id == THEOREM.partition("/")[0]
     ]
 
 
