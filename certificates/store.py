@@ -110,8 +110,13 @@ class WrittenOut(Mapping[str, str]):
         return len(self.shortened)
 
 
-# Stores of one process that read the same file share what is written out of it.
+# Stores of one process that read the same file share what is written out of it, and what it holds.
 written_out = lru_cache(maxsize=4)(WrittenOut)
+
+
+@lru_cache(maxsize=1)
+def _certificates_of(lines: str) -> Mapping[str, Certificate | None]:
+    return checker.read_certificates(lines)[0]
 
 
 class Store:
@@ -122,7 +127,7 @@ class Store:
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
         self.texts: Mapping[str, str] = {}
-        self._certificates: dict[str, Certificate | None] | None = None
+        self._certificates: Mapping[str, Certificate | None] | None = None
         path = folder / STATEMENTS
         if path.exists():
             self.texts = written_out(checker.load(str(path)))
@@ -136,7 +141,7 @@ class Store:
         if self._certificates is None:
             try:
                 lines = checker.load(str(self.folder / CERTIFICATES))
-                self._certificates, _ = checker.read_certificates(lines)
+                self._certificates = _certificates_of(lines)
             except checker.Rejected:
                 self._certificates = {}
         return self._certificates.get(name)

@@ -29,8 +29,7 @@ def place_of(claim: Claim) -> str:
 
 
 def _counted(claim: Claim) -> str:
-    rows = load_rows()
-    of_claim = [i for i, row in enumerate(rows) if claim.id in row.claims]
+    rows, of_claim = load_rows(), rows_of_claims().get(claim.id, [])
     here = [i for i in of_claim if rows[i].section == claim.section]
     line = int(re.findall(r"\d+", claim.place)[0])
     above = [i for i in here if rows[i].line <= line and rows[i].kind not in FORMULAS]
@@ -44,7 +43,7 @@ def _counted(claim: Claim) -> str:
     while rows[at].kind not in COUNTED:  # an inline formula stands in the sentence before it
         at -= 1
     row = rows[at]
-    before = [i for i in range(at) if rows[i].section == row.section]
+    before = [i for i in rows_of_sections()[row.section] if i < at]
     number, start = "", min(before, default=at)
     for i in before:
         if i in numbers():
@@ -66,6 +65,25 @@ def is_heading(row: Row) -> bool:
 def load_rows() -> tuple[Row, ...]:
     """The rows of the ledger."""
     return tuple(load_ledger())
+
+
+@cache
+def rows_of_claims() -> dict[str, list[int]]:
+    """The rows of each claim."""
+    found: dict[str, list[int]] = {}
+    for i, row in enumerate(load_rows()):
+        for name in dict.fromkeys(row.claims):
+            found.setdefault(name, []).append(i)
+    return found
+
+
+@cache
+def rows_of_sections() -> dict[str, list[int]]:
+    """The rows of each section."""
+    found: dict[str, list[int]] = {}
+    for i, row in enumerate(load_rows()):
+        found.setdefault(row.section, []).append(i)
+    return found
 
 
 @cache

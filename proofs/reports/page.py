@@ -9,8 +9,10 @@ import zlib
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from html import escape
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
@@ -28,6 +30,9 @@ from juggleproof.proofs.reports.opening import PROOF, motion, opening
 from juggleproof.proofs.reports.part import HEADS, Results
 from juggleproof.proofs.reports.tex_words import SYMBOLS
 from juggleproof.scenes.figures.look import inline_svg
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 # -------------------------------------------------------------------------------------------------
 # What the page shows of the contents: words, marks and links for the templates, which hold no logic
@@ -448,14 +453,10 @@ def scene_picture(scene: Results | None) -> list[Picture]:
     return [Picture(slug, title, caption, alt, inline_svg(scene.figure["svg"], slug, title, alt))]
 
 
-def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
-    """The page, the same to the byte for the same contents; `scene` is what the part on the
-    vibrating table did.
-
-    Raises ClaimError, one line, where a formula cannot be shown.
-    """
+@cache
+def _environment() -> Environment:
     jinja2, markupsafe = needed("jinja2"), needed("markupsafe")
-    environment = jinja2.Environment(
+    made: Environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
         trim_blocks=True,
@@ -463,9 +464,19 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
         undefined=jinja2.StrictUndefined,
         auto_reload=False,
     )
-    environment.filters["markup"] = markupsafe.Markup
-    environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
-    environment.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
+    made.filters["markup"] = markupsafe.Markup
+    made.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
+    made.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
+    return made
+
+
+def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
+    """The page, the same to the byte for the same contents; `scene` is what the part on the
+    vibrating table did.
+
+    Raises ClaimError, one line, where a formula cannot be shown.
+    """
+    environment, markupsafe = _environment(), needed("markupsafe")
     macros = environment.get_template("parts.html.j2").module
 
     def drawn_by(macro: str, *arguments: object) -> str:

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -112,6 +113,7 @@ def summary(contents: Contents) -> str:
     )
 
 
+@cache
 def _environment() -> Environment:
     jinja2 = needed("jinja2")
     made: Environment = jinja2.Environment(

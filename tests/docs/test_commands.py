@@ -73,7 +73,7 @@ ELSEWHERE = {
         '"-I", "-S", "certificates/checker"',
     ),
     "juggleproof certify --json F --junit G --markdown H": (
-        "tests/proofs/test_register.py",
+        "tests/proofs/reports/test_register.py",
         'for option in ("json", "junit", "markdown")',
     ),
     "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
@@ -82,7 +82,10 @@ ELSEWHERE = {
     ),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
-    "juggleproof certify --only eq-37": ("tests/proofs/test_register.py", 'command("--only", '),
+    "juggleproof certify --only eq-37": (
+        "tests/proofs/reports/test_register.py",
+        'command("--only", ',
+    ),
     "juggleproof explain theorem --premises": (
         "tests/proofs/theorem/test_quantities.py",
         'run(["explain", "theorem", "--premises"]) == 0',
@@ -91,8 +94,14 @@ ELSEWHERE = {
         "tests/proofs/test_pytest_plugin.py",
         'runpytest_subprocess("--juggleproof-claims", str(path), "-v")',
     ),
-    "juggleproof certify --only eq-36": ("tests/proofs/test_register.py", 'command("--only", '),
-    "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
+    "juggleproof certify --only eq-36": (
+        "tests/proofs/reports/test_register.py",
+        'command("--only", ',
+    ),
+    "juggleproof certify --only eq-36 --accept": (
+        "tests/proofs/reports/test_register.py",
+        "--accept",
+    ),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
         "tests/certificates/checker/test_mutants.py",
         "found = dict(judge_all(",

@@ -18,7 +18,7 @@ from juggleproof.proofs.paper.names import encoded
 from tests.proofs.reading.paper_names import value_at
 
 NAMES = sympy.symbols("x y alpha")
-RATIONALS = st.fractions(min_value=-5, max_value=5, max_denominator=7)
+RATIONALS = st.builds(Fraction, st.integers(-35, 35), st.integers(1, 7))
 
 
 def expressions() -> st.SearchStrategy[sympy.Expr]:

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates.language import real
-from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, certificate_lines
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, certificate_lines
 from juggleproof.proofs.claims import assertions, named_statements
 from juggleproof.proofs.command import explain
 from juggleproof.proofs.command.main import run as command
@@ -24,6 +24,7 @@ from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.reports.results import summary
 from juggleproof.proofs.run import FINDINGS, Options, Run, run
 from tests.certificates.checker.maps import SUBTRACT, searched
+from tests.proofs.stores import part_of_store
 
 BOUND, RANGED = "eq-37/bound", "eq-21"
 FALSE_PROOF = {"certified": ["proof", [], ["close"]], "point": [BOUND, [], {}, ["close"]]}
@@ -34,8 +35,8 @@ Json = Any
 @pytest.fixture(scope="module")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What is stored of two claims."""
-    folder = tmp_path_factory.mktemp("small") / "store"
-    shutil.copytree(DEFAULT, folder)
+    kept = {claim.id for claim in CLAIMS}
+    folder = part_of_store(tmp_path_factory.mktemp("small") / "store", kept.__contains__)
     run(CLAIMS, Options(folder, jobs=1))
     return folder
 
@@ -192,7 +193,9 @@ def test_a_conclusion_does_not_follow_from_another_theorem_of_that_name(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Certified as it is, but under another map."""
-    folder = Path(shutil.copytree(DEFAULT, tmp_path / "store"))
+    folder = part_of_store(
+        tmp_path / "store", lambda claim: claim.startswith(("theorem", "s4.3.1-plain"))
+    )
     monkeypatch.setattr(explain, "DEFAULT", folder)
     assert explain.explain("s4.3.1-plain-english") == 0
     assert "\nverdict     holds; by theorem-in-units/exactly" in capsys.readouterr().out

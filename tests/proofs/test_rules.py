@@ -4,14 +4,14 @@ where a statement that they rest on changes.
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.rules import range_of_rule
-from tests.proofs.command.running import ROOT, Done, run
+from tests.proofs.command.running import Done, run
+from tests.proofs.conftest import Loaded
 
 CLAIMS = """
 from juggleproof.proofs import MapRule, claim
@@ -57,30 +57,9 @@ def test_a_rule_fails_without_its_set(tmp_path: Path) -> None:
     assert done.returncode == 1 and "1 unknown" in done.stdout
 
 
-def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
-    told = [
-        subprocess.run(
-            [
-                sys.executable,
-                "-c",
-                (
-                    f"{before}from juggleproof.proofs.paper import paper_claims\n"
-                    "print(*(one.id for one in"
-                    " paper_claims()))"
-                ),
-            ],
-            check=True,
-            capture_output=True,
-            text=True,
-            cwd=ROOT,
-            timeout=240,
-        ).stdout
-        for before in (
-            "",
-            "import juggleproof.proofs.theorem.orbits, juggleproof.proofs.paper.s4_2_proposition\n",
-        )
-    ]
-    assert told[0] == told[1] and "theorem-roots" in told[0]
+def test_no_claim_is_left_out_where_its_file_was_loaded_before(loaded_anew: Loaded) -> None:
+    assert loaded_anew.claims == [one.id for one in paper_claims()]
+    assert "theorem-roots" in loaded_anew.claims
 
 
 SHARP = {

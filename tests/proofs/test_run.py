@@ -15,12 +15,14 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store, certificate_lines
+from juggleproof.certificates.store import CERTIFICATES, Store, certificate_lines
 from juggleproof.proofs.checked import Reading, shares
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import Options, claims_of_file, run
+from juggleproof.proofs.theorem import THEOREM
+from tests.proofs.stores import part_of_store
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem.
 CHOSEN = ("s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "sA.3.2-sup3", "sB.1-so-that", "eq-26")
@@ -32,15 +34,15 @@ def claims() -> list[Claim]:
     return [
         one
         for one in paper_claims()
-        if one.id in CHOSEN or one.section in sections or one.id.startswith("theorem")
+        if one.id in CHOSEN or one.section in sections or one.id == THEOREM.partition("/")[0]
     ]
 
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A store of these claims alone, which is read sooner than the whole."""
-    folder = tmp_path_factory.mktemp("small") / "store"
-    shutil.copytree(DEFAULT, folder)
+    kept = {one.id for one in claims()}
+    folder = part_of_store(tmp_path_factory.mktemp("small") / "store", kept.__contains__)
     run(claims(), Options(folder, jobs=1))
     return folder
 
@@ -139,17 +141,7 @@ def read_by(folder: Path, jobs: int) -> list[tuple[str, str, str]]:
 @pytest.fixture
 def some(tmp_path: Path) -> Path:
     """A part of the committed store."""
-    texts = [
-        block
-        for block in (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n")
-        if block.startswith("statement s2.2.1") or "\ndefine " in block
-    ]
-    (tmp_path / "some").mkdir()
-    (tmp_path / "some" / "statements.txt").write_text("\n\n".join(texts) + "\n", encoding="utf-8")
-    lines = (DEFAULT / CERTIFICATES).read_bytes().splitlines(keepends=True)
-    own = [line for line in lines if line.startswith(b'["s2.2.1')]
-    (tmp_path / "some" / CERTIFICATES).write_bytes(b"".join(own))
-    return tmp_path / "some"
+    return part_of_store(tmp_path / "some", lambda claim: claim.startswith("s2.2.1"))
 
 
 def test_shares_and_the_whole_agree_holds(some: Path) -> None:

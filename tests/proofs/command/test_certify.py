@@ -216,7 +216,7 @@ def test_rejects_store_that_is_a_file(tmp_path: Path) -> None:
 
 def test_second_run_changes_no_byte_holds(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
-    certify(path, run=run_anew)
+    certify(path)
     folder = tmp_path / "mine.certificates"
     before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()}
     certify(path, run=run_anew)
@@ -237,7 +237,7 @@ def test_number_of_processes_changes_no_byte_holds(tmp_path: Path) -> None:
     for jobs in ("1", "2"):
         store = tmp_path / jobs
         more = ("--routes", "exact", "--jobs", jobs, "--store", str(store))
-        done = run_anew("certify", str(path), *more)
+        done = run("certify", str(path), *more)
         assert done.returncode == 0, done.stderr
         outputs.append(({file.name: file.read_bytes() for file in store.iterdir()}, done.stdout))
     assert outputs[0] == outputs[1]

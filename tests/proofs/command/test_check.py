@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, certificate_lines
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, certificate_lines
 from juggleproof.proofs.claims import stated_texts
 from juggleproof.proofs.command.check import check
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reports.tree import digest_of, with_all_below
 from juggleproof.proofs.theorem import DIGEST, THEOREM
 from tests.certificates.checker.maps import SUBTRACT, searched
+from tests.proofs.stores import part_of_store
 
 ANOTHER = SUBTRACT.replace("demo/", "theorem-in-units/")
 
@@ -27,7 +27,19 @@ def write(folder: Path, text: str, certificates: dict[str, object]) -> Path:
     return folder
 
 
-def test_the_stored_theorem_is_proved_holds(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.fixture
+def stored(tmp_path: Path) -> Path:
+    """What is stored of the theorem, and of all that it rests on."""
+    return part_of_store(tmp_path / "store", lambda claim: claim.startswith("theorem"))
+
+
+def test_the_stored_theorem_is_proved_holds(
+    stored: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In the folder that is taken where none is named; of the whole one the bare checker says in
+    test_claims that every statement is settled.
+    """
+    monkeypatch.setattr("juggleproof.proofs.command.check.DEFAULT", stored)
     assert check(None) == 0
     assert "\ntheorem: proved by exact certificates: " in capsys.readouterr().out
 
@@ -61,15 +73,14 @@ def test_rejects_a_theorem_that_rests_on_itself(
 
 
 def test_rejects_a_store_whose_theorem_is_open(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    stored: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    shutil.copytree(DEFAULT, tmp_path / "store")
-    path = tmp_path / "store" / CERTIFICATES
+    path = stored / CERTIFICATES
     lines = [json.loads(line) for line in path.read_text().splitlines()]
     path.write_bytes(
         certificate_lines({n: {"unknown": ""} if n == THEOREM else c for n, c in lines})
     )
-    assert check(tmp_path / "store") == 1
+    assert check(stored) == 1
     assert f"theorem: NOT proved; {THEOREM} is not certified" in capsys.readouterr().out
 
 

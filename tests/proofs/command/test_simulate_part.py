@@ -6,15 +6,22 @@ from __future__ import annotations
 
 import csv
 import json
-import subprocess
-import sys
+import os
+import signal
+import time
+from contextlib import redirect_stderr, redirect_stdout
+from itertools import count
+from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from juggleproof.proofs.command import simulate_part
 from juggleproof.proofs.command.main import run
 from juggleproof.scenes.part.onsets import PAPER, Row, chosen, discrepancies, recorded
+from tests.proofs.command.running import Done
 
 pytest.importorskip("numba")
 SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
@@ -169,40 +176,46 @@ def test_pictures_are_written_holds(
     ) and "written" in capsys.readouterr().out
 
 
-# Runs the command in a child that hears Ctrl-C, whatever the shell does, and gets it after so many
-# reports.
-CHILD = """
-import os, signal, sys, time
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from juggleproof.proofs.command import simulate_part
-from juggleproof.proofs.command.main import run
-calls = []
-def report(*_):
-    calls.append(_)
-    if len(calls) == int(sys.argv[1]):
-        os.kill(os.getpid(), signal.SIGINT)
-        time.sleep(20)
-simulate_part.progress = lambda: report
-line = simulate_part.part_tables.point  # of a sweep
-simulate_part.part_tables.point = lambda one: report() or line(one)
-sys.exit(run(sys.argv[2:]))
-"""
+def run_interrupted(after: int, folder: Path, arguments: list[str]) -> None:
+    """Runs the command in a child that hears Ctrl-C, whatever the shell does, and gets it after so
+    many reports; ends the child.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    calls = count(1)
+    line = simulate_part.part_tables.point  # of a sweep
+
+    def report(*_: object) -> None:
+        if next(calls) == after:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(20)
+
+    def point(one: Any) -> str:
+        report()
+        return line(one)
+
+    simulate_part.progress = lambda: report
+    simulate_part.part_tables.point = point
+    with open(folder / "out", "w") as out, open(folder / "err", "w") as err:
+        with redirect_stdout(out), redirect_stderr(err):
+            code = run(arguments)
+    os._exit(code)
 
 
-def interrupted(after: int, *options: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", CHILD, str(after), *SMALL, *options],
-        capture_output=True,
-        text=True,
-        check=False,
+def interrupted(folder: Path, after: int, *options: str) -> Done:
+    child = get_context("fork").Process(
+        target=run_interrupted, args=(after, folder, [*SMALL, *options])
     )
+    child.start()
+    child.join()
+    texts = [(folder / name).read_text(encoding="utf-8") for name in ("out", "err")]
+    return Done(child.exitcode or 0, *texts)
 
 
 def test_an_interrupted_table_keeps_the_rows_that_are_done_holds(tmp_path: Path) -> None:
     path = tmp_path / "table.csv"
     whole = tmp_path / "whole.csv"
     assert run([*SMALL, "-o", str(whole)]) == 0
-    done = interrupted(5, "-o", str(path))  # of 6 rows of 2 ensembles
+    done = interrupted(tmp_path, 5, "-o", str(path))  # of 6 rows of 2 ensembles
     assert done.returncode == 130, done.stderr
     assert done.stderr == "juggleproof: interrupted; 2 of 6 rows are done\n"
     assert f"{path}: 2 rows of 2 ensembles written" in done.stdout
@@ -212,14 +225,14 @@ def test_an_interrupted_table_keeps_the_rows_that_are_done_holds(tmp_path: Path)
 
 def test_an_interrupt_before_the_first_row_writes_nothing_holds(tmp_path: Path) -> None:
     path = tmp_path / "table.csv"
-    done = interrupted(1, "-o", str(path))
+    done = interrupted(tmp_path, 1, "-o", str(path))
     assert done.returncode == 130 and not done.stdout and not path.exists()
     assert done.stderr == "juggleproof: interrupted; no file was written\n"
 
 
 def test_an_interrupted_sweep_keeps_the_points_that_are_done_holds(tmp_path: Path) -> None:
     path = tmp_path / "sweep.json"
-    done = interrupted(3, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path))
+    done = interrupted(tmp_path, 3, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path))
     assert done.returncode == 130
     assert done.stderr == "juggleproof: interrupted; 3 points are done\n"
     assert f"{path}: 3 points written" in done.stdout and "least misfit" in done.stdout

@@ -1,5 +1,5 @@
-"""Prints, as JSON, which derivations each derivation calls when it is worked out: every function of
-`symbolic` is replaced, in each of its modules, by one that notes who called it.
+"""Which derivations each derivation calls when it is worked out: every function of `symbolic` is
+replaced, in each of its modules, by one that notes who called it.
 
 Derivations keep their values, and what others call is noted all the same; functions that take
 arguments keep none, so that what they call counts for whoever calls them.
@@ -8,7 +8,6 @@ arguments keep none, so that what they call counts for whoever calls them.
 from __future__ import annotations
 
 import inspect
-import json
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -61,7 +60,10 @@ def worked_out(name: str, function: Callable[..., Any], *arguments: Any) -> Any:
         working.pop()
 
 
-def main() -> None:
+def called_derivations() -> dict[str, list[str]]:
+    """For every derivation behind a claim those that it calls; for a process that ends with this,
+    since `symbolic` stays changed.
+    """
     statements = [statements_of(claim) for claim in paper_claims()]
     origins = [one for one in dict.fromkeys(origins_in(statements)) if isinstance(one, Origin)]
     nodes = {name for name in dir(symbolic) if is_derivation(getattr(symbolic, name))}
@@ -83,8 +85,4 @@ def main() -> None:
             function()
         else:
             worked_out(name, function, *arguments)
-    print(json.dumps({name: sorted(found) for name, found in calls.items()}))
-
-
-if __name__ == "__main__":
-    main()
+    return {name: sorted(found) for name, found in calls.items()}

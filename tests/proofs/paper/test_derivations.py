@@ -8,6 +8,8 @@ import json
 import pickle
 import subprocess
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 from juggleproof.certificates.language import origins_in, reals, substitute
@@ -22,6 +24,7 @@ from juggleproof.proofs.paper.derivations import (
     made_from,
 )
 from juggleproof.proofs.run import findings_in
+from tests.proofs.paper.called_derivations import called_derivations
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -32,10 +35,10 @@ def corrections() -> dict[str, Correction]:
     return {name: one["correction"] for name, one in found.items() if "correction" in one}
 
 
-def output_of(module: str) -> dict[str, list[str]]:
-    """What the module prints in a process of its own, as JSON."""
+def marked() -> dict[str, list[str]]:
+    """What is found by marks, in a process that loads the claims with them."""
     done = subprocess.run(
-        [sys.executable, "-m", f"tests.proofs.paper.{module}"],
+        [sys.executable, "-m", "tests.proofs.paper.marked_derivations"],
         cwd=ROOT,
         capture_output=True,
         text=True,
@@ -55,7 +58,7 @@ def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None
         for claim in paper_claims()
     }
     assert sum(map(bool, listed.values())) > 200
-    assert listed == output_of("marked_derivations")
+    assert listed == marked()
 
 
 def test_derivations_are_of_the_statements_that_were_judged_holds() -> None:
@@ -73,7 +76,8 @@ def test_derivations_are_of_the_statements_that_were_judged_holds() -> None:
 
 def test_a_derivation_names_the_ones_that_it_calls_holds() -> None:
     """For every derivation behind a claim; what is called is noted in a process of its own."""
-    called = output_of("called_derivations")
+    with ProcessPoolExecutor(1, mp_context=get_context("fork")) as pool:
+        called = pool.submit(called_derivations).result()
     assert len(called) > 70 and sum(map(len, called.values())) > 100
     assert {name: sorted(made_from(name)) for name in called} == called
 

@@ -29,7 +29,7 @@ from tests.proofs.paper.statement_mutants import changes
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE, FIELDS, LINES = (
-    (1, 10**9, 2) if ALL else (12, 12, 1)
+    (1, 10**9, 2) if ALL else (18, 12, 1)
 )  # one statement in so many; fields of it; changes of each line
 LONG = 30
 KEY = "the key itself"

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from juggleproof.certificates.language import ClaimError, reals
 from juggleproof.proofs.reading.values import Matrix, ShapeError, Vector, over, plus, times
 
-rationals = st.fractions(min_value=-9, max_value=9, max_denominator=9)
+rationals = st.builds(Fraction, st.integers(-81, 81), st.integers(1, 9))
 vectors = st.tuples(rationals, rationals).map(Vector)
 matrices = st.tuples(st.tuples(rationals, rationals), st.tuples(rationals, rationals)).map(Matrix)
 IDENTITY = Matrix(((1, 0), (0, 1)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from hashlib import sha256
 from random import Random
 
@@ -68,6 +69,7 @@ DEFINED = {
 }  # for names that only the LaTeX has
 ATTEMPTS = 20  # draws for each point that is wanted
 Point = dict[str, Fraction]
+read_latex = cache(read)  # what is edited, or has its macros put in, is read again
 
 
 class Different(Exception):
@@ -93,7 +95,7 @@ def compare(text: str, latex: str, random: Random, points: int) -> None:
     except NotRead as reason:
         raise Different(f"the text is not read: {reason}") from None
     try:
-        printed = read(latex)
+        printed = read_latex(latex)
     except NotRead as reason:
         raise Different(f"the LaTeX is not read: {reason}") from None
     sides = list(matched(stated, printed))
@@ -103,8 +105,9 @@ def compare(text: str, latex: str, random: Random, points: int) -> None:
         if compared == points:
             return
         point = drawn(names, wanted, random)
-        values = [(both(one, other, point), one) for one, other in [*sides, (stated, printed)]]
-        for (left, right), _ in values:
+        known: dict[int, Fraction] = {}
+        values = [both(one, other, point, known) for one, other in [*sides, (stated, printed)]]
+        for left, right in values:
             if isinstance(left, NotRead) is not isinstance(right, NotRead):
                 raise Different(
                     f"a value on one side only: {shown(left)} against {shown(right)}, where"
@@ -114,17 +117,17 @@ def compare(text: str, latex: str, random: Random, points: int) -> None:
                 why = f"{left}"
             elif left != right:
                 raise Different(f"{shown(left)} against {shown(right)}, where {at(point)}")
-        compared += not any(isinstance(left, NotRead) for (left, _), _ in values)
+        compared += not any(isinstance(left, NotRead) for left, _ in values)
     if compared < points:
         raise Different(f"values at {compared} points only: {why}")
 
 
-def both(one: Node, other: Node, point: Point) -> tuple[object, object]:
+def both(one: Node, other: Node, point: Point, known: dict[int, Fraction]) -> tuple[object, object]:
     """The two values; a NotRead in the place of one that is not there."""
     found: list[object] = []
     for node in (one, other):
         try:
-            found.append(value(node, point, opaque_root))
+            found.append(value(node, point, opaque_root, known))
         except NotRead as reason:
             found.append(reason)
     return found[0], found[1]

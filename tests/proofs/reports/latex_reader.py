@@ -4,6 +4,8 @@ print.
 
 from __future__ import annotations
 
+from itertools import takewhile
+
 from tests.proofs.reports.latex_glyphs import ACCENTS, GREEK, Glyphs
 from tests.proofs.reports.nodes import (
     Arithmetic,
@@ -89,10 +91,9 @@ class Terms(Glyphs):
 
     def ended_number(self, start: int) -> bool:
         """Whether the factor that began there, and was read just now, is a plain number."""
-        return all(
-            token.kind == "digit" or token.text in ("{", "}")
-            for token in self.tokens[: self.at]
-            if token.at >= start
+        read = takewhile(lambda token: token.at >= start, self.tokens[self.at - 1 :: -1])
+        return not self.at or all(
+            token.kind == "digit" or token.text in ("{", "}") for token in read
         )
 
     def starts_factor(self) -> bool:

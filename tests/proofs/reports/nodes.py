@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
+from functools import cache
 from math import ceil, floor, isqrt
 from typing import Union
 
@@ -150,36 +151,58 @@ def names_in(node: Node) -> list[Name]:
     return list(found)
 
 
-def value(node: Node, values: Mapping[str, Fraction], root: Root = exact_root) -> Value:
+def value(
+    node: Node,
+    values: Mapping[str, Fraction],
+    root: Root = exact_root,
+    known: dict[int, Fraction] | None = None,
+) -> Value:
     """The value of a tree: a number, a truth value, or a tuple of such.  Every part is evaluated,
-    whatever the others say.
+    whatever the others say; `known` keeps the numbers that relations compare, by their nodes, for
+    further trees at the same values.
     """
+    known = {} if known is None else known
     if isinstance(node, Formula):
-        return truth(node, values, root)
+        return truth(node, values, root, known)
     if isinstance(node, Listed):
-        return tuple(value(entry, values, root) for entry in node.entries)
+        return tuple(value(entry, values, root, known) for entry in node.entries)
     if isinstance(node, Term):
-        return number(node, values, root)
+        return side(node, values, root, known)
     raise NotRead(f"not a tree: {node!r}")
 
 
-def truth(node: Formula, values: Mapping[str, Fraction], root: Root) -> bool:
+def truth(
+    node: Formula, values: Mapping[str, Fraction], root: Root, known: dict[int, Fraction]
+) -> bool:
     if isinstance(node, Related):
-        return HOLDS[node.sign](number(node.left, values, root), number(node.right, values, root))
+        left, right = (side(one, values, root, known) for one in (node.left, node.right))
+        return HOLDS[node.sign](left, right)
     if isinstance(node, Not):
-        return not truth(node.of, values, root)
+        return not truth(node.of, values, root, known)
     if isinstance(node, Joined):
-        parts = [truth(part, values, root) for part in node.parts]
+        parts = [truth(part, values, root, known) for part in node.parts]
         return all(parts) if node.how == "and" else any(parts)
     if isinstance(node, Implied):
-        left, right = truth(node.left, values, root), truth(node.right, values, root)
+        left, right = (truth(one, values, root, known) for one in (node.left, node.right))
         return left == right if node.how == "iff" else right or not left
     raise NotRead(f"not a formula: {node!r}")
 
 
+def side(
+    node: Term, values: Mapping[str, Fraction], root: Root, known: dict[int, Fraction]
+) -> Fraction:
+    if id(node) not in known:
+        known[id(node)] = number(node, values, root)
+    return known[id(node)]
+
+
 def number(node: Term, values: Mapping[str, Fraction], root: Root) -> Fraction:
+    if isinstance(node, Arithmetic):
+        return operated(
+            node.sign, number(node.left, values, root), number(node.right, values, root)
+        )
     if isinstance(node, Num):
-        return Fraction(node.number)
+        return whole(node.number)
     if isinstance(node, Name):
         found = [name for name in node.stands_for if name in values]
         if len(found) != 1:
@@ -187,7 +210,7 @@ def number(node: Term, values: Mapping[str, Fraction], root: Root) -> Fraction:
             raise NotRead(
                 f"{node.printed} has no one value: {count} {', '.join(node.stands_for)} is known"
             )
-        return Fraction(values[found[0]])
+        return values[found[0]]
     if isinstance(node, Neg):
         return -number(node.of, values, root)
     if isinstance(node, Unary):
@@ -197,11 +220,10 @@ def number(node: Term, values: Mapping[str, Fraction], root: Root) -> Fraction:
             if node.function == "sqrt"
             else Fraction({"floor": floor, "ceil": ceil}[node.function](under))
         )
-    if isinstance(node, Arithmetic):
-        return operated(
-            node.sign, number(node.left, values, root), number(node.right, values, root)
-        )
     raise NotRead(f"not a term: {node!r}")
+
+
+whole = cache(Fraction)  # of the numbers that are written
 
 
 def operated(sign: str, left: Fraction, right: Fraction) -> Fraction:

@@ -12,7 +12,7 @@ from pathlib import Path
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
-from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.contents import Contents, contents_of, gather
 from juggleproof.proofs.reports.page import Picture, build, pictures
 from juggleproof.proofs.reports.results import Result, Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, Run, claims_of_file, run
@@ -61,15 +61,37 @@ def paper_run() -> tuple[Run, str]:
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DEFAULT, Path(folder) / "store")
         done = run(paper_claims(), Options(Path(folder) / "store", jobs=1))
-        return done, theorem_of_run(done)
+        return replace(done, store=DEFAULT), theorem_of_run(done)
 
 
 @cache
 def contents() -> Contents:
+    """Of this run: what a report gathers, as the next is for."""
+    return contents_of(paper_run()[0], load_register())
+
+
+@cache
+def gathered() -> Contents:
+    """As the command gathers them, in processes of its own."""
     return gather()
 
 
 def paper(
+    register: Register | None = None,
+    rejected: Sequence[tuple[str, str]] | None = None,
+    accepted: bool = False,
+) -> Results:
+    if register is None and rejected is None and not accepted:
+        return paper_as_registered()
+    return paper_beside(register, rejected, accepted)
+
+
+@cache
+def paper_as_registered() -> Results:
+    return paper_beside()
+
+
+def paper_beside(
     register: Register | None = None,
     rejected: Sequence[tuple[str, str]] | None = None,
     accepted: bool = False,

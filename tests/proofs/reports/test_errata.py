@@ -23,10 +23,16 @@ TITLES = list(errata.GROUPS.values())
 
 
 @pytest.fixture(scope="module")
-def listing() -> dict[str, dict[str, str]]:
-    """The entries by group and claim, as they are printed."""
+def everything() -> str:
+    """The errata, as they are printed."""
+    return errata_text()
+
+
+@pytest.fixture(scope="module")
+def listing(everything: str) -> dict[str, dict[str, str]]:
+    """The entries by group and claim."""
     groups: dict[str, dict[str, str]] = {}
-    for block in errata_text().split("\n\n"):
+    for block in everything.split("\n\n"):
         heading = re.fullmatch(r"(.*) \((\d+)\)", block.strip())
         if heading and heading[1] in TITLES:
             groups[heading[1]] = {}
@@ -180,8 +186,10 @@ def test_errors_stand_by_their_weight_holds(listing: dict[str, dict[str, str]]) 
         assert all(errata.WEIGHTS[group] in text.splitlines()[0] for text in entries.values())
 
 
-def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds() -> None:
-    text = errata_text()
+def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds(
+    everything: str,
+) -> None:
+    text = everything
     page = text[text.index(errata.FIRST) : text.index(errata.GROUPS["proof"])]
     first, stands, *entries = page.strip().split("\n\n")
     assert first == errata.FIRST and stands.startswith("The theorem survives all of these")
@@ -222,7 +230,7 @@ def test_places_are_as_a_reader_finds_them_holds(name: str, place: str) -> None:
 
 def test_a_counted_place_leads_back_to_the_claim_holds() -> None:
     """Counted again from the heading, or from the equation that is named, in the ledger."""
-    counted = 0
+    counted, ledger = 0, load_ledger()
     for claim in paper_claims():
         found = re.fullmatch(
             r".*section ([\w.]+), (sentence|display|row of the table) (\d+)(?: after \((\d+)\))?",
@@ -232,7 +240,7 @@ def test_a_counted_place_leads_back_to_the_claim_holds() -> None:
             assert not re.search(r"line \d", place_of(claim))
             continue
         section, word, count, number = found.groups()
-        rows = [row for row in load_ledger() if row.section == section]
+        rows = [row for row in ledger if row.section == section]
         if number:
             names = {f"eq-{number}", f"eq-{number}a", f"eq-{number}b"}
             ends = [i for i, row in enumerate(rows) if names & {*row.claims} and "-d" in row.key]

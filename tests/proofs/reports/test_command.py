@@ -15,9 +15,7 @@ from juggleproof.proofs.command import formats, report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import page
 from juggleproof.proofs.reports.contents import Contents
-from tests.proofs.reports.runs import contents
-
-pytestmark = pytest.mark.usefixtures("kept_records")
+from tests.proofs.reports.runs import contents, drawn
 
 
 def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -31,6 +29,7 @@ def test_page_is_written_and_its_path_printed_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
+    monkeypatch.setattr(report, "pictures", lambda contents: drawn())
     assert run(["report", "--format", "html", "-o", str(tmp_path / "new" / "folder")]) == 0
     path = tmp_path / "new" / "folder" / "juggleproof.html"
     assert capsys.readouterr().out == f"{path}\n"

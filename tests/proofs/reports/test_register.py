@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -16,33 +15,28 @@ from xml.etree import ElementTree
 
 import pytest
 
-from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command import certify
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.register import PATH, Change, Register, load_register
 from juggleproof.proofs.run import Options, Progress, Run
 from juggleproof.proofs.run import run as run_of_claims
-from tests.proofs.reports.runs import FALSE, HOLDS, file_with
+from tests.proofs.reports.runs import FALSE, HOLDS, file_with, paper_run
+from tests.proofs.stores import part_of_store
 
 Certify = Callable[..., int]
 
 
-RUNS: dict[tuple[str, ...], Run] = {}
-
-
 def judged(claims: Sequence[Claim], options: Options, progress: Progress) -> Run:
-    """The run of these claims of the paper, judged once: it does not depend on the register."""
-    if options.only not in RUNS:
-        RUNS[options.only] = run_of_claims(claims, options, progress)
-    return RUNS[options.only]
+    """The run of the whole paper is judged once: it does not depend on the register."""
+    return run_of_claims(claims, options, progress) if options.only else paper_run()[0]
 
 
 @pytest.fixture
 def with_register(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[str | Register], Certify]:
-    """The command with another register, and a copy of the store."""
+    """The command with another register, and a part of the store."""
 
     def prepare(content: str | Register) -> Certify:
         register = tmp_path / "register.json"
@@ -51,7 +45,7 @@ def with_register(
         )
         monkeypatch.setattr(certify, "certify", partial(certify.certify, register=register))
         monkeypatch.setattr(certify, "run", judged)
-        shutil.copytree(DEFAULT, tmp_path / "store")
+        part_of_store(tmp_path / "store", ("eq-2", "eq-3").__contains__)
         return lambda *more: run(
             ["certify", "--jobs", "1", "--store", str(tmp_path / "store"), *more]
         )
