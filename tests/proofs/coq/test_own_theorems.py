@@ -9,7 +9,6 @@ import copy
 import hashlib
 import os
 import re
-import subprocess
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,7 @@ from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
-from tests.proofs.coq.development import coqc
+from tests.proofs.coq.development import Answer, Coq, compiled
 from tests.proofs.coq.maps import WORDS
 from tests.proofs.coq.test_development import REALS
 
@@ -50,7 +49,7 @@ def all_settle(point: str) -> str:
     return settles(point, "a", "executions_", "Relation.space {} Relation.next")
 
 
-BOUND = {COUNTED: "n : Z", NAMED: f"{WORDS} : R"}
+QUANTIFIED = {COUNTED: "n : Z", NAMED: f"{WORDS} : R"}
 CONCLUSIONS = {
     SHARP: f"Map.domain a -> (Descent.domain a <-> {settles('Contraction.point')}).",
     PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
@@ -88,43 +87,34 @@ OPENED = "From Coq Require Import Reals ZArith Lra Lia List.\n{}Open Scope R_sco
 THEORY = "\nModule States.\n"  # what is before it says nothing of the map
 
 
-@pytest.fixture(scope="session")
-def theories(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("theories")
-
-
-def alone(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
+def alone(folder: Path, text: str) -> Answer:
     """What coqc says of a file in a folder of its own."""
-    (folder / "Own.v").write_text(text)
-    command = [coqc(), "-q", "-Q", ".", "", "Own.v"]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+    done = compiled(folder, "Own.v", text)
+    return Answer(done.returncode == 0, done.stdout + done.stderr)
 
 
-def taken(theories: Path, text: str) -> subprocess.CompletedProcess[str]:
-    """What coqc says of a file whose theory, which many files share, is compiled once."""
+def taken(coq: Coq, text: str) -> Answer:
+    """What Coq says of a file whose theory, which many files share, it is told once."""
     theory, begins, own = text.partition(THEORY)
     assert begins
     theory = theory[theory.index("From Coq") :]
     name = f"Theory_{hashlib.sha256(theory.encode()).hexdigest()[:12]}"
-    if not (theories / f"{name}.vo").exists():
-        (theories / f"{name}.v").write_text(theory)
-        command = [coqc(), "-q", f"{name}.v"]
-        subprocess.run(command, cwd=theories, capture_output=True, timeout=600, check=True)
-    return alone(theories, OPENED.format(f"Require Import {name}.\n") + begins + own)
+    if name not in coq.told:
+        assert coq.tell(name, theory).accepted
+    return coq.ask(OPENED.format(f"Import {name}.\n") + begins + own)
 
 
 @pytest.mark.parametrize("name", CONCLUSIONS)
-def test_coqc_accepts_a_theorem_holds(name: str, theories: Path, tmp_path: Path) -> None:
-    coqc()
+def test_coqc_accepts_a_theorem_holds(name: str, coq: Coq, tmp_path: Path) -> None:
     text = written(name, *judged())
     says = " ".join(text.split(f"Theorem {coq_rules.theorem_name(name)} :")[1].split())
     if name == NAMED:
         says = says.replace("'", "")
-    assert says.startswith(f"forall {BOUND.get(name, 'a : R')}, {CONCLUSIONS[name]}")
+    assert says.startswith(f"forall {QUANTIFIED.get(name, 'a : R')}, {CONCLUSIONS[name]}")
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b(?!')", text)
-    result = alone(tmp_path, text) if name in ALONE else taken(theories, text)
-    assert result.returncode == 0, result.stderr
-    head, _, axioms = result.stdout.partition("Axioms:\n")
+    answer = alone(tmp_path, text) if name in ALONE else taken(coq, text)
+    assert answer.accepted, answer.output
+    head, _, axioms = answer.output.partition("Axioms:\n")
     found = re.findall(r"^([\w.]+)\s*:", axioms, flags=re.MULTILINE)
     assert head == "" and found and set(found) <= REALS
 
@@ -151,11 +141,9 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
     ][::SHARE],
 )
 def test_rejects_a_forged_certificate(
-    name: str, own: str, premise: str, other: str, theories: Path
+    name: str, own: str, premise: str, other: str, coq: Coq
 ) -> None:
-    coqc()
-    result = taken(theories, written(name, judged()[0], forged(own, premise, other)))
-    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert taken(coq, written(name, judged()[0], forged(own, premise, other))).rejected
 
 
 @pytest.mark.parametrize(
@@ -172,11 +160,10 @@ def test_rejects_a_forged_certificate(
         (WALKED, "Descent.rank_1_1 a of_s + INR 0 <= INR of_n ->\n  ", ""),
     ][::SHARE],
 )
-def test_rejects_a_changed_map(name: str, old: str, new: str, theories: Path) -> None:
+def test_rejects_a_changed_map(name: str, old: str, new: str, coq: Coq) -> None:
     text = written(name, *judged())
     assert old in text
-    result = taken(theories, text.replace(old, new))
-    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert taken(coq, text.replace(old, new)).rejected
 
 
 def test_rejects_a_certificate_of_another_shape() -> None:
@@ -184,12 +171,10 @@ def test_rejects_a_certificate_of_another_shape() -> None:
         written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
 
 
-def test_rejects_another_map_with_the_certificates_of_one(theories: Path) -> None:
-    coqc()
+def test_rejects_another_map_with_the_certificates_of_one(coq: Coq) -> None:
     texts = {**judged()[0]}
     texts["scaled/map"] = texts["scaled/map"].replace("a*x", "a*x^2 + a*x/8")
-    result = taken(theories, written(SHARP, texts, judged()[1]))
-    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert taken(coq, written(SHARP, texts, judged()[1])).rejected
 
 
 def test_export_writes_a_file_for_each_theorem_holds(tmp_path: Path) -> None:
@@ -242,7 +227,7 @@ SCRIPT = """
 (push)(assert (< (+ (* x x) (* y y)) (* 2 x y)))(check-sat)(pop)
 (check-sat-assuming ((> (* 2 x y) 1)))
 """
-BOUND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
+COMMAND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
 
 
 def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
@@ -251,7 +236,7 @@ def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
     own, script, bound = tmp_path / "own.py", tmp_path / "mean.smt2", tmp_path / "bound"
     own.write_text(INEQUALITY)
     script.write_text(SCRIPT)
-    assert run([*BOUND, "-o", str(bound)]) == 0
+    assert run([*COMMAND, "-o", str(bound)]) == 0
     assert '["boxes",' in (bound / checker.CERTIFICATES).read_text()
     texts, _ = list[str](), capsys.readouterr()
     for name in (own, script, script.with_suffix(".certificates"), bound):
@@ -264,10 +249,7 @@ def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
     whole = PRELUDE + "".join(
         text.removeprefix(PRELUDE) for text in (of_claim, of_folder, of_bound)
     )
-    (tmp_path / "All.v").write_text(whole)
-    done = subprocess.run(
-        [coqc(), "All.v"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = compiled(tmp_path, "All.v", whole)
     assert done.returncode == 0, done.stderr
 
 
