@@ -31,8 +31,8 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
     roots = [root for some in squares.values() for _, root in some]
     # others may be no variables of the proof, as what is yet to be found
     together, mask = 0, (1 << checker.BITS) - 1
-    for one in [*facts, *roots, *chain(*shares)]:
-        for monomial in one.terms:
+    for poly in [*facts, *roots, *chain(*shares)]:
+        for monomial in poly.terms:
             together |= monomial
     names = branch.names.items()
     sum_ = Sum(branch, [name for name, at in names if together >> (checker.BITS * at) & mask])
