@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Collection, Mapping, Sequence
+from functools import reduce
+from operator import or_
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node, Values
@@ -110,6 +112,17 @@ class State:
         """
         assumed = self.context, self.formulas
         return finds(*assumed, values, known, purpose, statement, base, sharp)
+
+
+def variables_in(context: checker.Context, poly: checker.Poly) -> list[str]:
+    """The variables that occur, in their order: as the checker's own, which looks at each place
+    that a variable may have.
+    """
+    together = reduce(or_, poly.terms, 0)
+    mask = (1 << checker.BITS) - 1
+    return [
+        name for name, place in context.index.items() if together >> (checker.BITS * place) & mask
+    ]
 
 
 def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:

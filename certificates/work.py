@@ -30,11 +30,24 @@ class Budget:
         self.left, self.whole = units, whole
 
     def spend(self, amount: int) -> None:
-        """Takes `amount` units; raises Exhausted when fewer are left."""
-        self.left -= amount
+        """Takes `amount` units, for work ahead; raises Exhausted, and takes none, where fewer are
+        left: what is too large leaves the budget to what is smaller.
+        """
+        if amount > self.left:
+            raise Exhausted
         if self.whole is not None:
             self.whole.spend(amount)
-        if self.left < 0:
+        self.left -= amount
+
+    def charge(self, amount: int) -> None:
+        """Takes `amount` units, or what is left, for work that was done; raises Exhausted where
+        that is less.
+        """
+        least, budget = min(amount, self.left), self.whole
+        while budget is not None:
+            least, budget = min(least, budget.left), budget.whole
+        self.spend(least)
+        if least < amount:
             raise Exhausted
 
     def part(self, units: int) -> Budget:

@@ -17,6 +17,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 os.environ["JUGGLEPROOF_CACHE"] = "off"
+# as the commands have it, before a test loads NumPy: threads that wait for small matrices cost more
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault(
     "NUMBA_CACHE_DIR", str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "machine-code")
 )

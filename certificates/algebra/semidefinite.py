@@ -4,7 +4,7 @@ that meet its equations exactly, and taken apart into squares.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -126,11 +126,12 @@ def _step(
     Optimization 2 (1992).
     """
     rows = len(y)
-    inverse = [np.linalg.inv(z) for z in dual]
+    inverse = _at_once(np.linalg.inv, dual)
     system, base, slack = np.zeros((rows, rows)), missing.copy(), []
     centre = np.zeros(rows)
     for block, a, x, z, back in zip(blocks, flat, primal, dual, inverse):
-        system += (x @ block @ back).reshape(rows, -1) @ a.T
+        image = x @ block @ back if len(x) > 1 else x * block * back
+        system += image.reshape(rows, -1) @ a.T
         rest = trace * np.eye(len(x)) - (a.T @ y).reshape(x.shape) - z
         slack.append(rest)
         base += a @ (x + x @ rest @ back).ravel()
@@ -146,7 +147,7 @@ def _step(
             right = right + sum((a @ s.ravel() for a, s in zip(flat, second)), np.zeros(rows))
         dy: Floats = np.asarray(np.linalg.solve(system, right), dtype=np.float64)
         dz: list[Floats] = [rest - (a.T @ dy).reshape(rest.shape) for rest, a in zip(slack, flat)]
-        dx = [-x + target * back - x @ d @ back for x, back, d in zip(primal, inverse, dz)]
+        dx = _at_once(lambda x, back, d: -x + target * back - x @ d @ back, primal, inverse, dz)
         if second is not None:
             dx = [d - s for d, s in zip(dx, second)]
         return [(d + d.T) / 2 for d in dx], dz, dy
@@ -158,7 +159,7 @@ def _step(
         for x, a, z, b in zip(primal, dx, dual, dz)
     ) / sum(map(len, primal))
     target = mu * min(1.0, max(0.05, (max(there, 0.0) / mu) ** 2))
-    dx, dz, dy = direction(target, [a @ b @ back for a, b, back in zip(dx, dz, inverse)])
+    dx, dz, dy = direction(target, _at_once(lambda a, b, back: a @ b @ back, dx, dz, inverse))
     ahead, behind = min(1.0, 0.95 * _room(primal, dx)), min(1.0, 0.95 * _room(dual, dz))
     if not np.isfinite(dy).all() or max(ahead, behind) < 1e-6:
         return None
@@ -173,11 +174,26 @@ def _room(points: list[Floats], directions: list[Floats]) -> float:
     Formula: -1 / (least eigenvalue of L^-1 D L^-T), X = L L^T, over all pairs (X, D) of the shape
     (n, n).  Raises LinAlgError where an X is not positive definite.
     """
-    least = 0.0
-    for x, d in zip(points, directions):
+
+    def eigenvalues(x: Floats, d: Floats) -> Floats:
         lower = np.linalg.inv(np.linalg.cholesky(x))
-        least = min(least, float(np.linalg.eigvalsh(lower @ d @ lower.T)[0]))
+        return np.asarray(np.linalg.eigvalsh(lower @ d @ lower.swapaxes(1, 2)), dtype=np.float64)
+
+    least = min(0.0, *(float(found[0]) for found in _at_once(eigenvalues, points, directions)))
     return -1.0 / least if least < -1e-12 else 1e9
+
+
+def _at_once(function: Callable[..., Floats], *lists: list[Floats]) -> list[Floats]:
+    """What a function of stacks of square matrices gives for each place in the lists: it is called
+    once for all matrices of one size, as most programs have many small ones.
+    """
+    places: dict[int, list[int]] = {}
+    for place, matrix in enumerate(lists[0]):
+        places.setdefault(len(matrix), []).append(place)
+    found: dict[int, Floats] = {}
+    for own in places.values():
+        found |= zip(own, function(*(np.array([one[place] for place in own]) for one in lists)))
+    return [found[place] for place in range(len(lists[0]))]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -393,11 +409,13 @@ class LinearEquations:
 
     def combination(self, values: Sequence[Fraction]) -> list[Fraction]:
         """The left side of every equation at these values."""
-        left = [Fraction(0)] * self.rows
+        common = lcm(*(value.denominator for value in values))
+        left = [0] * self.rows
         for value, column in zip(values, self.terms):
-            for row, c in column.items() if value else ():
-                left[row] += c * value
-        return left
+            whole = value.numerator * (common // value.denominator)
+            for row, c in column.items() if whole else ():
+                left[row] += c * whole
+        return [Fraction(value, common) for value in left]
 
     def spread(self, missing: list[Fraction]) -> list[Fraction] | None:
         """What is missing in each equation, spread over the entries that stand in no other; None

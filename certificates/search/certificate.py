@@ -56,6 +56,8 @@ SQUARES_FIRST: Attempts = (
     (True, 2, 100),
 )
 
+RAN_OUT = "the budget of counted work ran out"
+
 
 def search_certificate(
     statement: checker.Statement,
@@ -144,9 +146,8 @@ def _search(
     linear = search_linear(statement, budget.part(budget.left // 2), last_basis)
     if linear is not None and checker.check_one(statement, linear, {}, {})[1] is None:
         return linear
-    ended: set[tuple[bool, int]] = (
-        set()
-    )  # attempts that were not cut short: more work would not help them
+    cut: set[tuple[bool, int]] = set()  # attempts that the budget cut short
+    ended: set[tuple[bool, int]] = set()  # those that it did not: more work would not help them
     is_false: bool | None = None  # as Z3 sees it, asked where the first search for a proof fails
     try:
         for refutes, effort, share in attempts:
@@ -166,6 +167,7 @@ def _search(
                     continue
                 proof = search_proof(statement, known, part, None, effort, hints, confirm, roles)
             except Exhausted:
+                cut.add((refutes, effort))
                 continue
             ended.add((refutes, effort))
             if proof is not None:
@@ -173,13 +175,8 @@ def _search(
             if is_false is None:
                 is_false = Violation.of(statement, None, roles).absent_everywhere(budget) is False
     except Exhausted:
-        pass
-    reason = (
-        "neither a proof nor a counterexample was found"
-        if budget.left > 0
-        else "the budget of counted work ran out"
-    )
-    return {"unknown": reason}
+        return {"unknown": RAN_OUT}
+    return {"unknown": RAN_OUT if cut - ended else "neither a proof nor a counterexample was found"}
 
 
 def with_point(

@@ -44,6 +44,7 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+LARGE = 1000  # terms of all facts, beyond which reading them is counted too
 MANY_CASES = 100  # from which on they are led by conflicts
 MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
@@ -128,7 +129,7 @@ class Closing:
 
     def problem(self, state: State, whole: bool = False) -> Problem:
         """The facts of a state, ready for a search."""
-        self.budget.spend(300)
+        self.budget.spend(300 + 2 * max(0, sum(len(p.terms) for p, _ in state.facts) - LARGE))
         names = tuple(state.context.index)
         if names not in self.rings:
             self.rings[names] = Ring(names)
@@ -236,8 +237,6 @@ class Closing:
         try:
             return search_forms(state, self.problem(state).ring, part, coupled)
         except Exhausted:
-            if self.budget.left < 0:
-                raise
             return None
 
     def by_factors(

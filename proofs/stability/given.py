@@ -156,6 +156,7 @@ def expression(text: str) -> Expr:
     return _value(checker.parse(text), names, sympy.Integer)
 
 
+@lru_cache(4096)
 def written(term: Expr) -> str:
     """A rational SymPy expression as text, one quotient at most."""
     above, below = sympy.fraction(sympy.factor_terms(sympy.together(term)))

@@ -8,6 +8,7 @@ import ast
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 import sympy
@@ -148,6 +149,7 @@ def divides(term: str) -> bool:
     )
 
 
+@lru_cache(1024)
 def licence(divisor: Expr, facts: str) -> str:
     """That the divisor is > 0, < 0 or not 0, as it is at samples, where no fact says so."""
     for fact, strict in atoms(facts):

@@ -11,13 +11,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isqrt, prod
+from functools import cached_property
+from math import isqrt, lcm, prod
+from operator import getitem
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node, Product
 from juggleproof.certificates.search.boxes.over_box import Bound, box_of, terms_of
-from juggleproof.certificates.search.boxes.small import Box, Terms, search_tree, value_at
-from juggleproof.certificates.states import State
+from juggleproof.certificates.search.boxes.small import Box, Exponents, Terms, search_tree, value_at
+from juggleproof.certificates.states import State, variables_in
 from juggleproof.certificates.work import Budget
 
 MOST_COEFFICIENTS = 1000  # of the Bernstein form of a constraint
@@ -57,22 +59,33 @@ class Constraint:
         value = value_at(self.opposite, [point[name] for name in self.names])
         return value < 0 or not self.strict and not value
 
-    def smear(self, name: str, sides: Sides) -> Fraction:
-        """How much p may change along a variable of the box, as a part of the sum of all terms.
+    def smears(self, sides: Sides) -> dict[str, Fraction]:
+        """How much p may change along each variable of the box, as a part of the sum of all terms.
 
         Formula: sum |c| e |x|^e / |x| width, with the largest |x| of each side.
         """
-        if name not in self.names:
-            return Fraction(0)
-        k, most = self.names.index(name), [max(abs(a), abs(b)) for a, b in self._box(sides)]
-        low, high = (end.at for end in sides[name])
-        sizes = {
-            e: abs(c) * prod((m**n for m, n in zip(most, e)), start=Fraction(1))
-            for e, c in self.opposite.items()
-        }
-        total = sum(sizes.values(), start=Fraction(0))
-        changes = sum((size * e[k] for e, size in sizes.items()), start=Fraction(0))
-        return changes * (high - low) / (most[k] * total) if total and most[k] else Fraction(0)
+        box = self._box(sides)
+        most = [max(abs(a), abs(b)) for a, b in box]
+        powers = [self._powers(k, m) for k, m in enumerate(most)]
+        sizes = {e: c * prod(map(getitem, powers, e)) for e, c in self._whole.items()}
+        total = sum(sizes.values())
+        found = {}
+        for k, (name, (low, high)) in enumerate(zip(self.names, box)):
+            if total and most[k]:
+                changes = sum(size * e[k] for e, size in sizes.items())
+                found[name] = changes * (high - low) / (most[k] * total)
+        return found
+
+    @cached_property
+    def _whole(self) -> dict[Exponents, int]:
+        """The sizes of the coefficients, times one number."""
+        scale = lcm(*(c.denominator for c in self.opposite.values()))
+        return {e: abs(int(c * scale)) for e, c in self.opposite.items()}
+
+    def _powers(self, place: int, size: Fraction) -> list[int]:
+        """The powers of a size of one variable, times one number."""
+        degree = max(e[place] for e in self.opposite)
+        return [size.numerator**n * size.denominator ** (degree - n) for n in range(degree + 1)]
 
     def _box(self, sides: Sides) -> Box:
         return [(sides[name][0].at, sides[name][1].at) for name in self.names]
@@ -93,7 +106,26 @@ def close_by_cuts(state: State, budget: Budget) -> Node | None:
 
     Raises Exhausted where the budget ends.
     """
+    bounded = _perhaps_bounded(state)
+    facts = ((variables_in(state.context, p), p.deg) for p, one in state.facts if one != "!=")
+    if not any(
+        names and bounded.issuperset(names) and len(names) + deg > 2 for names, deg in facts
+    ):
+        return None
     return Cuts(budget).with_equations(state, _equations(state))
+
+
+def _perhaps_bounded(state: State) -> set[str]:
+    """The variables that have bounds on both sides, or that a ball or an equation may give some."""
+    ends: set[tuple[str, bool]] = set()
+    for poly, relation in state.facts:
+        names, powers = variables_in(state.context, poly), poly.terms.keys() - {0}
+        units = [1 << checker.BITS * state.context.index[name] for name in names]
+        if relation in (">", ">=") and powers == set(units) and len(units) == 1:
+            ends.add((names[0], poly.terms[units[0]] > 0))
+        elif relation != "!=" and powers <= {m for unit in units for m in (unit, 2 * unit)}:
+            ends.update((name, way) for name in names for way in (True, False))
+    return {name for name, way in ends if (name, not way) in ends}
 
 
 def _equations(state: State) -> list[int]:
@@ -167,8 +199,11 @@ class Cuts:
         if all(one.holds(middle) for one in constraints):
             return None
         self.budget.spend(20 * len(constraints))
-        name = max(sides, key=lambda name: sum(one.smear(name, sides) for one in constraints))
-        return self.cut(state, constraints, sides, name)
+        changes = dict.fromkeys(sides, Fraction(0))
+        for one in constraints:
+            for name, change in one.smears(sides).items():
+                changes[name] += change
+        return self.cut(state, constraints, sides, max(changes, key=changes.__getitem__))
 
     def leaf(self, constraints: list[Constraint], sides: Sides, letters: int) -> Node | None:
         """A constraint that fails in all of a box."""
@@ -280,9 +315,9 @@ class Ball:
 def _balls(state: State) -> list[Ball]:
     balls = []
     for index, (poly, relation) in enumerate(state.facts):
-        names = [n for n in state.context.index if n in checker.variables_of(state.context, poly)]
         if relation not in (">", ">=") or poly.deg != 2:
             continue
+        names = variables_in(state.context, poly)
         terms = terms_of(state, poly, names)
         units = [tuple(int(j == k) for j in range(len(names))) for k in range(len(names))]
         squares = [-terms.get(tuple(2 * e for e in unit), Fraction(0)) for unit in units]
@@ -300,9 +335,10 @@ def _constraints(state: State, sides: Sides) -> list[Constraint]:
     """The facts about the variables of the box, but for its bounds, smaller ones first."""
     found = []
     for index, (poly, relation) in enumerate(state.facts):
-        used = checker.variables_of(state.context, poly)
-        names = [name for name in state.context.index if name in used]
-        if relation not in (">", ">=") or not used <= sides.keys() or poly.deg == len(used) == 1:
+        names = variables_in(state.context, poly)
+        if relation not in (">", ">=") or not sides.keys() >= set(names):
+            continue
+        if poly.deg == len(names) == 1:
             continue
         terms = {e: -c for e, c in terms_of(state, poly, names).items()}
         size = prod(1 + max(e[k] for e in terms) for k in range(len(names)))

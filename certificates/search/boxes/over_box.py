@@ -11,7 +11,7 @@ from typing import NamedTuple
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.boxes.small import Box, Exponents, search_tree, value_at
-from juggleproof.certificates.states import State
+from juggleproof.certificates.states import State, variables_in
 from juggleproof.certificates.work import Budget
 
 MOST_COEFFICIENTS = 1 << 16  # of the Bernstein form of a fact
@@ -64,9 +64,8 @@ def facts_over_box(state: State) -> Iterator[FactOverBox]:
     """
     bounds = box_of(state)
     for index, (poly, relation) in enumerate(state.facts):
-        used = checker.variables_of(state.context, poly)
-        if relation in (">", ">=") and poly.deg > 1 and used <= bounds.keys():
-            names = [name for name in state.context.index if name in used]
+        names = variables_in(state.context, poly)
+        if relation in (">", ">=") and poly.deg > 1 and bounds.keys() >= set(names):
             own = [bounds[name] for name in names]
             opposite = {e: -c for e, c in terms_of(state, poly, names).items()}
             fact = FactOverBox(index, relation == ">", names, own, opposite)
@@ -79,8 +78,10 @@ def box_of(state: State) -> dict[str, tuple[Bound, Bound]]:
     lows: dict[str, Bound] = {}
     highs: dict[str, Bound] = {}
     for index, (poly, relation) in enumerate(state.facts):
-        names = checker.variables_of(state.context, poly)
-        if relation not in (">", ">=") or len(names) != 1:
+        if relation not in (">", ">=") or len(poly.terms) > 2:
+            continue
+        names = variables_in(state.context, poly)
+        if len(names) != 1:
             continue
         (name,) = names
         one = 1 << checker.BITS * state.context.index[name]

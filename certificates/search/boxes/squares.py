@@ -256,6 +256,7 @@ def search_positive(problem: BoxProblem, weakly: bool, most: int, budget: Budget
 
     Raises Exhausted where the budget ends.
     """
+    budget.spend(len(problem.terms) * len(problem.box))
     best = Best(problem.terms, problem.box, Fraction(0))
 
     def target() -> Fraction:
@@ -274,7 +275,7 @@ def search_positive(problem: BoxProblem, weakly: bool, most: int, budget: Budget
             tree = branching.run(most_here) if is_open() else None
             if tree is None or not is_open():
                 return None
-            budget.spend((tree.boxes - boxes) * cost)
+            budget.charge((tree.boxes - boxes) * cost)
             boxes = tree.boxes
             if tree.reached:
                 return "boxes", problem.goal, problem.facts, tree.text

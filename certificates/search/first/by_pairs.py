@@ -19,7 +19,7 @@ from juggleproof.certificates.search.first.linear_system import (
     search_linear,
     solve,
 )
-from juggleproof.certificates.states import State, state_of
+from juggleproof.certificates.states import State, state_of, variables_in
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 MOST_FACTS, MOST_VARIABLES, MOST_CASES = 10, 4, 16
@@ -79,11 +79,8 @@ Summand = tuple[checker.Poly, str, tuple[Sequence[Power], str] | tuple[int, str]
 
 def leaf_by_pairs(state: State, budget: Budget) -> Node | None:
     """A node by the facts of a state alone, of single facts or of pairs and squares."""
-    names = [
-        name
-        for name in state.context.index
-        if any(name in checker.variables_of(state.context, poly) for poly, _ in state.facts)
-    ]
+    used = {name for poly, _ in state.facts for name in variables_in(state.context, poly)}
+    names = [name for name in state.context.index if name in used]
     if len(state.facts) > MOST_FACTS or len(names) > MOST_VARIABLES:
         return None
     for summands in (singles(state), [*singles(state), *pairs(state, names)]):

@@ -414,6 +414,15 @@ def node_of(state: State, tree: Tree) -> Node:
 # Statements.
 
 
+def linear(statement: checker.Statement) -> checker.Unfolding | None:
+    """The unfolding of a statement for all reals whose lines are linear; None for any other."""
+    if statement.get("exists") or statement.get("integer") or statement.get("root"):
+        return None
+    unfolding = unfolded(statement)
+    formulas = (*unfolding.premises, unfolding.goal(False))
+    return None if unfolding.obligations or not all(map(is_linear, formulas)) else unfolding
+
+
 def search_linear(
     statement: checker.Statement, budget: Budget, find_basis: FindBasis = no_basis
 ) -> Certificate | None:
@@ -425,11 +434,8 @@ def search_linear(
     >>> found["certified"][2]
     ('psatz', [('1', (), '1'), ('1', ((0, 1),), '1'), ('1', ((1, 1),), '1')], [])
     """
-    if statement.get("exists") or statement.get("integer") or statement.get("root"):
-        return None
-    unfolding = unfolded(statement)
-    given, goal = checker.join("and", unfolding.premises), unfolding.goal(False)
-    if unfolding.obligations or not (is_linear(given) and is_linear(goal)):
+    unfolding = linear(statement)
+    if unfolding is None:
         return None
     names = {name: unfolding.context.index[name] for name in unfolding.universal}
 
@@ -437,7 +443,7 @@ def search_linear(
         return {name: str(found.values.get(k, 0)) for name, k in names.items()}
 
     inside = state_of(unfolding)
-    state = inside.branch(goal)
+    state = inside.branch(unfolding.goal(False))
     try:
         found = Leaf([], []) if state.closed else decide(state, budget, find_basis)
         if isinstance(found, Vertex):

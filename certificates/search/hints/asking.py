@@ -71,7 +71,7 @@ def ask(
         )
     solver.from_string("\n".join(rows))
     result = str(solver.check())
-    budget.spend(5000 + min(session.work(solver, resources), resources))
+    budget.charge(5000 + min(session.work(solver, resources), resources))
     if result != "sat" or not model:
         return Answer(result if result in ("sat", "unsat") else "unknown")
     values = solver.model()
@@ -97,7 +97,7 @@ def conflict(
     for k, formula in enumerate(z3.parse_smt2_string("\n".join(rows), ctx=session.context)):
         solver.assert_and_track(formula, z3.Bool(f"atom{k}", session.context))
     result = str(solver.check())
-    budget.spend(500 + min(session.work(solver, resources), resources) // 10)
+    budget.charge(500 + min(session.work(solver, resources), resources) // 10)
     if result == "unsat":
         return sorted(int(str(one).removeprefix("atom")) for one in solver.unsat_core())
     return None if result == "sat" else list(range(len(atoms)))

@@ -33,9 +33,12 @@ def point_by_few_values(
 
     Variables that linear facts contradict get more values, until none is left that could help.
     """
-    chosen = covering(condition)
-    counts = dict.fromkeys(chosen, FIRST)
+    terms = sum(len(condition.polys[k]) for k in condition.used())
+    size = terms * len(places(condition.ring))
+    budget.spend(size)
+    counts = dict.fromkeys(covering(condition), FIRST)
     while True:
+        budget.spend(size)
         question = Question(
             condition,
             {name: trials(condition, name, False, n, roles) for name, n in counts.items()},
@@ -115,7 +118,7 @@ class Question:
         solver.from_string("\n".join(self.rows))
         held = {self.guard(name): name for name in self.values}
         result = str(solver.check(*[z3.Bool(one, session.context) for one in held]))
-        budget.spend(5000 + len(self.rows) + session.work(solver, RESOURCES) // STEPS)
+        budget.charge(5000 + len(self.rows) + session.work(solver, RESOURCES) // STEPS)
         if result == "unsat":
             return None, sorted(held[str(one)] for one in solver.unsat_core())
         if result != "sat":

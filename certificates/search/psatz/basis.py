@@ -39,7 +39,7 @@ def last_basis(
     solver = SOLVER.highs
     solver.passModel(model)
     solver.run()
-    budget.spend(int(solver.getInfo().simplex_iteration_count) * len(entries) // 50)
+    budget.charge(int(solver.getInfo().simplex_iteration_count) * len(entries) // 50)
     basis, is_basic = solver.getBasis(), highspy.HighsBasisStatus.kBasic
     return (
         [r for r, status in enumerate(basis.row_status) if status != is_basic],

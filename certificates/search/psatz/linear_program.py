@@ -4,7 +4,7 @@ exact rationals on it.  By Farkas' lemma, linear inequalities without a solution
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import lcm
 from operator import add, ge
@@ -307,13 +307,13 @@ OPTIONS = (
 class Solver(local):
     """One HiGHS for each thread, which is dear to make; a new model clears it of the last one."""
 
-    def __init__(self) -> None:
+    def __init__(self, options: Sequence[tuple[str, object]]) -> None:
         self.highs = highspy.Highs()
-        for option, value in OPTIONS:
+        for option, value in options:
             self.highs.setOptionValue(option, value)
 
 
-SOLVER = Solver()
+SOLVER = Solver(OPTIONS)
 
 
 def exact(

@@ -283,7 +283,7 @@ class ProductsOfFacts:
         self.used = [v for v in range(self.ring.size) if any(p.degrees()[v] for p in polys)]
         self.flips = self._flips(polys)
         self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
-        self.blocks = list(self._blocks(count, budget))
+        self.blocks = [] if self._is_too_large() else list(self._blocks(count, budget))
         equations = [equation.poly for equation in problem.reduction.left]
         self.cofactors = [
             ((place, monomial), poly * self.ring.ctx.from_dict({monomial: 1}))
@@ -296,6 +296,13 @@ class ProductsOfFacts:
             self.blocks = []
         budget.spend(products // 4)
         self.blocks = pruned(self.blocks, [poly for _, poly in self.cofactors])
+
+    def _is_too_large(self) -> bool:
+        """Whether the squares alone have too many products of monomials, as a count of these tells
+        where no equation leaves some out.
+        """
+        monomials = comb(len(self.used) + self.degree // 2, self.degree // 2)
+        return not self.leading and monomials**2 > 2 * MOST_ENTRIES << len(self.flips)
 
     def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
         """The sets of variables whose signs can be changed without changing any fact or equation,
@@ -382,12 +389,17 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
     roots = [keys(block.basis) for block in blocks]
     owed = keys(cofactors)
     alive = [np.ones(len(one), dtype=bool) for one in roots]
+    fixed: list[NDArray[Any]] = [
+        owed[:0] for _ in blocks
+    ]  # what squares of each cannot reach alone
+    changed = set(range(len(blocks)))
     while True:
-        fixed, squares, positive, owners = [owed], [], [], []
+        squares, positive, owners = [], [], []
         for k, (term, sign) in enumerate(zip(terms, signs)):
             root = roots[k][alive[k]]
-            pairs = np.unique((root[:, None] + root)[np.triu_indices(len(root), 1)])
-            fixed.append(np.unique(pairs[:, None] + term))
+            if k in changed and len(roots[k]) > 1:
+                pairs = np.unique((root[:, None] + root)[np.triu_indices(len(root), 1)])
+                fixed[k] = np.unique(pairs[:, None] + term)
             squares.append((2 * root[:, None] + term).ravel())
             positive.append(np.tile(sign, len(root)))
             places = np.flatnonzero(alive[k])
@@ -396,12 +408,14 @@ def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[Fac
         above = np.zeros(len(whole), dtype=int)
         np.add.at(above, where, np.concatenate(positive))
         one_sign = (above == 0) | (above == np.bincount(where, minlength=len(whole)))
-        dead = (one_sign & ~np.isin(whole, np.concatenate(fixed)))[where]
+        dead = (one_sign & ~np.isin(whole, np.concatenate([owed, *fixed])))[where]
         if not dead.any():
             break
+        changed = set()
         for place in np.flatnonzero(dead):
             k, i = owners[place]
             alive[k][i] = False
+            changed.add(k)
     for block, kept in zip(blocks, alive):
         block.basis = [b for b, is_kept in zip(block.basis, kept) if is_kept]
     return [block for block in blocks if block.basis]

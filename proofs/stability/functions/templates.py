@@ -14,6 +14,7 @@ from fractions import Fraction
 import highspy
 import numpy as np
 
+from juggleproof.certificates.search.psatz.linear_program import Solver
 from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
@@ -268,6 +269,9 @@ def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
     return found[:-1] if sparse is None else sparse[:unknowns]
 
 
+SOLVER = Solver((("output_flag", False), ("threads", 1), ("random_seed", 1)))
+
+
 def program(
     matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
 ) -> Floats | None:
@@ -282,9 +286,7 @@ def program(
     model.a_matrix_.start_ = np.searchsorted(at_row, np.arange(rows + 1)).astype(np.int32)
     model.a_matrix_.index_ = at_column.astype(np.int32)
     model.a_matrix_.value_ = matrix[at_row, at_column]
-    solver = highspy.Highs()
-    for option, setting in (("output_flag", False), ("threads", 1), ("random_seed", 1)):
-        solver.setOptionValue(option, setting)
+    solver = SOLVER.highs
     solver.passModel(model)
     solver.run()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:

@@ -11,7 +11,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.search.certificate import search_map_rule
 
 Json = Any
-BUDGET = 300_000
+BUDGET = 40_000
 
 # One is subtracted until what is left is less than 1, and that is multiplied by a: to 0 exactly for
 # a < 1.

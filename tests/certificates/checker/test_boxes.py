@@ -15,12 +15,13 @@ from hypothesis import strategies as st
 from juggleproof.certificates import checker
 from tests.certificates.checker.evaluator import term_at
 from tests.certificates.checker.harness import lines, proof, verdict
+from tests.certificates.drawn import fractions
 
 NAMES = ("x", "y", "z")
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
 ends = st.tuples(
-    st.fractions(min_value=-3, max_value=3, max_denominator=4),
-    st.fractions(min_value=0, max_value=3, max_denominator=3),
+    fractions(-3, 3, 4),
+    fractions(0, 3, 3),
 )
 boxes = st.lists(ends, min_size=3, max_size=3).map(
     lambda pairs: [(low, low + width) for low, width in pairs]
@@ -127,7 +128,7 @@ def test_no_text_shows_what_is_false(
 @given(
     polynomials,
     boxes,
-    st.lists(st.fractions(min_value=0, max_value=1, max_denominator=7), min_size=3, max_size=3),
+    st.lists(fractions(0, 1, 7), min_size=3, max_size=3),
 )
 def test_coefficients_are_those_of_the_polynomial(
     text: str, box: list[tuple[Fraction, Fraction]], place: list[Fraction]

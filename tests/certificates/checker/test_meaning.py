@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
 from tests.certificates.checker.harness import CLOSE, Case, judge, lines, proof, refuted, verdict
 from tests.certificates.checker.rules.sharp import EARLIER, SHARP, VALID, over
+from tests.certificates.drawn import fractions
 
 NAMES = ("x", "y", "z")
 FEW = settings(max_examples=25, deadline=None, derandomize=True)
-small = st.fractions(min_value=-3, max_value=3, max_denominator=4)
+small = fractions(-3, 3, 4)
 points = st.fixed_dictionaries(dict.fromkeys(NAMES, small))
 
 

@@ -21,12 +21,13 @@ from juggleproof.certificates.search.psatz.sums_of_squares import search_squares
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at
+from tests.certificates.drawn import fractions
 
 MANY = settings(max_examples=40, deadline=None, derandomize=True)
 NAMES = ("x", "y", "z")
 ends = st.tuples(
-    st.fractions(min_value=-2, max_value=2, max_denominator=3),
-    st.fractions(min_value=0, max_value=3, max_denominator=3),
+    fractions(-2, 2, 3),
+    fractions(0, 3, 3),
 )
 boxes = st.lists(ends, min_size=3, max_size=3).map(
     lambda pairs: {name: (low, low + width) for name, (low, width) in zip(NAMES, pairs)}
@@ -162,7 +163,7 @@ def test_squares_prove_the_minimum_of_a_valley(name: str) -> None:
     assert list(found.point.values()) == [Fraction(value) for value in at.split()]
 
 
-@pytest.mark.parametrize("exponent", [3, 6, 9])
+@pytest.mark.parametrize("exponent", [3, 9])
 def test_squares_enclose_an_irrational_minimum_of_a_valley(exponent: int) -> None:
     text = "100*(y - x^2)^2 + (1 - x)^2 + 100*(z - y^2)^2 + (1 - y)^2 + x*z/10"
     found = enclose_minimum(

@@ -74,3 +74,12 @@ def test_too_many_variables_are_told_where_it_is_not_linear_holds() -> None:
     whole = " and ".join(f"{a}*{b} > 5" for a, b in zip(names, names[1:]))
     *_, last = certificates_in_turn(statement_of(" ".join(names), whole), Budget(10**6))
     assert last == {"unknown": "it is not linear, in 121 variables; at most 120 are tried"}
+
+
+@pytest.mark.parametrize(("above", "key"), [(148, "certified"), (149, "refuted")])
+def test_many_variables_are_decided_where_all_is_linear_holds(above: int, key: str) -> None:
+    names = [f"x{k}" for k in range(150)]
+    steps = " and ".join(f"{b} >= {a} + 1" for a, b in zip(names, names[1:]))
+    whole = f"{steps} and x149 < x0 + {above} + 1/2"
+    *_, last = certificates_in_turn(statement_of(" ".join(names), whole), Budget(2 * 10**6))
+    assert key in last

@@ -7,8 +7,11 @@ from collections.abc import Sequence
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import Condition
+from juggleproof.certificates.language import NO_ROLES
 from juggleproof.certificates.search.boxes.over_box import box_of, close_over_box
 from juggleproof.certificates.search.boxes.squares import close_by_bounds
+from juggleproof.certificates.search.hints.few_values import point_by_few_values
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
@@ -98,3 +101,16 @@ def test_the_work_is_counted_holds() -> None:
     )
     with pytest.raises(Exhausted):
         close_over_box(state(f"{inside} and {poly} < {low}", "xyzw"), 100, Budget(5))
+
+
+def test_terms_of_large_polynomials_are_counted_holds() -> None:
+    names = "abcdefghij"  # a product of sums, of 2^10 terms
+    inside = " and ".join(f"0 <= {x} and {x} <= 1" for x in names)
+    large = state(f"{inside} and {'*'.join(f'(1 + {x})' for x in names)} < 1/2", names)
+    with pytest.raises(Exhausted):
+        close_by_bounds(large, 9, Budget(2**10))
+    condition = Condition.of(large.context, ("atom", *large.facts[-1]))
+    budget = Budget(10**4)
+    with pytest.raises(Exhausted):
+        point_by_few_values(condition, budget, NO_ROLES)
+    assert budget.left == 10**4  # refused ahead of the work

@@ -181,9 +181,27 @@ def test_positivity_on_an_interval_agrees_with_samples(coefficients: list[int]) 
         assert positive_between(univariate(poly, 0), Fraction(0), Fraction(1))
 
 
-def test_parts_of_a_budget_spend_from_the_whole() -> None:
+def test_parts_of_a_budget_spend_from_the_whole_holds() -> None:
+    whole = Budget(100)
+    whole.part(40).part(30).spend(25)
+    assert whole.left == 75
+
+
+def test_what_is_too_large_takes_nothing_from_a_budget_holds() -> None:
+    whole = Budget(100)
+    first, second = whole.part(90), whole.part(90)
+    with pytest.raises(Exhausted):
+        first.spend(91)
+    first.spend(90)
+    with pytest.raises(Exhausted):  # a part has no more than the whole has left
+        second.spend(11)
+    assert (whole.left, second.left) == (10, 90)
+
+
+def test_what_was_done_takes_what_is_left_holds() -> None:
     whole = Budget(100)
     part = whole.part(40)
+    part.charge(15)
     with pytest.raises(Exhausted):
-        part.spend(41)
-    assert whole.left == 59
+        part.charge(26)
+    assert (whole.left, part.left) == (60, 0)

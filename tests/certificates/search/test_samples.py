@@ -22,10 +22,11 @@ from juggleproof.certificates.search.psatz.linear import FIRST, search
 from juggleproof.certificates.search.terms import Point, Quotient, Trial
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.certificates.drawn import fractions
 
 RING = fmpq_mpoly_ctx.get(["a", "x", "y"], Ordering.lex)
 A, X, Y = RING.gens()
-NUMBERS = st.fractions(-3, 3, max_denominator=4).map(lambda c: fmpq(c.numerator, c.denominator))
+NUMBERS = fractions(-3, 3, 4).map(lambda c: fmpq(c.numerator, c.denominator))
 POLYS = st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), NUMBERS, max_size=5).map(
     lambda d: RING.from_dict({k: c for k, c in d.items() if c})
 )

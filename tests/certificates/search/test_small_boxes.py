@@ -14,12 +14,13 @@ from hypothesis import strategies as st
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.boxes.branching import Branching
 from juggleproof.certificates.search.boxes.small import search_tree, value_at
+from tests.certificates.drawn import fractions
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
 NAMES = ("x", "y", "z")
 ends = st.tuples(
-    st.fractions(min_value=-2, max_value=2, max_denominator=3),
-    st.fractions(min_value=0, max_value=3, max_denominator=3),
+    fractions(-2, 2, 3),
+    fractions(0, 3, 3),
 )
 boxes = st.lists(ends, min_size=3, max_size=3).map(
     lambda pairs: [(low, low + width) for low, width in pairs]

@@ -279,8 +279,9 @@ def test_both_solvers_accept_the_scripts_of_stored_statements() -> None:
     chosen = dict.fromkeys([*SPECIAL, *list(STORED)[::20], *MAPS])
     kinds = {statements[name].kind for name in chosen}
     assert kinds == {"universal", "sharp", *checker.orbit_rules()}
+    context = z3.Context()
     for name in chosen:
         text = script(statements[name], statements).replace("(check-sat)\n", "")
         for block in text.split("(reset)\n")[1:]:
-            z3.parse_smt2_string(block, ctx=z3.Context())  # raises where it is not well formed
+            z3.parse_smt2_string(block, ctx=context)  # raises where it is not well formed
         assert not by_cvc5(text), name

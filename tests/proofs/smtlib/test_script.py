@@ -18,10 +18,11 @@ from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.questions import Atom, questions, read_statement
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.smtlib.script import read_problems
+from tests.certificates.drawn import fractions
 from tests.proofs.smtlib.evaluating import differences, truth
 
 NAMES = ("x", "y", "z")
-numbers = st.fractions(-3, 3, max_denominator=4)
+numbers = fractions(-3, 3, 4)
 terms = st.recursive(
     st.sampled_from(NAMES) | numbers,
     lambda inner: (

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as some
 
 from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
+from tests.certificates.drawn import fractions
 from tests.proofs.command import running
 
 Number = Fraction | int
-NUMBERS = some.fractions(-3, 3, max_denominator=4)  # ties are frequent
+NUMBERS = fractions(-3, 3, 4)  # ties are frequent
 
 LINES = "write over, domain, state, space, piece, point"
 SIGNS = "write names, 3/10 or 0.3, + - * / ^, abs max min, < <= = != >= >, and or not"
@@ -153,12 +154,18 @@ CASES: dict[str, Callable[[Number, Number], Number]] = {
 }
 
 
+@cache
+def system_of(*pieces: str) -> Map:
+    """The map of these pieces, read once for all examples."""
+    return read_rows("cases", [("state", "x y"), *(("piece", piece) for piece in pieces)])
+
+
 @pytest.mark.parametrize("term", CASES)
 @given(x=NUMBERS, y=NUMBERS)
 def test_cases_of_abs_max_and_min_are_those_of_python_holds(
     term: str, x: Fraction, y: Fraction
 ) -> None:
-    system = read_rows("cases", [("state", "x y"), ("piece", f"{term}, x")])
+    system = system_of(f"{term}, x")
     point = {"x": x, "y": y}
     assert sum(bool(holds(guard, point)) for guard, _ in system.pieces) == 1
     _, after = system.exact_next(point)
@@ -169,7 +176,6 @@ def test_cases_of_abs_max_and_min_are_those_of_python_holds(
 
 @given(x=NUMBERS, y=NUMBERS)
 def test_cases_within_a_guard_are_those_of_python_holds(x: Fraction, y: Fraction) -> None:
-    rows = [("piece", "abs(x) <= max(y, 1) -> 1, 0"), ("piece", "abs(x) > max(y, 1) -> 2, 0")]
-    system = read_rows("guards", [("state", "x y"), *rows])
+    system = system_of("abs(x) <= max(y, 1) -> 1, 0", "abs(x) > max(y, 1) -> 2, 0")
     _, after = system.exact_next({"x": x, "y": y})
     assert after["x"] == (1 if abs(x) <= max(y, 1) else 2)
