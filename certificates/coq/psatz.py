@@ -30,8 +30,12 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
     facts = [branch.state.facts[index][0] for key in squares for index, _ in key]
     roots = [root for some in squares.values() for _, root in some]
     # others may be no variables of the proof, as what is yet to be found
-    places = set().union(*(one.places() for one in [*facts, *roots, *chain(*shares)]))
-    sum_ = Sum(branch, [name for name, place in branch.names.items() if place in places])
+    together, mask = 0, (1 << checker.BITS) - 1
+    for poly in [*facts, *roots, *chain(*shares)]:
+        for monomial in poly.terms:
+            together |= monomial
+    names = branch.names.items()
+    sum_ = Sum(branch, [name for name, at in names if together >> (checker.BITS * at) & mask])
     multiples = [Fraction(1, poly.den * cofactor.den) for poly, cofactor in shares]
     below = {key: _denominators(branch, key) for key in squares}
     weights = [

@@ -8,13 +8,12 @@ import os
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from juggleproof.proofs.theorem import coq
 from juggleproof.proofs.theorem.coq import STATEMENTS, Attraction, Piece, current, statements
-from tests.proofs.coq.development import SOURCES, compiled, order
+from tests.proofs.coq.development import SOURCES, Answer, Coq, order
 
 # What Coq's standard Reals rest on; nothing else may be assumed.
 REALS = {
@@ -24,6 +23,14 @@ REALS = {
 }
 # One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
+
+
+def axioms(answer: Answer) -> set[str]:
+    """The axioms that an accepted text has printed last."""
+    assert answer.accepted, answer.output
+    _, begins, named = answer.output.partition("Axioms:\n")
+    assert begins
+    return set(re.findall(r"^([\w.]+)\s*:", named, flags=re.MULTILINE))
 
 
 def test_every_source_is_compiled_holds() -> None:
@@ -48,7 +55,7 @@ def test_the_statements_are_those_of_the_table_holds() -> None:
     assert (STATEMENTS).read_bytes() == current().encode()
 
 
-def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Path) -> None:
+def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     names = re.findall(r"^(?:Theorem|Lemma) (\w+)", (STATEMENTS).read_text(), flags=re.MULTILINE)
     rules = [
         "Rules.descent",
@@ -115,16 +122,7 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
         " RelationInto Statements Existence FromPhysics.\n"
         f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
     )
-    result = compiled(development, "Asked.v", text)
-    assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
-    assert (
-        set(
-            re.findall(
-                r"^([\w.]+)\s*:", result.stdout.removeprefix("Axioms:\n"), flags=re.MULTILINE
-            )
-        )
-        == REALS
-    )
+    assert axioms(development.ask(text)) == REALS
 
 
 def changed(**changes: object) -> Callable[[Attraction], Attraction]:
@@ -174,7 +172,7 @@ TABLES: dict[str, Callable[[Attraction], Attraction]] = {
 
 
 @pytest.mark.parametrize("name", list(TABLES)[::SHARE])
-def test_rejects_a_changed_table(name: str, development: Path) -> None:
+def test_rejects_a_changed_table(name: str, development: Coq) -> None:
     theorem = TABLES[name](coq.ball())
     text = statements(
         theorem,
@@ -184,8 +182,7 @@ def test_rejects_a_changed_table(name: str, development: Path) -> None:
         coq.boundary_speed(),
     )
     assert text != current()
-    result = compiled(development, "Mutant.v", text)
-    assert result.returncode != 0 and "Error" in result.stderr
+    assert development.ask(text).rejected
 
 
 TEXTS = {
@@ -218,8 +215,7 @@ TEXTS = {
 
 
 @pytest.mark.parametrize("name", list(TEXTS)[::SHARE])
-def test_rejects_a_changed_statement(name: str, development: Path) -> None:
+def test_rejects_a_changed_statement(name: str, development: Coq) -> None:
     old, new = TEXTS[name]
     assert old in current()
-    result = compiled(development, "Mutant.v", current().replace(old, new))
-    assert result.returncode != 0 and "Error" in result.stderr
+    assert development.ask(current().replace(old, new)).rejected

@@ -23,7 +23,7 @@ from juggleproof.certificates.coq.files import CLASSES, HEADER, Export
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.bounds import LOWER, enclose_minimum
 from juggleproof.proofs.command.main import run
-from tests.proofs.coq.development import compiled, coqc
+from tests.proofs.coq.development import Answer, Coq, compiled, coqc
 
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
 OPENED = HEADER.replace("From Store ", "From Juggleproof ")
@@ -112,28 +112,21 @@ def sizes() -> dict[str, int]:
     return {CLASSES[key]: classes.count(key) for key in CLASSES}
 
 
-def test_a_store_with_one_statement_of_each_class_compiles(tmp_path: Path) -> None:
-    coqc()
+def test_a_store_with_one_statement_of_each_class_compiles(tmp_path: Path, prelude: Coq) -> None:
     small = export(stored()[0], {smallest(*case) for case in CASES})
     write(small, tmp_path, files=1)
     assert small.reasons == {} and set(small.classes.values()) == set(CLASSES.values())
-    for name in ("Prelude.v", "Part01.v"):
-        text = (tmp_path / name).read_text().replace("From Store ", "From Juggleproof ")
-        result = compiled(tmp_path, name, text)
-        assert result.returncode == 0, result.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"Prelude.v", "Part01.v"}
+    assert (tmp_path / "Prelude.v").read_text() == PRELUDE
+    text = (tmp_path / "Part01.v").read_text()
+    assert text.startswith(HEADER)
+    answer = coq_of(prelude, text.removeprefix(HEADER))
+    assert answer.accepted, answer.output
 
 
-@pytest.fixture(scope="session")
-def prelude(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with what every file has, compiled."""
-    folder = tmp_path_factory.mktemp("prelude")
-    assert compiled(folder, "Prelude.v", PRELUDE).returncode == 0
-    return folder
-
-
-def coq_of(prelude: Path, text: str) -> Any:
+def coq_of(prelude: Coq, text: str) -> Answer:
     """What Coq says of lemmas."""
-    return compiled(prelude, "Exported.v", f"{OPENED}\n{text}")
+    return prelude.ask(f"{OPENED}\n{text}")
 
 
 def written(name: str, changed: Any = None) -> str:
@@ -152,19 +145,19 @@ def bounded(polynomial: str, box: Any) -> tuple[checker.Statement, Any]:
 
 
 @pytest.mark.parametrize("polynomial, box", BOUNDS)
-def test_a_box_tree_compiles(polynomial: str, box: Any, prelude: Path) -> None:
+def test_a_box_tree_compiles(polynomial: str, box: Any, prelude: Coq) -> None:
     statement, entry = bounded(polynomial, box)
     assert {"a", "A", "."} <= set(entry["certified"][2][3])
-    result = coq_of(prelude, lemmas(statement, entry, {}))
-    assert result.returncode == 0, result.stderr
+    answer = coq_of(prelude, lemmas(statement, entry, {}))
+    assert answer.accepted, answer.output
 
 
 @pytest.mark.parametrize("tree", [".", "A.", "aA..", "b.."])
-def test_rejects_a_wrong_box_tree(tree: str, prelude: Path) -> None:
+def test_rejects_a_wrong_box_tree(tree: str, prelude: Coq) -> None:
     statement, entry = bounded(*BOUNDS[1])
     entry["certified"][2][3] = tree
     assert checker.check_one(statement, entry, {}, {})[0] == "rejected"
-    assert coq_of(prelude, lemmas(statement, entry, {})).returncode != 0
+    assert coq_of(prelude, lemmas(statement, entry, {})).rejected
 
 
 USES = """
@@ -220,7 +213,7 @@ def used() -> dict[str, Any]:
     }
 
 
-def test_an_earlier_statement_with_exists_is_used_in_coq(prelude: Path) -> None:
+def test_an_earlier_statement_with_exists_is_used_in_coq(prelude: Coq) -> None:
     statements = checker.read_statements(USES)
     for name, entry in used().items():
         assert checker.check_one(statements[name], entry, statements, statements) == (
@@ -228,10 +221,10 @@ def test_an_earlier_statement_with_exists_is_used_in_coq(prelude: Path) -> None:
             None,
         )
     texts = [lemmas(statements[name], entry, statements) for name, entry in used().items()]
-    result = coq_of(prelude, "\n".join(texts))
-    assert result.returncode == 0, result.stderr
+    answer = coq_of(prelude, "\n".join(texts))
+    assert answer.accepted, answer.output
     alone = coq_of(prelude, "\n".join(texts[:-2] + texts[-1:]))
-    assert alone.returncode != 0 and "statement_t_next" in alone.stderr
+    assert alone.rejected and "statement_t_next" in alone.output
 
 
 LONG = """
@@ -241,9 +234,9 @@ show 10^70*x^2 - x*y + y^2 >= 0
 """
 
 
-@pytest.mark.parametrize("share, returns", [(4, 0), (3, 1)])
+@pytest.mark.parametrize("share, holds", [(4, True), (3, False)])
 def test_squares_with_long_weights_are_added_one_by_one_in_coq(
-    share: int, returns: int, prelude: Path
+    share: int, holds: bool, prelude: Coq
 ) -> None:
     (statement,) = checker.read_statements(LONG).values()
     squares = [["1", [], "y - x/2"], [f"{4 * 10**70 - 1}/{share}", [], "x"]]
@@ -251,11 +244,11 @@ def test_squares_with_long_weights_are_added_one_by_one_in_coq(
         "certified": ["proof", [], ["psatz", [product(0), *squares], []]],
         "point": ["t/squares", [], {"x": "0", "y": "0"}, ["close"]],
     }
-    accepted = checker.check_one(statement, entry, {}, {})[0] == "certified"
-    assert accepted is (returns == 0)
+    assert (checker.check_one(statement, entry, {}, {})[0] == "certified") is holds
     text = lemmas(statement, entry, {})
     assert "sum_not_negative" in text and hex(10**70) in text
-    assert coq_of(prelude, text).returncode == returns
+    answer = coq_of(prelude, text)
+    assert answer.accepted is holds and answer.rejected is not holds
 
 
 def with_value(part: Any, name: str, value: str) -> Any:
@@ -300,14 +293,13 @@ FORGED: list[tuple[str, Callable[[Any], None]]] = [
 
 @pytest.mark.parametrize("name, forge", FORGED[::SHARE])
 def test_rejects_a_forged_certificate(
-    name: str, forge: Callable[[Any], None], prelude: Path
+    name: str, forge: Callable[[Any], None], prelude: Coq
 ) -> None:
     changed = copy.deepcopy(certificate(name))
     forge(changed)
     assert changed != certificate(name)
-    result = coq_of(prelude, written(name, changed))
-    assert result.returncode != 0 and "yntax" not in result.stderr
-    assert coq_of(prelude, written(name)).returncode == 0
+    assert coq_of(prelude, written(name, changed)).rejected
+    assert coq_of(prelude, written(name)).accepted
 
 
 @pytest.mark.parametrize(
@@ -319,11 +311,11 @@ def test_rejects_a_forged_certificate(
     ],
 )
 def test_rejects_the_proof_of_another_statement(
-    case: tuple[str, ...], old: str, new: str, prelude: Path
+    case: tuple[str, ...], old: str, new: str, prelude: Coq
 ) -> None:
     text = exported().texts[smallest(*case)]
     changed = re.sub(old, new, text)
-    assert changed != text and coq_of(prelude, changed).returncode != 0
+    assert changed != text and coq_of(prelude, changed).rejected
 
 
 def test_rejects_a_root_that_is_not_the_only_one(tmp_path: Path) -> None:
@@ -378,8 +370,8 @@ def test_export_writes_one_file_a_statement_holds(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["S_eq_7_only_these.v"]
 
 
-def test_a_file_has_the_lemmas_that_its_certificate_uses(tmp_path: Path, prelude: Path) -> None:
+def test_a_file_has_the_lemmas_that_its_certificate_uses(tmp_path: Path, prelude: Coq) -> None:
     name = smallest("universal", "use")
     assert run(["export", "coq", name, "-o", str(tmp_path)]) == 0
     (path,) = tmp_path.iterdir()
-    assert coq_of(prelude, path.read_text().removeprefix(PRELUDE)).returncode == 0
+    assert coq_of(prelude, path.read_text().removeprefix(PRELUDE)).accepted

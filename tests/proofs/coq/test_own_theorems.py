@@ -9,7 +9,6 @@ import copy
 import hashlib
 import os
 import re
-import subprocess
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,9 +24,9 @@ from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
-from tests.proofs.coq.development import coqc
+from tests.proofs.coq.development import Answer, Coq, compiled
 from tests.proofs.coq.maps import WORDS
-from tests.proofs.coq.test_development import REALS
+from tests.proofs.coq.test_development import REALS, axioms
 
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
 MAPS = Path(__file__).with_name("maps.py")
@@ -35,7 +34,7 @@ SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "gr
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
-ALONE = (SHARP, EITHER)  # compiled as they are written; tests of examples do that as well
+ALONE = (SHARP,)  # compiled as it is written; tests of examples do that as well
 
 
 def settles(point: str, of: str = "a", what: str = "", words: str = "Map.space {} Map.f") -> str:
@@ -50,7 +49,7 @@ def all_settle(point: str) -> str:
     return settles(point, "a", "executions_", "Relation.space {} Relation.next")
 
 
-BOUND = {COUNTED: "n : Z", NAMED: f"{WORDS} : R"}
+QUANTIFIED = {COUNTED: "n : Z", NAMED: f"{WORDS} : R"}
 CONCLUSIONS = {
     SHARP: f"Map.domain a -> (Descent.domain a <-> {settles('Contraction.point')}).",
     PLANE: f"Descent.domain a -> {settles('Contraction.point')} /\\",
@@ -88,45 +87,77 @@ OPENED = "From Coq Require Import Reals ZArith Lra Lia List.\n{}Open Scope R_sco
 THEORY = "\nModule States.\n"  # what is before it says nothing of the map
 
 
-@pytest.fixture(scope="session")
-def theories(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("theories")
-
-
-def alone(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
+def alone(folder: Path, text: str) -> Answer:
     """What coqc says of a file in a folder of its own."""
-    (folder / "Own.v").write_text(text)
-    command = [coqc(), "-q", "-Q", ".", "", "Own.v"]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+    done = compiled(folder, "Own.v", text)
+    return Answer(done.returncode == 0, done.stdout + done.stderr)
 
 
-def taken(theories: Path, text: str) -> subprocess.CompletedProcess[str]:
-    """What coqc says of a file whose theory, which many files share, is compiled once."""
+def taken(coq: Coq, text: str) -> Answer:
+    """What Coq says of a file, of whose theory it is told once what many files share."""
     theory, begins, own = text.partition(THEORY)
     assert begins
-    theory = theory[theory.index("From Coq") :]
-    name = f"Theory_{hashlib.sha256(theory.encode()).hexdigest()[:12]}"
-    if not (theories / f"{name}.vo").exists():
-        (theories / f"{name}.v").write_text(theory)
-        command = [coqc(), "-q", f"{name}.v"]
-        subprocess.run(command, cwd=theories, capture_output=True, timeout=600, check=True)
-    return alone(theories, OPENED.format(f"Require Import {name}.\n") + begins + own)
+    parts = re.split(r"^(?=Module )", theory[theory.index("Open Scope") :], flags=re.MULTILINE)
+    imports = ""
+    for count, part in enumerate(parts):
+        digest = hashlib.sha256("".join(parts[: count + 1]).encode()).hexdigest()
+        name = f"Theory_{digest[:12]}"
+        if name not in coq.told:
+            assert coq.tell(name, OPENED.format(imports) + part).accepted
+        imports += f"Import {name}.\n"
+    return coq.ask(OPENED.format(imports) + begins + own)
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder with a file for each theorem of the maps."""
+    folder = tmp_path_factory.mktemp("theorems")
+    assert run(["export", "coq", str(MAPS), "-o", str(folder)]) == 0
+    return folder
+
+
+def test_export_writes_a_file_for_each_theorem_holds(files: Path) -> None:
+    names = {f"S_{one.replace('/', '_')}.v" for one in CONCLUSIONS}
+    assert {path.name for path in files.iterdir()} == names
+    assert (files / "S_mixed_all.v").read_text() == written(PLANE, *judged())
+
+
+@pytest.fixture(scope="module")
+def answers(files: Path, coq: Coq, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
+    """What Coq says of each file, and of the axioms of all that it is told."""
+    said, asked = {}, []
+    for name in CONCLUSIONS:
+        text = (files / f"S_{name.replace('/', '_')}.v").read_text()
+        if name in ALONE:
+            said[name] = alone(tmp_path_factory.mktemp("alone"), text)
+            continue
+        own, last, end = text.rpartition(f"Print Assumptions {coq_rules.theorem_name(name)}.")
+        assert last and end.strip() == ""
+        said[name] = taken(coq, own)
+        asked.append(f"@Question_{coq.asked}.{coq_rules.theorem_name(name)}")
+    text = f"Definition all_theorems := ({', '.join(asked)}).\nPrint Assumptions all_theorems.\n"
+    return {**said, "all": coq.ask(text)}
 
 
 @pytest.mark.parametrize("name", CONCLUSIONS)
-def test_coqc_accepts_a_theorem_holds(name: str, theories: Path, tmp_path: Path) -> None:
-    coqc()
-    text = written(name, *judged())
+def test_coqc_accepts_a_theorem_holds(name: str, files: Path, answers: dict[str, Answer]) -> None:
+    text = (files / f"S_{name.replace('/', '_')}.v").read_text()
     says = " ".join(text.split(f"Theorem {coq_rules.theorem_name(name)} :")[1].split())
     if name == NAMED:
         says = says.replace("'", "")
-    assert says.startswith(f"forall {BOUND.get(name, 'a : R')}, {CONCLUSIONS[name]}")
+    assert says.startswith(f"forall {QUANTIFIED.get(name, 'a : R')}, {CONCLUSIONS[name]}")
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b(?!')", text)
-    result = alone(tmp_path, text) if name in ALONE else taken(theories, text)
-    assert result.returncode == 0, result.stderr
-    head, _, axioms = result.stdout.partition("Axioms:\n")
-    found = re.findall(r"^([\w.]+)\s*:", axioms, flags=re.MULTILINE)
-    assert head == "" and found and set(found) <= REALS
+    assert answers[name].accepted, answers[name].output
+    head, _, _ = answers[name].output.partition("Axioms:\n")
+    assert head.strip() == ""
+
+
+def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(
+    answers: dict[str, Answer],
+) -> None:
+    assert [name for name in answers if "Axioms:" in answers[name].output] == [*ALONE, "all"]
+    for name in (*ALONE, "all"):
+        assert axioms(answers[name]) <= REALS
 
 
 def forged(own: str, premise: str, other: str) -> dict[str, Any]:
@@ -151,11 +182,9 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
     ][::SHARE],
 )
 def test_rejects_a_forged_certificate(
-    name: str, own: str, premise: str, other: str, theories: Path
+    name: str, own: str, premise: str, other: str, coq: Coq
 ) -> None:
-    coqc()
-    result = taken(theories, written(name, judged()[0], forged(own, premise, other)))
-    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert taken(coq, written(name, judged()[0], forged(own, premise, other))).rejected
 
 
 @pytest.mark.parametrize(
@@ -172,11 +201,10 @@ def test_rejects_a_forged_certificate(
         (WALKED, "Descent.rank_1_1 a of_s + INR 0 <= INR of_n ->\n  ", ""),
     ][::SHARE],
 )
-def test_rejects_a_changed_map(name: str, old: str, new: str, theories: Path) -> None:
+def test_rejects_a_changed_map(name: str, old: str, new: str, coq: Coq) -> None:
     text = written(name, *judged())
     assert old in text
-    result = taken(theories, text.replace(old, new))
-    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert taken(coq, text.replace(old, new)).rejected
 
 
 def test_rejects_a_certificate_of_another_shape() -> None:
@@ -184,20 +212,10 @@ def test_rejects_a_certificate_of_another_shape() -> None:
         written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
 
 
-def test_rejects_another_map_with_the_certificates_of_one(theories: Path) -> None:
-    coqc()
+def test_rejects_another_map_with_the_certificates_of_one(coq: Coq) -> None:
     texts = {**judged()[0]}
     texts["scaled/map"] = texts["scaled/map"].replace("a*x", "a*x^2 + a*x/8")
-    result = taken(theories, written(SHARP, texts, judged()[1]))
-    assert result.returncode != 0 and "yntax" not in result.stderr
-
-
-def test_export_writes_a_file_for_each_theorem_holds(tmp_path: Path) -> None:
-    assert run(["export", "coq", str(MAPS), "-o", str(tmp_path)]) == 0
-    assert {path.name for path in tmp_path.iterdir()} == {
-        f"S_{one.replace('/', '_')}.v" for one in CONCLUSIONS
-    }
-    assert (tmp_path / "S_mixed_all.v").read_text() == written(PLANE, *judged())
+    assert taken(coq, written(SHARP, texts, judged()[1])).rejected
 
 
 def test_rests_on_decides_what_is_a_theorem_holds() -> None:
@@ -211,14 +229,19 @@ def test_rests_on_decides_what_is_a_theorem_holds() -> None:
     ]
 
 
+def first_two() -> str:
+    """The maps that come first."""
+    text = MAPS.read_text()
+    return text[: text.index('@claim("shifted")')] + text[text.index("def norm(") :]
+
+
 def test_rejects_what_cannot_be_written_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     own = tmp_path / "own.py"
-    own.write_text(MAPS.read_text().replace('rate="1/2", radius="u"', 'rate="1/9", radius="u"'))
+    own.write_text(first_two().replace('rate="1/2", radius="u"', 'rate="1/9", radius="u"'))
     assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
-    names = {path.name for path in (tmp_path / "coq").iterdir()}
-    assert "S_mixed_all.v" not in names and len(names) == len(CONCLUSIONS) - 1
+    assert [path.name for path in (tmp_path / "coq").iterdir()] == ["S_scaled_exactly.v"]
     assert capsys.readouterr().err == (
         f"juggleproof: {own}: mixed/all: it is unknown; `juggleproof certify {own}` says why\n"
     )
@@ -242,7 +265,7 @@ SCRIPT = """
 (push)(assert (< (+ (* x x) (* y y)) (* 2 x y)))(check-sat)(pop)
 (check-sat-assuming ((> (* 2 x y) 1)))
 """
-BOUND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
+COMMAND = ["bound", "x^2*y - x*y^2 + x/10", "--box", "x=0..1,y=-1/2..3", "--width", "1e-3"]
 
 
 def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
@@ -251,7 +274,7 @@ def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
     own, script, bound = tmp_path / "own.py", tmp_path / "mean.smt2", tmp_path / "bound"
     own.write_text(INEQUALITY)
     script.write_text(SCRIPT)
-    assert run([*BOUND, "-o", str(bound)]) == 0
+    assert run([*COMMAND, "-o", str(bound)]) == 0
     assert '["boxes",' in (bound / checker.CERTIFICATES).read_text()
     texts, _ = list[str](), capsys.readouterr()
     for name in (own, script, script.with_suffix(".certificates"), bound):
@@ -264,10 +287,7 @@ def test_every_store_is_written_with_its_box_trees_and_compiles_holds(
     whole = PRELUDE + "".join(
         text.removeprefix(PRELUDE) for text in (of_claim, of_folder, of_bound)
     )
-    (tmp_path / "All.v").write_text(whole)
-    done = subprocess.run(
-        [coqc(), "All.v"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = compiled(tmp_path, "All.v", whole)
     assert done.returncode == 0, done.stderr
 
 
