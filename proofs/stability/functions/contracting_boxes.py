@@ -56,7 +56,7 @@ from juggleproof.proofs.stability.samples import (
 
 MOST_STATES = 3
 EACH = 60  # states for each of the parameters
-FAR = 1e-3  # of the value on the faces, what is not rounding
+FAR = 1e-3  # of the greatest value, what is not rounding
 SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of a side; -1: any
 TOGETHER = 3  # of the factors of a constant
 SPAN = 2.5  # powers of ten below and above 1 that a side without an end runs over
@@ -142,7 +142,7 @@ def lyapunov_rules(
     function = Function(tuple(terms))
     samples = states_of(setting, box)
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    far = here > FAR * at_parameters(setting, weights[0] * widths[0])[samples.which]
+    far = here > FAR * here.max()
     shares = samples.where(far).least((here - there)[far] / here[far], setting.count)
     products = products_of(setting)
     least, most, size = (
