@@ -29,7 +29,7 @@ def test_page_is_written_and_its_path_printed_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
-    monkeypatch.setattr(report, "pictures", lambda contents: drawn())
+    monkeypatch.setattr(formats, "pictures", lambda contents: drawn())
     assert run(["report", "--format", "html", "-o", str(tmp_path / "new" / "folder")]) == 0
     path = tmp_path / "new" / "folder" / "juggleproof.html"
     assert capsys.readouterr().out == f"{path}\n"

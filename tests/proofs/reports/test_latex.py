@@ -16,7 +16,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command import report
+from juggleproof.proofs.command import formats, report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.reading.meaning import read
@@ -382,7 +382,7 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
-    monkeypatch.setattr(report, "saved", lambda contents, form: ())
+    monkeypatch.setattr(formats, "saved", lambda contents, form: ())
     monkeypatch.setattr(shutil, "which", lambda name: None)
     assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
     assert (
