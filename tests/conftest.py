@@ -37,6 +37,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: not item.nodeid.startswith("tests/proofs/coq/"))
 
 
+def pytest_sessionfinish() -> None:
+    """One search for garbage at the end; pytest's own, five times over in all that is loaded, would
+    take 10 s.
+    """
+    gc.collect()
+    gc.freeze()
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Tests of a folder go to one process, which judges, derives and compiles for all of them; the

@@ -30,7 +30,7 @@ from juggleproof.certificates.search.psatz.facts import Factors, merge, power
 from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift
 from juggleproof.certificates.search.psatz.linear_program import EXACT, Program, solve
 from juggleproof.certificates.search.psatz.problem import Problem
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, Exhausted
 
 MOST_FOR_PAIRS = 8  # facts beside the coordinates
 ROUNDS = 2  # of multipliers, each for the monomials of those before
@@ -54,6 +54,12 @@ class Step:
     rest: fmpz_mpoly
     sign: int
     size: Multiple
+
+    def work(self, poly: fmpz_mpoly) -> int:
+        """Units of work that `apply` takes at most, by the terms of the powers to be multiplied."""
+        degree = int(poly.degrees()[self.variable]) if poly else 0
+        terms: int = max(len(self.rest) + 1, len(self.factor))
+        return len(poly) * int(terms**degree) // 10
 
     def apply(self, poly: fmpz_mpoly) -> tuple[fmpz_mpoly, Multiple]:
         """The polynomial after the step, times the size of the factor to its degree, and that."""
@@ -79,13 +85,14 @@ class Orthant:
     >>> for name in ("x", "y"):
     ...     context.declare(name)
     >>> formula = context.formula(checker.parse("x > 1 and y >= x and y^2 < x^2"))
-    >>> orthant = Orthant(Problem(State(context).assume(formula), Ring(("x", "y"))), [0, 1, 2])
+    >>> problem = Problem(State(context).assume(formula), Ring(("x", "y")))
+    >>> orthant = Orthant(problem, [0, 1, 2], Budget(10**5))
     >>> orthant.own, str(orthant.facts[2])
     ({0: 1, 1: 0}, '-x^2 - 2*x*y - 2*x')
     """
 
-    def __init__(self, problem: Problem, only: Sequence[int]) -> None:
-        self.problem, self.ring, self.only = problem, problem.ring, only
+    def __init__(self, problem: Problem, only: Sequence[int], budget: Budget) -> None:
+        self.problem, self.ring, self.only, self.budget = problem, problem.ring, only, budget
         self.own: dict[int, int] = {}
         self.steps: list[Step] = []
         self.facts = [fact.poly for fact in problem.facts]
@@ -94,6 +101,7 @@ class Orthant:
             self.own[step.variable] = step.fact
             self.steps.append(step)
             for k in set(self.only) - {step.fact}:
+                budget.spend(step.work(self.facts[k]))
                 self.facts[k], more = step.apply(self.facts[k])
                 self.multiples[k] = both(self.multiples[k], more)
             self.facts[step.fact] = self.ring.gens[step.variable]
@@ -102,6 +110,7 @@ class Orthant:
         """The step after which most facts have no negative coefficient; constant factors and linear
         facts first.
         """
+        self.budget.spend(len(self.only) * self.ring.size)
         best: tuple[tuple[int, ...], Step] | None = None
         facts = [(k, self.facts[k]) for k in self.only]
         small = [(p, not_negative(p)) for _, p in facts if len(p) <= SMALL]
@@ -112,6 +121,7 @@ class Orthant:
                     continue
                 order = -total_degree(step.factor), -total_degree(poly)
                 if best is None or order >= best[0][:2]:
+                    self.budget.spend(sum(step.work(p) for p, _ in small))
                     count = sum(
                         not_negative(step.apply(p)[0]) if p.degrees()[v] else now
                         for p, now in small
@@ -181,7 +191,8 @@ class Base:
 
 
 def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
-    """The node of an identity of at most so many products; None where none was found.
+    """The node of an identity of at most so many products; None where none was found, or where the
+    facts in coordinates are too large for the budget.
 
     Raises Exhausted where the budget ends.
     """
@@ -192,7 +203,10 @@ def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
     others = [v for v, d in enumerate(problem.facts[last].poly.degrees()) if not d]
     own = [k for k in every if not any(problem.facts[k].poly.degrees()[v] for v in others)]
     for only in (own, every) if len(own) < len(every) else (every,):
-        leaf = Leaf(Orthant(problem, only))
+        try:
+            leaf = Leaf(Orthant(problem, only, budget))
+        except Exhausted:
+            return None
         starts = [[k for k, fact in enumerate(leaf.alone) if fact == last]]
         starts += [list(range(len(leaf.alone)))] if only is every else []
         for start in starts:
