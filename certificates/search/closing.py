@@ -129,11 +129,17 @@ class Closing:
 
     def problem(self, state: State, whole: bool = False) -> Problem:
         """The facts of a state, ready for a search."""
-        self.budget.spend(300 + 2 * max(0, sum(len(p.terms) for p, _ in state.facts) - LARGE))
+        self.count(300, [len(poly.terms) for poly, _ in state.facts])
         names = tuple(state.context.index)
         if names not in self.rings:
             self.rings[names] = Ring(names)
-        return Problem(state, self.rings[names], whole)
+        problem = Problem(state, self.rings[names], whole)
+        self.count(0, [len(poly) for poly in problem.polys()])
+        return problem
+
+    def count(self, least: int, terms: Sequence[int]) -> None:
+        """Spends what reading facts of so many terms takes, which is more where they are large."""
+        self.budget.spend(least + 2 * max(0, sum(terms) - LARGE))
 
     # -------------------------------------------------------- disjunctions
 

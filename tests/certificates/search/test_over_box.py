@@ -11,6 +11,7 @@ from juggleproof.certificates.algebra.conditions import Condition
 from juggleproof.certificates.language import NO_ROLES
 from juggleproof.certificates.search.boxes.over_box import box_of, close_over_box
 from juggleproof.certificates.search.boxes.squares import close_by_bounds
+from juggleproof.certificates.search.closing import Closing
 from juggleproof.certificates.search.hints.few_values import point_by_few_values
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
@@ -114,3 +115,5 @@ def test_terms_of_large_polynomials_are_counted_holds() -> None:
     with pytest.raises(Exhausted):
         point_by_few_values(condition, budget, NO_ROLES)
     assert budget.left == 10**4  # refused ahead of the work
+    with pytest.raises(Exhausted):
+        Closing({}, Budget(400), 2).problem(large)
