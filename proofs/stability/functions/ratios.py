@@ -35,6 +35,7 @@ from juggleproof.proofs.stability.functions.values import (
 )
 from juggleproof.proofs.stability.given import (
     Expr,
+    as_factor,
     atoms,
     bounds,
     conjunction,
@@ -169,6 +170,10 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
                 put[one] = sympy.cancel(solution)
                 break
     have = [line for line in setting.have if ">" in line]
+    conditions = [one.subs(put) for one, strict in atoms(setting.domain) if strict]
+    for factor in factors_of(setting, [one for one in conditions if one.free_symbols]):
+        if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
+            have.append(f"{written(factor)} > 0")
     for one, term in put.items():
         above, below = map(written, sympy.fraction(sympy.together(term)))
         have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
@@ -314,8 +319,14 @@ def terms_of(
             above, below = (above * here, below * there) if power else (above, below)
         gap = f"{'-' if sign < 0 else ''}{names[row.index(1)]}_gap"
         top = gap if sum(map(abs, row)) == 1 else written(above - below)
-        terms.append(f"({top})/({written(below * weight)})")
+        terms.append(_divided(f"({top})", below * weight))
     return terms
+
+
+def _divided(text: str, term: Expr) -> str:
+    """The text divided by a term, as one quotient."""
+    over, under = sympy.fraction(sympy.factor(1 / term))
+    return f"{'' if over == 1 else as_factor(written(over)) + '*'}{text}/({written(under)})"
 
 
 def _losses(
@@ -356,7 +367,7 @@ def _losses(
             over = "/(1 + {})" if power else ""
             lines = [
                 ("loss", f"({constant})*value" + over.format("value")),
-                ("least", f"({constant})*distance/({written(total)})" + over.format("level")),
+                ("least", f"({constant})*{_divided('distance', total)}" + over.format("level")),
                 ("upper", written(upper)),
                 ("radius", written(radius)),
             ]
