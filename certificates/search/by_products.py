@@ -4,7 +4,9 @@ positive, in the parameters above all.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Sequence
+from itertools import combinations
 from math import prod
 
 from flint import fmpz_mpoly
@@ -105,19 +107,22 @@ def facts_kept(
     state: State, ring: Ring, terms: Collection[int], unknowns: Collection[str]
 ) -> list[int]:
     """The numbers of the facts that are used: the equations, the last fact, which is the negated
-    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone.
+    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone;
+    no equation that only defines an unknown.
     """
     kept, count = [], 0
-    for k, (poly, relation) in enumerate(state.facts):
-        lowered = ring.read(poly)
-        used = {ring.names[v] for v, power in enumerate(lowered.degrees()) if power}
+    read = [ring.read(poly) for poly, _ in state.facts]
+    every = [{ring.names[v] for v, power in enumerate(p.degrees()) if power} for p in read]
+    tied = Counter(name for used in every if len(used) > 1 for name in used)
+    defined = {name for name in unknowns if tied[name] == 1}  # an equation that tells nothing else
+    for k, ((_, relation), lowered, used) in enumerate(zip(state.facts, read, every)):
         gaps = any(name.endswith("_gap") for name in used)
         alone = used <= set(MOVING)
         if "value" in used and gaps:
             count += 1
         if (
             k == len(state.facts) - 1
-            or (relation == "=" and not any(map(is_moving, used)))
+            or (relation == "=" and not any(map(is_moving, used)) and not used & defined)
             or ("value" in used and gaps and count - 1 in terms)
             or (alone and (len(lowered) == 1 or any(c < 0 for c in lowered.coeffs())))
             or ("value" not in used and gaps and total_degree(lowered) == 1)
@@ -196,7 +201,7 @@ def leaf(
         (poly, own, root) if own and own[0] in first else (poly * shared, (*own, *common), root)
         for poly, own, root in polys
     ]
-    top = max(total_degree(poly) for poly, _, _ in polys)
+    top = max(total_degree(poly) for poly, _, root in polys if root < 0)
     for more in MORE:
         program = Program()
         columns: list[tuple[tuple[int, ...], int]] = []
@@ -221,7 +226,9 @@ def leaf(
 
 
 def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
-    """Those of the facts that are not a sum of another and of products of positive variables."""
+    """Those of the facts that are not a sum of two others, or of another and of products of positive
+    variables.
+    """
     polys = {k: problem.facts[k].poly for k in positive}
     single = {
         poly.degrees().index(1)
@@ -239,6 +246,10 @@ def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
     for k, poly in list(polys.items()):
         parts = problem.ring.factors(poly)
         if len(parts) > 1 and all(str(p) in every or str(-p) in every for p, _ in parts):
+            del polys[k]
+    for k, poly in list(polys.items()):
+        others = [one for other, one in polys.items() if other != k]
+        if len(poly) > 1 and any(poly == a + b for a, b in combinations(others, 2)):
             del polys[k]
     return [
         k

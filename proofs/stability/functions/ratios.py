@@ -163,14 +163,20 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
         if not factors:
             continue
         zero = min(factors, key=lambda one: np.median(np.abs(at_parameters(setting, one))))
-        for one in [*symbols(setting.system.parameters), *reversed(names)]:
+        parameters = symbols(setting.system.parameters)
+        simple = sorted(parameters, key=lambda one: _size(sympy.diff(zero, one)))
+        for one in [*simple, *reversed(names)]:
             if sympy.degree(zero, one) == 1:
                 (solution,) = sympy.solve(zero, one)
                 put = {key: sympy.cancel(t.subs(one, solution)) for key, t in put.items()}
                 put[one] = sympy.cancel(solution)
                 break
     have = [line for line in setting.have if ">" in line]
-    conditions = [one.subs(put) for one, strict in atoms(setting.domain) if strict]
+    conditions = [
+        one.subs(put)
+        for one, strict in atoms(setting.domain)
+        if strict and one.free_symbols & put.keys()
+    ]
     for factor in factors_of(setting, [one for one in conditions if one.free_symbols]):
         if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
             have.append(f"{written(factor)} > 0")
@@ -178,6 +184,11 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
         above, below = map(written, sympy.fraction(sympy.together(term)))
         have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
     return replace(setting, have=tuple(have)), put
+
+
+def _size(term: Expr) -> int:
+    """How many terms a polynomial has."""
+    return len(sympy.Add.make_args(sympy.expand(term)))
 
 
 def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr]) -> Expr:
