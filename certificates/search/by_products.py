@@ -131,7 +131,7 @@ def facts_kept(
                 and not used & set(unknowns)
                 and any(c < 0 for c in lowered.coeffs())
             )
-            or (len(used) == 1 and len(lowered) == 1)
+            or (len(used) == 1 and len(lowered) == 1 and not used & set(unknowns))
         ):
             kept.append(k)
     return kept
@@ -226,7 +226,7 @@ def leaf(
 
 
 def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
-    """Those of the facts that are not a sum of two others, or of another and of products of positive
+    """Those of the facts that are no sum of two others, or of another and of products of positive
     variables.
     """
     polys = {k: problem.facts[k].poly for k in positive}

@@ -145,8 +145,11 @@ def spaces_entered(setting: Setting, far: bool) -> list[str]:
         if not rows:
             break
         bounded |= rows
-        kept = (part for part in conjuncts(found[-1]) if not ends_in(system, part) & rows.keys())
-        found.append(conjunction(*kept, *rows.values()))
+        said = {poly for poly, _ in atoms(conjunction(*rows.values()))}
+        kept = (
+            part for part in conjuncts(found[-1]) if not {poly for poly, _ in atoms(part)} & said
+        )
+        found.append(conjunction(*rows.values(), *kept))  # the new bounds come first
     return found[1:]
 
 
@@ -206,11 +209,6 @@ def ends_of_space(system: Map, space: str) -> dict[Side, Expr]:
             side = state.index(one), LOW if slope > 0 else HIGH
             found.setdefault(side, sympy.expand(one - poly / slope))
     return found
-
-
-def ends_in(system: Map, part: str) -> set[Side]:
-    """The sides of which a part of the space is a bound."""
-    return set(ends_of_space(system, part))
 
 
 def states_at_ends(setting: Setting, space: str) -> Arrays:

@@ -56,51 +56,67 @@ LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are 
 
 def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
     """The statements `lyapunov` that samples do not refute, those whose loss fits best first, each
-    with a search of its own for some premises.
+    with a search of its own for some premises; then those of distances.
     """
     system = setting.system
     if not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
         return
     setting, put = with_equations(setting)
-    for origin in origins(setting):
-        derivative = in_logarithms(setting, origin, put)
-        for rows in sets_of_rows(len(system.state)):
-            sums = sums_of(setting, derivative, rows)
-            if sums is None or len(str(sums.matrix)) > LONGEST:
-                continue
-            found = []
-            for weights in weights_of(setting, sums.matrix):
-                terms = terms_of(setting, put, origin, rows, weights)
-                falls = falls_of(sums.matrix, weights)
-                for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
-                    rank += len(" ".join(terms)) / 50
-                    positive = [*factors, *factors_of(setting, weights)]
-                    rule = _rule(setting, name, origin, positive, terms, lines)
-                    found.append((rank, rule))
-            unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
-            gaps = _gaps(setting)
-            squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
-            searches: dict[str, Search] = {
-                f"falls-1-{k + 1}": partial(
-                    proof_by_products,
-                    terms=sums.used(k),
-                    unknowns=unknowns,
-                    squares=squares,
-                    signs=gaps,
-                )
-                for k in range(2 * len(rows))
-            }
-            searches["least"] = partial(
-                proof_by_products,
-                terms=[k for k, row in enumerate(rows * 2) if sum(map(abs, row)) == 1],
-                unknowns=unknowns,
-                squares=(),
-                signs=(),
-            )
-            for _, rule in sorted(found, key=lambda one: one[0])[:MOST_RULES]:
-                yield rule, searches
-            if found:
-                return
+    every = (_rules(setting, put, origin, name) for origin in origins(setting))
+    yield from next(filter(None, every), [])
+    yield from _rules(setting, put, [sympy.Integer(1)] * len(system.state), name)
+
+
+def _rules(
+    setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr], name: str
+) -> list[tuple[MapRule, dict[str, Search]]]:
+    """The same for one origin, of the first rows for which there are any."""
+    derivative = in_logarithms(setting, origin, put)
+    for rows in sets_of_rows(len(setting.system.state), is_plain(origin)):
+        sums = sums_of(setting, derivative, rows)
+        if sums is None or len(str(sums.matrix)) > LONGEST:
+            continue
+        found = []
+        for weights in weights_of(setting, sums.matrix):
+            terms = terms_of(setting, put, origin, rows, weights)
+            falls = falls_of(sums.matrix, weights)
+            for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
+                rank += len(" ".join(terms)) / 50
+                positive = [*factors, *factors_of(setting, weights)]
+                rule = _rule(setting, name, origin, positive, terms, lines)
+                found.append((rank, rule))
+        if found:
+            best = sorted(found, key=lambda one: one[0])[:MOST_RULES]
+            searches = _searches(setting, put, rows, sums)
+            return [(rule, searches) for _, rule in best]
+    return []
+
+
+def _searches(
+    setting: Setting, put: dict[Expr, Expr], rows: Sequence[Row], sums: Sums
+) -> dict[str, Search]:
+    """For some premises, the facts that are used, and squares and signs."""
+    unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
+    gaps = _gaps(setting)
+    squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
+    found: dict[str, Search] = {
+        f"falls-1-{k + 1}": partial(
+            proof_by_products,
+            terms=sums.used(k),
+            unknowns=unknowns,
+            squares=squares,
+            signs=gaps,
+        )
+        for k in range(2 * len(rows))
+    }
+    found["least"] = partial(
+        proof_by_products,
+        terms=[k for k, row in enumerate([*rows, *rows]) if sum(map(abs, row)) == 1],
+        unknowns=unknowns,
+        squares=(),
+        signs=(),
+    )
+    return found
 
 
 def origins(setting: Setting) -> Iterator[list[Expr]]:
@@ -123,11 +139,18 @@ def origins(setting: Setting) -> Iterator[list[Expr]]:
         yield [one + shift for one in state]
 
 
-def sets_of_rows(count: int) -> Iterator[list[Row]]:
+def is_plain(origin: Sequence[Expr]) -> bool:
+    """Whether there are no ratios: V is the greatest of weighted distances, which ratios of x + c
+    tend to for large c.
+    """
+    return all(one.is_number for one in origin)
+
+
+def sets_of_rows(count: int, plain: bool) -> Iterator[list[Row]]:
     """The variables; of two variables also with their quotient, or their product."""
     units = [tuple(int(i == j) for j in range(count)) for i in range(count)]
     yield units
-    if count == 2:
+    if count == 2 and not plain:
         yield [*units, (1, -1)]
         yield [*units, (1, 1)]
 
@@ -374,7 +397,8 @@ def _losses(
     fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
     for power in POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
-        for rank, constant in bounded_below(np.minimum(least + CLOSE, fall), products):
+        constants = bounded_below(np.minimum(least + CLOSE, fall), products)
+        for rank, constant in constants:
             over = "/(1 + {})" if power else ""
             lines = [
                 ("loss", f"({constant})*value" + over.format("value")),
@@ -383,6 +407,8 @@ def _losses(
                 ("radius", written(radius)),
             ]
             yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
+        if constants and is_plain(origin):
+            return
 
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
@@ -409,9 +435,9 @@ def _rule(
             have.append(f"{written(factor)} > 0")
     if have:
         at = dict(zip(symbols(setting.system.state), point_names(setting)))
-        have += [f"{written(one.subs(at))} > 0" for one in origin]
+        have += [f"{written(one.subs(at))} > 0" for one in origin if not one.is_number]
     strict = [poly for poly, is_strict in atoms(setting.system.space) if is_strict]
-    more = [f"{written(one)} > 0" for one in origin if one not in strict]
+    more = [f"{written(one)} > 0" for one in origin if one not in strict and not one.is_number]
     on = conjunction(setting.system.space, *more)
     changed = replace(setting, domain=domain, have=tuple(dict.fromkeys(have)))
     return changed.rule(name, Function(tuple(terms)), [("on", on), *lines])
