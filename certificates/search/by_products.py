@@ -125,7 +125,7 @@ def facts_kept(
             or (relation == "=" and not any(map(is_moving, used)) and not used & defined)
             or ("value" in used and gaps and count - 1 in terms)
             or (alone and (len(lowered) == 1 or any(c < 0 for c in lowered.coeffs())))
-            or ("value" not in used and gaps and total_degree(lowered) == 1)
+            or ("value" not in used and gaps and is_bound(lowered, ring))
             or (
                 not any(map(is_moving, used))
                 and not used & set(unknowns)
@@ -135,6 +135,21 @@ def facts_kept(
         ):
             kept.append(k)
     return kept
+
+
+def is_end(problem: Problem, number: int, ring: Ring) -> bool:
+    """Whether a fact bounds one variable of the state by terms in the parameters, of which products
+    with V alone are used.
+    """
+    lowered = problem.source.lowered[problem.facts[number].factors[0][0]]
+    return total_degree(lowered) > 1 and is_bound(lowered, ring)
+
+
+def is_bound(poly: fmpz_mpoly, ring: Ring) -> bool:
+    """Whether it is linear in all, or bounds one variable of the state by the parameters."""
+    powers = poly.degrees()
+    moving = [v for v, power in enumerate(powers) if power and is_moving(ring.names[v])]
+    return total_degree(poly) == 1 or len(moving) == 1 and powers[moving[0]] == 1
 
 
 def is_moving(name: str) -> bool:
@@ -171,7 +186,8 @@ def leaf(
             any(now[v] for v in moving) or not any(first[v] for v in unknown)
         ):
             positive.append(k)
-    positive = independent(problem, positive)
+    ends = [k for k in positive if is_end(problem, k, ring)]
+    positive = independent(problem, [k for k in positive if k not in ends])
     packing = Packing(ring, [*problem.polys(), *roots])
     first = [k for k in generators if kept[problem.facts[k].factors[0][0]] == goal]
     common = [
@@ -187,6 +203,13 @@ def leaf(
         generators = [k for k in generators if not problem.facts[k].poly.degrees()[level]]
     polys: list[tuple[fmpz_mpoly, tuple[int, ...], int]]
     polys = [(problem.facts[k].poly, (k,), -1) for k in generators]
+    values = [ring.gens[ring.names.index("value")]] if "value" in ring.names else []
+    polys += [
+        (one * problem.facts[k].poly, (*own, k), -1)
+        for one, own, _ in list(polys)
+        if one in values
+        for k in ends
+    ]
     polys += [(root**2, (), k) for k, root in enumerate(roots)]
     shared = prod((problem.facts[k].poly for k in common), start=ring.one)
     used = [poly // shared if own and own[0] in first else poly for poly, own, _ in polys]

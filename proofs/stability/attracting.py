@@ -128,7 +128,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
             return True
     chains = contracting_box_rules(setting, setting.system.name)
-    return any(proof.add_all(chain, (1, 2), log) for chain in chains)
+    return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:

@@ -200,7 +200,8 @@ def limit_of(
 
 def ends_of_space(system: Map, space: str) -> dict[Side, Expr]:
     """The ends that the space has, as terms in the parameters."""
-    state, found = symbols(system.state), {}
+    state = symbols(system.state)
+    found: dict[Side, Expr] = {}
     for poly, _ in atoms(space):
         named = poly.free_symbols & set(state)
         slope = sympy.diff(poly, *named) if len(named) == 1 else sympy.Integer(0)

@@ -40,10 +40,11 @@ from juggleproof.proofs.stability.given import (
     bounds,
     conjunction,
     expression,
+    holds,
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import Floats, licence
+from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
 
 Row = tuple[int, ...]
 
@@ -56,7 +57,7 @@ LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are 
 
 def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
     """The statements `lyapunov` that samples do not refute, those whose loss fits best first, each
-    with a search of its own for some premises; then those of distances.
+    with a search of its own for some premises.
     """
     system = setting.system
     if not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
@@ -64,7 +65,12 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
     setting, put = with_equations(setting)
     every = (_rules(setting, put, origin, name) for origin in origins(setting))
     yield from next(filter(None, every), [])
-    yield from _rules(setting, put, [sympy.Integer(1)] * len(system.state), name)
+
+
+def distance_rules(setting: Setting, name: str) -> list[tuple[MapRule, dict[str, Search]]]:
+    """The same for weighted distances."""
+    setting, put = with_equations(setting)
+    return _rules(setting, put, [sympy.Integer(1)] * len(setting.system.state), name)
 
 
 def _rules(
@@ -375,6 +381,8 @@ def _losses(
     small where they fit well, and with what is positive in them.
     """
     terms = terms_of(setting, put, origin, rows, weights)
+    if is_plain(origin):
+        setting = at_corners(setting, weights)
     here, there, samples = values(setting, terms)
     before, now = here.max(axis=0), there.max(axis=0)
     if not len(before) or (now > before * (1 + CLOSE)).any():
@@ -409,6 +417,29 @@ def _losses(
             yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
         if constants and is_plain(origin):
             return
+
+
+def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
+    """The same with states at the corners of the boxes around the point with these sides, where a
+    map that is monotone in each variable moves most.
+    """
+    system, samples = setting.system, setting.states
+    sides = [at_parameters(setting, one)[samples.which] for one in weights]
+    gaps = zip(system.state, sides)
+    size = np.max([np.abs(samples.points[f"{one}_gap"]) / side for one, side in gaps], axis=0)
+    rng, points = np.random.default_rng(SEED), dict(samples.points)
+    for name, side in zip(system.state, sides):
+        points[f"{name}_gap"] = size * side * rng.choice((-1, 1), len(size))
+        points[name] = points[f"{name}_point"] + points[f"{name}_gap"]
+    corners = Samples(points, samples.which).where(
+        np.broadcast_to(holds(system.space, points), size.shape)
+    )
+    both = {
+        name: np.concatenate([states, corners.points[name]])
+        for name, states in samples.points.items()
+    }
+    which = np.concatenate([samples.which, corners.which])
+    return replace(setting, states=Samples(both, which))
 
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
