@@ -273,7 +273,7 @@ SOLVER = Solver((("output_flag", False), ("threads", 1), ("random_seed", 1)))
 
 
 FIRST = 300  # rows that a linear program begins with; those that it breaks are added
-EXACT_TO = 1e-7  # HiGHS's own tolerance
+TOLERANCE = 1e-7  # HiGHS's own tolerance
 
 
 def program(
@@ -289,7 +289,7 @@ def program(
         found = _program(matrix[asked], least[asked], low, high, costs)
         if found is None:
             return None
-        broken = np.flatnonzero(~asked & (matrix @ found < least - EXACT_TO))
+        broken = np.flatnonzero(~asked & (matrix @ found < least - TOLERANCE))
         if not len(broken):
             return found
         by = (matrix[broken] @ found - least[broken]).argsort(kind="stable")
