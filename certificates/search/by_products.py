@@ -104,10 +104,12 @@ def by_cases(
 def facts_kept(
     state: State, ring: Ring, terms: Collection[int], unknowns: Collection[str]
 ) -> list[int]:
-    """The numbers of the facts that are used: the equations, the last fact, which is the negated
-    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone.
+    """The numbers of the facts that are used: the equations that are linear in the unknowns, the
+    last fact, which is the negated goal, these terms of V, value >= 0, and what is linear in the
+    state or in the parameters alone.
     """
     kept, count = [], 0
+    unknown = [v for v, name in enumerate(ring.names) if name in unknowns]
     for k, (poly, relation) in enumerate(state.facts):
         lowered = ring.read(poly)
         used = {ring.names[v] for v, power in enumerate(lowered.degrees()) if power}
@@ -117,7 +119,7 @@ def facts_kept(
             count += 1
         if (
             k == len(state.facts) - 1
-            or (relation == "=" and not any(map(is_moving, used)))
+            or (relation == "=" and not any(map(is_moving, used)) and is_linear(lowered, unknown))
             or ("value" in used and gaps and count - 1 in terms)
             or (alone and (len(lowered) == 1 or any(c < 0 for c in lowered.coeffs())))
             or ("value" not in used and gaps and total_degree(lowered) == 1)
@@ -130,6 +132,11 @@ def facts_kept(
         ):
             kept.append(k)
     return kept
+
+
+def is_linear(poly: fmpz_mpoly, variables: Collection[int]) -> bool:
+    """Whether no power of these variables is above 1."""
+    return all(poly.degrees()[v] <= 1 for v in variables)
 
 
 def is_moving(name: str) -> bool:
