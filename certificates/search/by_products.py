@@ -211,6 +211,8 @@ def leaf(
             row = packing.row(poly)
             for count in range(top + more - total_degree(poly) + 1):
                 while len(parts) <= count:
+                    if parts[-1].sizes_with_facts()[0] > MOST_COLUMNS:
+                        return None
                     parts.append(parts[-1].times_facts())
                 block = parts[count].times_row(row)
                 strict = block.strict & (root < 0 and all(problem.facts[k].strict for k in own))

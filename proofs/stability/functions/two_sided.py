@@ -19,7 +19,10 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
+from juggleproof.certificates.nodes import Proof
+from juggleproof.certificates.search.by_factors import proof_by_factors
 from juggleproof.certificates.search.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
@@ -43,7 +46,7 @@ from juggleproof.proofs.stability.given import (
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import Floats, Samples, after, ends_of
+from juggleproof.proofs.stability.samples import Arrays, Floats, Samples, after, ends_of, licence
 
 POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function
@@ -99,19 +102,41 @@ def two_sided_rules(
     gap = f"{setting.system.state[0]}_gap"
     unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
     for each in functions(setting):
-        count = len(each.function.terms)
+        samples, count = setting.states, len(each.function.terms)
+        value = each.function.at(samples.points, len(samples.which))
         search = partial(
-            proof_by_products, terms=range(count), unknowns=unknowns, squares=[gap], signs=[gap]
+            proof_that_it_falls,
+            terms=range(count),
+            unknowns=unknowns,
+            gap=gap,
+            points=samples.points | {"value": value},
         )
         searches: dict[str, Search] = {
             f"falls-{k + 1}-{i + 1}": search
             for k in range(len(setting.system.pieces))
             for i in range(count if put else 0)
         }
+        if put:
+            searches["least"] = partial(
+                proof_by_products, terms=range(count), unknowns=unknowns, squares=(), signs=()
+            )
         best = sorted(constants(setting, each, put), key=lambda one: one[0])
-        for rank, rows, have in best[:TRIED]:
-            known = replace(setting, have=have)
+        for rank, rows, known in best[:TRIED]:
             yield rank + each.rank, known.rule(name, each.function, [("on", on), *rows]), searches
+
+
+def proof_that_it_falls(
+    premise: checker.Statement,
+    known: dict[str, checker.Statement],
+    terms: Sequence[int],
+    unknowns: Sequence[str],
+    gap: str,
+    points: Arrays,
+) -> Proof | None:
+    """A proof by products of what is positive, or by the signs of factors."""
+    return proof_by_products(premise, known, terms, unknowns, [gap], [gap]) or proof_by_factors(
+        premise, known, unknowns, gap, points
+    )
 
 
 def solved(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
@@ -209,9 +234,9 @@ def crossing(setting: Setting, side: int) -> list[Expr]:
 
 def constants(
     setting: Setting, sides: Sides, put: dict[Expr, Expr]
-) -> Iterator[tuple[float, list[tuple[str, str]], tuple[str, ...]]]:
-    """The lines but `on` and `value`, for losses of several shapes, with what premises have to know
-    of the point.
+) -> Iterator[tuple[float, list[tuple[str, str]], Setting]]:
+    """The lines but `on` and `value`, for losses of several shapes, with what premises have to
+    know.
     """
     samples, function, (state,) = setting.states, sides.function, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))
@@ -243,7 +268,7 @@ def constants(
                 ("upper", upper),
                 ("radius", radius),
             ]
-            yield rank + divided / 4, rows, with_positive(setting, constant)
+            yield rank + divided / 4, rows, with_licences(setting, constant)
 
 
 def is_clear(setting: Setting, here: Floats, there: Floats) -> NDArray[np.bool_]:
@@ -316,15 +341,22 @@ def products_of_shares(setting: Setting, terms: Sequence[Expr]) -> list[tuple[st
     return found
 
 
-def with_positive(setting: Setting, constant: str) -> tuple[str, ...]:
-    """What premises know of the point, with what is positive in the constant."""
-    known = {str(bound) for bound, _ in atoms(conjunction(setting.domain, *setting.have))}
-    more = [
-        f"{written(one)} > 0"
-        for one in factors_of(setting, [expression(constant)])
-        if one.free_symbols and str(one) not in known
-    ]
-    return (*setting.have, *more) if setting.have else ()
+def with_licences(setting: Setting, constant: str) -> Setting:
+    """The setting whose premises know what is positive in the constant: of the parameters where
+    they know nothing else of the point.
+    """
+    facts = conjunction(setting.domain, *setting.have)
+    known = {str(bound) for bound, strict in atoms(facts) if strict}
+    every = factors_of(setting, [expression(constant)])
+    open_ = [one for one in every if one.free_symbols and str(sympy.expand(one)) not in known]
+    if setting.have:
+        return replace(setting, have=(*setting.have, *(f"{written(one)} > 0" for one in open_)))
+    _, below = sympy.fraction(sympy.together(expression(constant)))
+    for one in factors_of(setting, [below]):
+        if one.free_symbols:
+            domain = conjunction(setting.domain, licence(one, setting.domain))
+            setting = replace(setting, domain=domain)
+    return setting
 
 
 def states_of(setting: Setting) -> Samples:
