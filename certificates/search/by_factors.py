@@ -34,7 +34,8 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 Points = Mapping[str, NDArray[np.float64]]
 
 MORE = (0, 1, 2)  # degrees than those of a factor
-MOST_COLUMNS = 1500
+MOST_COLUMNS, MOST_TERMS = 1500, 100_000  # of a program: products, and terms in them
+MOST_FACTOR = 60  # terms of a factor
 BUDGET = 1_000_000  # of counted work for a premise
 VALUE = "value"
 CLOSE = 1e-9  # to 0, in floats
@@ -182,7 +183,7 @@ class Case:
     ) -> Node | None:
         """A node by the sign of this factor, which is that at the samples."""
         at = self.at_points(problem, factor)
-        if not len(at) or (at > CLOSE).any() == (at < -CLOSE).any():
+        if len(factor) > MOST_FACTOR or not len(at) or (at > CLOSE).any() == (at < -CLOSE).any():
             return None
         positive = bool((at > CLOSE).any())
         text = problem.homogeneous_text(factor)
@@ -217,7 +218,8 @@ class Case:
             columns: list[tuple[int, ...]] = []
             for count in range(total_degree(poly) + more + 1):
                 if len(parts) <= count:
-                    if parts[-1].sizes_with_facts()[0] > MOST_COLUMNS:
+                    products, terms = parts[-1].sizes_with_facts()
+                    if products > MOST_COLUMNS or terms > MOST_TERMS:
                         return None
                     parts.append(parts[-1].times_facts())
                 block = parts[count]

@@ -27,6 +27,7 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 MOVING = ("value", "level", "distance")
 MORE = (0, 1, 2, 3)  # degrees than those of the goal
 MOST_COLUMNS = 6000
+MOST_TERMS = 2_000_000  # of all products of so many facts
 BUDGET = 1_000_000  # of counted work for a premise
 
 
@@ -37,6 +38,7 @@ def proof_by_products(
     unknowns: Collection[str],
     squares: Sequence[str],
     signs: Sequence[str],
+    most: int = MOST_COLUMNS,
 ) -> Proof | None:
     """A proof of a premise `falls` or `least` from these terms of V, by their numbers, and from
     what is known of the parameters but the unknowns; products times these squares are used too,
@@ -56,7 +58,7 @@ def proof_by_products(
         ring = Ring(tuple(state.context.index))
         kept = facts_kept(state, ring, terms, unknowns)
         goal = len(state.facts) - 1
-        node = by_cases(state, goal, kept, ring, squares, unknowns, signs, budget)
+        node = by_cases(state, goal, kept, ring, squares, unknowns, signs, budget, most)
     except Exhausted:
         return None
     proof: Proof | None = None if node is None else ("proof", steps, node)
@@ -72,6 +74,7 @@ def by_cases(
     unknowns: Collection[str],
     signs: Sequence[str],
     budget: Budget,
+    most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers, by the cases of disjunctions, if need
     be by cases of signs; goal: the number of the first fact that is of this premise alone.
@@ -85,17 +88,18 @@ def by_cases(
         for one in rest.choices.pop(0):
             case = rest.branch(one)
             more = [*kept, *range(len(rest.facts), len(case.facts))]
-            node = by_cases(case, goal, more, ring, squares, unknowns, signs, budget)
+            node = by_cases(case, goal, more, ring, squares, unknowns, signs, budget, most)
             if node is None:
                 return None
             every.append(node)
         return "cases", 0, every
-    node = leaf(state, goal, kept, ring, squares, unknowns, budget)
+    node = leaf(state, goal, kept, ring, squares, unknowns, budget, most)
     if node is not None or not signs:
         return node
     for case in state.by_sign(signs[0]):
         more = [*kept, len(state.facts)]
-        nodes.append(by_cases(case, goal, more, ring, squares, unknowns, signs[1:], budget))
+        node = by_cases(case, goal, more, ring, squares, unknowns, signs[1:], budget, most)
+        nodes.append(node)
         if nodes[-1] is None:
             return None
     return sign_node(signs[0], nodes)
@@ -152,6 +156,7 @@ def leaf(
     squares: Sequence[str],
     unknowns: Collection[str],
     budget: Budget,
+    most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers."""
     few = State(state.context)
@@ -211,14 +216,15 @@ def leaf(
             row = packing.row(poly)
             for count in range(top + more - total_degree(poly) + 1):
                 while len(parts) <= count:
-                    if parts[-1].sizes_with_facts()[0] > MOST_COLUMNS:
+                    products, terms = parts[-1].sizes_with_facts()
+                    if products > most or terms > MOST_TERMS:
                         return None
                     parts.append(parts[-1].times_facts())
                 block = parts[count].times_row(row)
                 strict = block.strict & (root < 0 and all(problem.facts[k].strict for k in own))
                 program.add(block.at, block.keys, block.values, strict, 1.0 + block.widths / 4)
                 columns += [(tuple(one) + own, root) for one in parts[count].chosen.tolist()]
-            if len(columns) > MOST_COLUMNS:
+            if len(columns) > most:
                 return None
         budget.spend(3 * program.count)
         found = solve(program, budget)

@@ -145,11 +145,12 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
 def in_boxes(proof: Proof, setting: Setting, log: Report, budget: int = 0) -> bool:
     """The same, by functions whose sublevel sets are boxes; of one variable, intervals."""
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    again = bool(budget)  # what searches of their own come to does not depend on it
     budget = budget or (BOX_BUDGET if len(setting.system.state) > 1 else FIRST_BUDGET)
     every = [(rank, rule, NO_SEARCH) for rank, rule in part_metric_rules(setting, space, name)]
     every += two_sided_rules(setting, space, name)
     return any(
-        not tried(proof, rule, (1, 2), budget, log, searches=searches)
+        not tried(proof, rule, (1, 2), budget, log, searches=NO_SEARCH if again else searches)
         for _, rule, searches in sorted(every, key=lambda one: one[0])[:MOST_BOXES]
     )
 

@@ -57,6 +57,8 @@ FAR = 1e4  # times the rounding of the point
 FEW = 0.25  # of the parameters
 EPSILON = float(np.finfo(float).eps)
 MOST_TERMS = 6  # of which the products are tried as constants
+FEW_COLUMNS = 1500  # of a program of products
+MOST_POINTS = 3000  # at which signs of factors are looked at
 LONGEST = 80  # constant, in characters
 
 
@@ -100,16 +102,19 @@ def two_sided_rules(
     setting, put = solved(setting)
     setting = replace(setting, states=states_of(setting))
     gap = f"{setting.system.state[0]}_gap"
-    unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
+    roots = [root for root, _ in setting.point.roots]
+    unknowns = [*map(str, put), *roots]
     for each in functions(setting):
         samples, count = setting.states, len(each.function.terms)
-        value = each.function.at(samples.points, len(samples.which))
+        known = samples.points | {"value": each.function.at(samples.points, len(samples.which))}
+        step = 1 + len(samples.which) // MOST_POINTS
         search = partial(
             proof_that_it_falls,
             terms=range(count),
             unknowns=unknowns,
+            roots=roots,
             gap=gap,
-            points=samples.points | {"value": value},
+            points={name: values[::step] for name, values in known.items()},
         )
         searches: dict[str, Search] = {
             f"falls-{k + 1}-{i + 1}": search
@@ -121,8 +126,12 @@ def two_sided_rules(
                 proof_by_products, terms=range(count), unknowns=unknowns, squares=(), signs=()
             )
         best = sorted(constants(setting, each, put), key=lambda one: one[0])
-        for rank, rows, known in best[:TRIED]:
-            yield rank + each.rank, known.rule(name, each.function, [("on", on), *rows]), searches
+        for rank, rows, licensed in best[:TRIED]:
+            yield (
+                rank + each.rank,
+                licensed.rule(name, each.function, [("on", on), *rows]),
+                searches,
+            )
 
 
 def proof_that_it_falls(
@@ -130,13 +139,16 @@ def proof_that_it_falls(
     known: dict[str, checker.Statement],
     terms: Sequence[int],
     unknowns: Sequence[str],
+    roots: Sequence[str],
     gap: str,
     points: Arrays,
 ) -> Proof | None:
     """A proof by products of what is positive, or by the signs of factors."""
-    return proof_by_products(premise, known, terms, unknowns, [gap], [gap]) or proof_by_factors(
-        premise, known, unknowns, gap, points
-    )
+    gaps = [gap]
+    found = proof_by_products(premise, known, terms, unknowns, gaps, gaps, FEW_COLUMNS)
+    for left_out in dict.fromkeys((tuple(unknowns), tuple(roots))):
+        found = found or proof_by_factors(premise, known, left_out, gap, points)
+    return found
 
 
 def solved(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
