@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod
 
 import numpy as np
 from flint import fmpz_mpoly
@@ -152,12 +151,15 @@ class Case:
         """The values at the samples, as shares of the sum of the sizes of all terms."""
         scaling = problem.source.scaling
         whole = scaling.lift(poly, scaling.largest(poly)) if scaling.scales and poly else poly
-        total, size = 0.0, 1e-300
+        total = np.zeros(len(next(iter(self.points.values()), ())))
+        size = total + np.finfo(float).tiny
         for powers, c in zip(whole.monoms(), whole.coeffs()):
-            used = ((self.points[name], e) for name, e in zip(self.ring.names, powers) if e)
-            term = float(c) * prod((values ** float(e) for values, e in used), start=1.0)
+            term = np.full(len(total), float(c))
+            for name, e in zip(self.ring.names, powers):
+                if e:
+                    term = term * self.points[name] ** float(e)
             total, size = total + term, size + np.abs(term)
-        return np.atleast_1d(np.asarray(total / size, float))
+        return np.asarray(total / size)
 
     def by_lemmas(self, state: State, kept: list[int], bound: int, goal: int) -> Node | None:
         """A node by this bound, with lemmas on the factors whose signs are not known."""

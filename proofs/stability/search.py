@@ -110,9 +110,9 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     other = None if every else by_its_point(original)
     if other:
-        found = outcome_of(other.system, report, budget)
-        found.sentence += f"; here {other.parameter} = {other.term}" if found.sentence else ""
-        return found
+        outcome = outcome_of(other.system, report, budget)
+        more = f"; here {other.parameter} = {other.term}" if outcome.sentence else ""
+        return replace(outcome, sentence=outcome.sentence + more)
     if not every:
         if not system.point and not proof.add(without_fixed_point(system)):
             return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
