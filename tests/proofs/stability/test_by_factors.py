@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.by_factors import proof_by_factors
+from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.states import proves
 
 TEXT = """statement newton/falls
