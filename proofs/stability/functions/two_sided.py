@@ -3,9 +3,11 @@ power of (e - l)/(s - l), for a lower bound l of the space, or the same with an 
 
     V = max(s - e, (e - s) ((e - l)/(s - l))^k),
 
-of degree less than the squares of these; where the map is affine in pieces, the distances with a
-weight on each side: V = max(u (s - e), v (e - s)).  It falls where what is above the point comes
-below it to less than u/v times the distance, and what is below it above it to less than v/u times.
+of degree less than the squares of these.  By what share a side falls is a quotient, whose values at
+the point and at the ends of the space are what the loss is sought among.  Where the map is affine
+in pieces, the distances with a weight on each side: V = max(u (s - e), v (e - s)), which falls
+where what is above the point comes below it to less than u/v times the distance, and what is below
+it above it to less than v/u times.
 """
 
 from __future__ import annotations
