@@ -29,6 +29,7 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 MOVING = ("value", "level", "distance")
 MORE = (0, 1, 2, 3)  # degrees than those of the goal
 MOST_COLUMNS = 6000
+MOST_TERMS = 2_000_000  # of all products of so many facts
 BUDGET = 1_000_000  # of counted work for a premise
 
 
@@ -39,6 +40,7 @@ def proof_by_products(
     unknowns: Collection[str],
     squares: Sequence[str],
     signs: Sequence[str],
+    most: int = MOST_COLUMNS,
 ) -> Proof | None:
     """A proof of a premise `falls` or `least` from these terms of V, by their numbers, and from
     what is known of the parameters but the unknowns; products times these squares are used too,
@@ -58,7 +60,7 @@ def proof_by_products(
         ring = Ring(tuple(state.context.index))
         kept = facts_kept(state, ring, terms, unknowns)
         goal = len(state.facts) - 1
-        node = by_cases(state, goal, kept, ring, squares, unknowns, signs, budget)
+        node = by_cases(state, goal, kept, ring, squares, unknowns, signs, budget, most)
     except Exhausted:
         return None
     proof: Proof | None = None if node is None else ("proof", steps, node)
@@ -74,6 +76,7 @@ def by_cases(
     unknowns: Collection[str],
     signs: Sequence[str],
     budget: Budget,
+    most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers, by the cases of disjunctions, if need
     be by cases of signs; goal: the number of the first fact that is of this premise alone.
@@ -87,17 +90,18 @@ def by_cases(
         for one in rest.choices.pop(0):
             case = rest.branch(one)
             more = [*kept, *range(len(rest.facts), len(case.facts))]
-            node = by_cases(case, goal, more, ring, squares, unknowns, signs, budget)
+            node = by_cases(case, goal, more, ring, squares, unknowns, signs, budget, most)
             if node is None:
                 return None
             every.append(node)
         return "cases", 0, every
-    node = leaf(state, goal, kept, ring, squares, unknowns, budget)
+    node = leaf(state, goal, kept, ring, squares, unknowns, budget, most)
     if node is not None or not signs:
         return node
     for case in state.by_sign(signs[0]):
         more = [*kept, len(state.facts)]
-        nodes.append(by_cases(case, goal, more, ring, squares, unknowns, signs[1:], budget))
+        node = by_cases(case, goal, more, ring, squares, unknowns, signs[1:], budget, most)
+        nodes.append(node)
         if nodes[-1] is None:
             return None
     return sign_node(signs[0], nodes)
@@ -106,11 +110,12 @@ def by_cases(
 def facts_kept(
     state: State, ring: Ring, terms: Collection[int], unknowns: Collection[str]
 ) -> list[int]:
-    """The numbers of the facts that are used: the equations, the last fact, which is the negated
-    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone;
-    no equation that only defines an unknown.
+    """The numbers of the facts that are used: the equations that are linear in the unknowns, but
+    for those that only define one; the last fact, which is the negated goal, these terms of V,
+    value >= 0, and what is linear in the state or in the parameters alone.
     """
     kept, count = [], 0
+    unknown = [v for v, name in enumerate(ring.names) if name in unknowns]
     read = [ring.read(poly) for poly, _ in state.facts]
     every = [{ring.names[v] for v, power in enumerate(p.degrees()) if power} for p in read]
     tied = Counter(name for used in every if len(used) > 1 for name in used)
@@ -122,7 +127,12 @@ def facts_kept(
             count += 1
         if (
             k == len(state.facts) - 1
-            or (relation == "=" and not any(map(is_moving, used)) and not used & defined)
+            or (
+                relation == "="
+                and not any(map(is_moving, used))
+                and not used & defined
+                and is_linear(lowered, unknown)
+            )
             or ("value" in used and gaps and count - 1 in terms)
             or (alone and (len(lowered) == 1 or any(c < 0 for c in lowered.coeffs())))
             or ("value" not in used and gaps and is_bound(lowered, ring))
@@ -152,6 +162,11 @@ def is_bound(poly: fmpz_mpoly, ring: Ring) -> bool:
     return total_degree(poly) == 1 or len(moving) == 1 and powers[moving[0]] == 1
 
 
+def is_linear(poly: fmpz_mpoly, variables: Collection[int]) -> bool:
+    """Whether no power of these variables is above 1."""
+    return all(poly.degrees()[v] <= 1 for v in variables)
+
+
 def is_moving(name: str) -> bool:
     """Whether it is no parameter and no part of the point."""
     return name in MOVING or name.endswith("_gap")
@@ -165,6 +180,7 @@ def leaf(
     squares: Sequence[str],
     unknowns: Collection[str],
     budget: Budget,
+    most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers."""
     few = State(state.context)
@@ -232,12 +248,15 @@ def leaf(
             row = packing.row(poly)
             for count in range(top + more - total_degree(poly) + 1):
                 while len(parts) <= count:
+                    products, terms = parts[-1].sizes_with_facts()
+                    if products > most or terms > MOST_TERMS:
+                        return None
                     parts.append(parts[-1].times_facts())
                 block = parts[count].times_row(row)
                 strict = block.strict & (root < 0 and all(problem.facts[k].strict for k in own))
                 program.add(block.at, block.keys, block.values, strict, 1.0 + block.widths / 4)
                 columns += [(tuple(one) + own, root) for one in parts[count].chosen.tolist()]
-            if len(columns) > MOST_COLUMNS:
+            if len(columns) > most:
                 return None
         budget.spend(3 * program.count)
         found = solve(program, budget)

@@ -15,6 +15,7 @@ from juggleproof.proofs.stability.certifying import (
     EFFORTS,
     Proof,
     Report,
+    Search,
     function_of,
     signs_of,
     tried,
@@ -69,6 +70,7 @@ ROUNDS = (  # efforts, budget, and how many of the candidates get it
 )
 MOST_BOXES, BOX_BUDGET = 3, 300_000
 FIRST_BUDGET, INTERVAL_BUDGET = 40_000, 600_000
+NO_SEARCH: dict[str, Search] = {}
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -170,10 +172,14 @@ def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool
 def in_boxes(proof: Proof, setting: Setting, log: Report, budget: int = 0) -> bool:
     """The same, by functions whose sublevel sets are boxes; of one variable, intervals."""
     name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    again = bool(budget)  # what searches of their own come to does not depend on it
     budget = budget or (BOX_BUDGET if len(setting.system.state) > 1 else FIRST_BUDGET)
-    every = [*part_metric_rules(setting, space, name), *two_sided_rules(setting, space, name)]
-    found = sorted(every, key=lambda one: one[0])
-    return any(not tried(proof, rule, (1, 2), budget, log) for _, rule in found[:MOST_BOXES])
+    every = [(rank, rule, NO_SEARCH) for rank, rule in part_metric_rules(setting, space, name)]
+    every += two_sided_rules(setting, space, name)
+    return any(
+        not tried(proof, rule, (1, 2), budget, log, searches=NO_SEARCH if again else searches)
+        for _, rule, searches in sorted(every, key=lambda one: one[0])[:MOST_BOXES]
+    )
 
 
 def divisors(setting: Setting) -> list[str]:

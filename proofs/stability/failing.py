@@ -17,6 +17,7 @@ from juggleproof.proofs.stability.entering import entering_rules
 from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
+    ANYWHERE,
     Map,
     checker_text,
     conjunction,
@@ -134,7 +135,8 @@ def is_fixed(setting: Setting) -> bool:
     for name, image in zip(system.state, system.images[setting.piece]):
         above, below = map(written, sympy.fraction(sympy.together(image)))
         shown += [f"{below} != 0", f"{above} = {name}*({below})"]
-    return is_certified([*setting.head, f"show {conjunction(system.space, guard, *shown)}"])
+    known = [f"have {system.space}"] if system.space != ANYWHERE else []  # guards may divide
+    return is_certified([*setting.head, *known, f"show {conjunction(guard, *shown)}"])
 
 
 def by_growth(proof: Proof, setting: Setting, log: Report) -> str:

@@ -128,6 +128,8 @@ def with_licences(system: Map) -> Map:
         for image in images:
             above, below = sympy.fraction(sympy.together(expression(image)))
             _, divisors = sympy.factor_list(below)
+            if len(divisors) > 1:  # each of which is licensed by itself
+                below = sympy.factor(below)
             terms.append(written(sympy.factor(above) / below) if divides(image) else image)
             for divisor, _ in divisors:
                 if divisor.free_symbols & set(symbols(system.state)):

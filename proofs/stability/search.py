@@ -11,6 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.algebraic import by_its_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -86,7 +87,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
     comes nearest to either.
     """
-    given, guards = system.domain, [guard for guard, _ in system.pieces]
+    given, guards, original = system.domain, [guard for guard, _ in system.pieces], system
     system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
     proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
@@ -107,6 +108,11 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             line += "; a piece applies only where it divides by nothing that is 0"
         return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
+    other = None if every else by_its_point(original)
+    if other:
+        outcome = outcome_of(other.system, report, budget)
+        more = f"; here {other.parameter} = {other.term}" if outcome.sentence else ""
+        return replace(outcome, sentence=outcome.sentence + more)
     if not every:
         if not system.point and not proof.add(without_fixed_point(system)):
             return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)

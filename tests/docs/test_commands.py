@@ -44,7 +44,7 @@ SMALLER = {
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
     "python -m juggleproof.benchmarks.speed": "--only=--help --runs 1",
-    "python -m juggleproof.benchmarks.stability": "--only hassell-rate",
+    "python -m juggleproof.benchmarks.stability": "--only skew-tent",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
 # Commands that are run elsewhere: a file, and what in it runs them.

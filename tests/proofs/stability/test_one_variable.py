@@ -57,6 +57,23 @@ SETTLED = {  # name: (text, first line)
         "over r\ndomain 1 < r and r < 10\nstate x\nspace x > 0\npiece r*x/(1 + x^2)",
         f"proved   peak: sqrt(r - 1) {STABLE}",
     ),
+    "cube-root": (
+        "over a\ndomain a > 0\nstate x\nspace x > 0\npiece (2*x + a/x^2)/3",
+        f"proved   cube-root: e {STABLE}; here a = e^3",
+    ),
+    "recessive": (
+        "over s\ndomain 0 < s and s < 1\nstate q\nspace 0 <= q and q < 1\n"
+        "piece q*(1 - s*q)/(1 - s*q^2)",
+        f"proved   recessive: 0 {STABLE}",
+    ),
+    "not-selected": (
+        "state q\nspace 0 <= q and q < 1\npiece q*(1 - q^2)/(1 - q^2)",
+        "refuted  not-selected: 0 does not attract 1/2, which is a fixed point",
+    ),
+    "two-cycles": (
+        "over a\ndomain a > 1\nstate x\nspace x > 0\npiece max(a/x, 1)",
+        "refuted  two-cycles: sqrt(a) does not attract 1, which is periodic",
+    ),
     "momentum": (
         MOMENTUM.format("0 < h and h < 2"),
         f"proved   momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0",

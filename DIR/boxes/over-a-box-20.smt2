@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= (+ (* (- 1.0) x1 x1) (* (- (/ 1.0 2.0)) x1) (/ 1.0 2.0)) 0.0))
-(assert (<= (+ (* x2 x2) (* (- 4.0) x2) 4.0) 1.0))
-(assert (< (+ (* (- 2.0) x1 x1 x1) (* (- 1.0) x2 x2 x2) (* 19.0 x1 x1) (* (/ 1.0 2.0) x2 x2) (* (- (/ 3.0 2.0)) x1) (* 11.0 x2) (- (/ 41.0 4.0))) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic ALL)
-(declare-fun x1 () Real)
-(declare-const x2 Real)
-(define-fun both ((p Bool) (q Bool)) Bool (and p q))
-(assert (! (both (< (* x1 x1) (+ (* (- 1.0) x1 x2) (* (- (/ 1.0 4.0)) x2 x2))) (>= x2 0.0)) :named both-hold))
-(check-sat)

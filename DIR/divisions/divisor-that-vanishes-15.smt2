@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (not (=> (= x1 3.0) (< (/ 1.0 (+ (* (- 2.0) x1 x1) 18.0)) 0.0))))
-(check-sat)

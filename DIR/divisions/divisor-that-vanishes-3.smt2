@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (not (=> (= x1 x2) (= (/ 1.0 (+ (* x1 x1) (* (- 3.0) x1) 2.0)) (/ 1.0 (+ (* x2 x2) (* (- 3.0) x2) 2.0))))))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (not (=> (= x1 (- 3.0)) (< (/ 5.0 (+ (* 4.0 x1 x1) (* (- 3.0) x1) (- 45.0))) 0.0))))
-(check-sat)

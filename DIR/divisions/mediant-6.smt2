@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(declare-const x4 Real)
-(assert (not (=> (and (< (/ x1 x2) (/ x3 x4)) (> x2 0.0) (< x4 0.0) (> (+ (* 2.0 x2) (* 3.0 x4)) 0.0)) (and (< (/ x1 x2) (/ (+ (* 2.0 x1) (* 3.0 x3)) (+ (* 2.0 x2) (* 3.0 x4)))) (< (/ (+ (* 2.0 x1) (* 3.0 x3)) (+ (* 2.0 x2) (* 3.0 x4))) (/ x3 x4))))))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (not (=> (and (> x1 0.0) (> x2 0.0) (> x3 0.0)) (>= (+ (/ (+ (* 2.0 x1) (* 2.0 x2) (* 3.0 x3)) (+ (* (/ 22.0 13.0) x1) (* (/ 33.0 13.0) x2) (* (/ 22.0 13.0) x3))) (/ (+ (* (/ 22.0 13.0) x1) (* (/ 33.0 13.0) x2) (* (/ 22.0 13.0) x3)) (+ (* 2.0 x1) (* 2.0 x2) (* 3.0 x3)))) (/ 201.0 100.0)))))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (not (=> (and (> x1 0.0) (> x2 0.0)) (>= (+ (/ (+ (* 2.0 x1) (* 2.0 x2)) (+ (* (/ 12.0 7.0) x1) (* (/ 18.0 7.0) x2))) (/ (+ (* (/ 12.0 7.0) x1) (* (/ 18.0 7.0) x2)) (+ (* 2.0 x1) (* 2.0 x2)))) 2.0))))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (not (=> (and (> x1 0.0) (> x2 0.0)) (>= (+ (/ (+ x1 (* 2.0 x2)) (+ (* (/ 9.0 4.0) x1) (* (/ 3.0 4.0) x2))) (/ (+ (* (/ 9.0 4.0) x1) (* (/ 3.0 4.0) x2)) (+ x1 (* 2.0 x2)))) (/ 2001.0 1000.0)))))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (not (=> (and (> x1 0.0) (> x2 0.0) (> x3 0.0)) (>= (+ (/ (+ x1 (* 2.0 x2) x3) (+ (* (/ 6.0 5.0) x1) (* (/ 9.0 5.0) x2) (* (/ 6.0 5.0) x3))) (/ (+ (* (/ 6.0 5.0) x1) (* (/ 9.0 5.0) x2) (* (/ 6.0 5.0) x3)) (+ x1 (* 2.0 x2) x3))) (/ 201.0 100.0)))))
-(check-sat)

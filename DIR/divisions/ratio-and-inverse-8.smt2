@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (not (=> (and (> x1 0.0) (> x2 0.0) (> x3 0.0)) (>= (+ (/ (+ (* 3.0 x1) (* 3.0 x2) (* 3.0 x3)) (+ (* (/ 9.0 2.0) x1) (* 3.0 x2) (* (/ 3.0 2.0) x3))) (/ (+ (* (/ 9.0 2.0) x1) (* 3.0 x2) (* (/ 3.0 2.0) x3)) (+ (* 3.0 x1) (* 3.0 x2) (* 3.0 x3)))) 2.0))))
-(check-sat)

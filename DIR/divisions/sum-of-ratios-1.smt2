@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(declare-const x4 Real)
-(assert (not (=> (and (> x3 0.0) (> x4 0.0)) (>= (+ (/ (* x1 x1) (* 2.0 x3)) (/ (* x2 x2) (* 2.0 x4))) (/ (+ (* x1 x1) (* 2.0 x1 x2) (* x2 x2)) (+ (* 2.0 x3) (* 2.0 x4)))))))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* x2 x2) x1 (* (- 3.0) x2) (- (/ 52.0 9.0))) 0.0))
-(assert (= (+ (* x2 x2) (* (- 2.0) x1) (* (- 3.0) x2) (- (/ 52.0 9.0))) 0.0))
-(check-sat)

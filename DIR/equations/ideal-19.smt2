@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* (- 1.0) x1 x2) (* x2 x2) (- (/ 15.0 4.0))) 0.0))
-(assert (= (+ (* x1 x1 x2) (* (- 1.0) x2 x2 x2) (* (/ 15.0 4.0) x1) (* (/ 15.0 4.0) x2) 1.0) 0.0))
-(check-sat)

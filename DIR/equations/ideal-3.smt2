@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* x1 x2) (* x2 x2) (- (/ 40.0 9.0))) 0.0))
-(assert (= (+ (* (- 3.0) x1 x1 x2) (* (- 1.0) x1 x2 x2) (* 2.0 x2 x2 x2) (* (/ 40.0 3.0) x1) (* (- (/ 80.0 9.0)) x2) 1.0) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* x2 x2) (* (- 1.0) x1) (- (/ 3.0 2.0))) 0.0))
-(assert (= (+ (* x1 x1) (* (- 2.0) x1) (* (- 1.0) x2) (- (/ 9.0 4.0))) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* 25.0 x1 x1) (* 4.0 x2 x2)) 2.0))
-(assert (>= (* x1 x2) (/ 11.0 100.0)))
-(check-sat)

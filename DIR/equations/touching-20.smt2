@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* 9.0 x1 x1) (* 25.0 x2 x2)) 5.0))
-(assert (>= (* x1 x2) (/ 1.0 6.0)))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (+ (* 4.0 x1 x1) (* 9.0 x2 x2)) 4.0))
-(assert (>= (* x1 x2) (/ 103.0 300.0)))
-(check-sat)

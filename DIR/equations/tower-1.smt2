@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (= (* x1 x1) 7.0))
-(assert (= (* x2 x2) (+ x1 1.0)))
-(assert (> x2 3.0))
-(check-sat)

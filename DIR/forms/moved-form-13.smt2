@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(declare-const x4 Real)
-(assert (< (+ (* (- (/ 1.0 100.0)) x1 x1 x1 x1) (* (/ 49.0 50.0) x1 x1 x2 x2) (* (- 2.0) x1 x2 x2 x2) (* (/ 99.0 100.0) x2 x2 x2 x2) (* 2.0 x1 x1 x2 x3) (* (- 4.0) x1 x2 x2 x3) (* 2.0 x2 x2 x2 x3) (* (/ 99.0 50.0) x1 x1 x3 x3) (* (- 4.0) x1 x2 x3 x3) (* (/ 149.0 50.0) x2 x2 x3 x3) (* 2.0 x2 x3 x3 x3) (* (/ 99.0 100.0) x3 x3 x3 x3) (* (- 2.0) x1 x1 x3 x4) (* (- 4.0) x1 x3 x3 x4) (* (- 2.0) x3 x3 x3 x4) (* (/ 49.0 50.0) x1 x1 x4 x4) (* 2.0 x1 x2 x4 x4) (* (- (/ 101.0 50.0)) x2 x2 x4 x4) (* 4.0 x1 x3 x4 x4) (* (- 2.0) x2 x3 x4 x4) (* (/ 49.0 50.0) x3 x3 x4 x4) (* (/ 99.0 100.0) x4 x4 x4 x4)) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (< (+ (* (- (/ 1.0 10.0)) x1 x1 x1 x1 x1 x1) (* (/ 7.0 10.0) x1 x1 x1 x1 x2 x2) (* 4.0 x1 x1 x1 x2 x2 x2) (* (/ 67.0 10.0) x1 x1 x2 x2 x2 x2) (* 6.0 x1 x2 x2 x2 x2 x2) (* (/ 19.0 10.0) x2 x2 x2 x2 x2 x2) (* 2.0 x1 x1 x1 x1 x2 x3) (* 8.0 x1 x1 x1 x2 x2 x3) (* 16.0 x1 x1 x2 x2 x2 x3) (* 16.0 x1 x2 x2 x2 x2 x3) (* 6.0 x2 x2 x2 x2 x2 x3) (* (/ 7.0 10.0) x1 x1 x1 x1 x3 x3) (* 4.0 x1 x1 x1 x2 x3 x3) (* (/ 42.0 5.0) x1 x1 x2 x2 x3 x3) (* 10.0 x1 x2 x2 x2 x3 x3) (* (/ 37.0 10.0) x2 x2 x2 x2 x3 x3) (* (- 2.0) x1 x1 x2 x3 x3 x3) (* (- 4.0) x1 x2 x2 x3 x3 x3) (* (- 2.0) x2 x2 x2 x3 x3 x3) (* (- (/ 23.0 10.0)) x1 x1 x3 x3 x3 x3) (* (- 4.0) x1 x2 x3 x3 x3 x3) (* (- (/ 23.0 10.0)) x2 x2 x3 x3 x3 x3) (* (/ 9.0 10.0) x3 x3 x3 x3 x3 x3)) 0.0))
-(check-sat)

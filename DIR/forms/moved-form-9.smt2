@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (< (+ (* 199.0 x1 x1 x1 x1 x1 x1) (* 1194.0 x1 x1 x1 x1 x1 x2) (* 2984.0 x1 x1 x1 x1 x2 x2) (* 3976.0 x1 x1 x1 x2 x2 x2) (* 2981.0 x1 x1 x2 x2 x2 x2) (* 1194.0 x1 x2 x2 x2 x2 x2) (* 400.0 x2 x2 x2 x2 x2 x2) (* (- 2.0) x1 x1 x1 x1 x2 x3) (* (- 12.0) x1 x1 x1 x2 x2 x3) (* (- 16.0) x1 x1 x2 x2 x2 x3) (* 1206.0 x2 x2 x2 x2 x2 x3) (* (- 1589.0) x1 x1 x1 x1 x3 x3) (* (- 6364.0) x1 x1 x1 x2 x3 x3) (* (- 9558.0) x1 x1 x2 x2 x3 x3) (* (- 6364.0) x1 x2 x2 x2 x3 x3) (* (- 181.0) x2 x2 x2 x2 x3 x3) (* 12.0 x1 x1 x1 x3 x3 x3) (* 20.0 x1 x1 x2 x3 x3 x3) (* 12.0 x1 x2 x2 x3 x3 x3) (* (- 2396.0) x2 x2 x2 x3 x3 x3) (* 3190.0 x1 x1 x3 x3 x3 x3) (* 6364.0 x1 x2 x3 x3 x3 x3) (* (- 226.0) x2 x2 x3 x3 x3 x3) (* (- 12.0) x1 x3 x3 x3 x3 x3) (* 1188.0 x2 x3 x3 x3 x3 x3) (* 1800.0 x3 x3 x3 x3 x3 x3)) 0.0))
-(check-sat)

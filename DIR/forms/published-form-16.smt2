@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (< (+ (* 16.0 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 36.0) x1 x1 x1 x1 x1 x1 x1 x1 x2 x2) (* 20.0 x1 x1 x1 x1 x1 x1 x2 x2 x2 x2) (* 20.0 x1 x1 x1 x1 x2 x2 x2 x2 x2 x2) (* (- 36.0) x1 x1 x2 x2 x2 x2 x2 x2 x2 x2) (* 16.0 x2 x2 x2 x2 x2 x2 x2 x2 x2 x2) (* (- 36.0) x1 x1 x1 x1 x1 x1 x1 x1 x3 x3) (* 57.0 x1 x1 x1 x1 x1 x1 x2 x2 x3 x3) (* (- 38.0) x1 x1 x1 x1 x2 x2 x2 x2 x3 x3) (* 57.0 x1 x1 x2 x2 x2 x2 x2 x2 x3 x3) (* (- 36.0) x2 x2 x2 x2 x2 x2 x2 x2 x3 x3) (* 20.0 x1 x1 x1 x1 x1 x1 x3 x3 x3 x3) (* (- 38.0) x1 x1 x1 x1 x2 x2 x3 x3 x3 x3) (* (- 38.0) x1 x1 x2 x2 x2 x2 x3 x3 x3 x3) (* 20.0 x2 x2 x2 x2 x2 x2 x3 x3 x3 x3) (* 20.0 x1 x1 x1 x1 x3 x3 x3 x3 x3 x3) (* 57.0 x1 x1 x2 x2 x3 x3 x3 x3 x3 x3) (* 20.0 x2 x2 x2 x2 x3 x3 x3 x3 x3 x3) (* (- 36.0) x1 x1 x3 x3 x3 x3 x3 x3 x3 x3) (* (- 36.0) x2 x2 x3 x3 x3 x3 x3 x3 x3 x3) (* 16.0 x3 x3 x3 x3 x3 x3 x3 x3 x3 x3)) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (< (+ (* (/ 9.0 10.0) x1 x1 x1 x1 x1 x1) (* (- (/ 13.0 10.0)) x1 x1 x1 x1 x2 x2) (* (- (/ 13.0 10.0)) x1 x1 x2 x2 x2 x2) (* (/ 9.0 10.0) x2 x2 x2 x2 x2 x2) (* (- (/ 13.0 10.0)) x1 x1 x1 x1 x3 x3) (* (/ 12.0 5.0) x1 x1 x2 x2 x3 x3) (* (- (/ 13.0 10.0)) x2 x2 x2 x2 x3 x3) (* (- (/ 13.0 10.0)) x1 x1 x3 x3 x3 x3) (* (- (/ 13.0 10.0)) x2 x2 x3 x3 x3 x3) (* (/ 9.0 10.0) x3 x3 x3 x3 x3 x3)) 0.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(assert (< (+ (* x1 x1 x1 x1 x1 x1) (* (- 2.0) x1 x1 x1 x2 x2 x3) (* 2.0 x1 x1 x1 x1 x3 x3) (* x2 x2 x2 x2 x3 x3) (* x1 x1 x1 x3 x3 x3) (* (- 2.0) x1 x2 x2 x3 x3 x3) (* x1 x1 x3 x3 x3 x3)) 0.0))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(declare-const x4 Real)
-(assert (< (+ (* 513.0 x1 x1 x1 x1) (* 8.0 x1 x1 x1 x2) (* 17.0 x1 x1 x2 x2) (* (- 6.0) x1 x2 x2 x2) (* x2 x2 x2 x2) (* 10.0 x1 x1 x1 x3) (* (- 4.0) x1 x1 x2 x3) (* 12.0 x1 x2 x2 x3) (* (- 4.0) x2 x2 x2 x3) (* x1 x1 x3 x3) (* 4.0 x2 x2 x3 x3) (* (- 128.0) x1 x1 x1 x4) (* 32.0 x1 x1 x2 x4) (* (- 6.0) x1 x2 x2 x4) (* 2.0 x2 x2 x2 x4) (* (- 184.0) x1 x1 x3 x4) (* (- 4.0) x2 x2 x3 x4) (* (- 112.0) x1 x1 x4 x4) (* (- 4.0) x1 x2 x4 x4) (* 2.0 x2 x2 x4 x4) (* 16.0 x1 x3 x4 x4) (* (- 8.0) x2 x3 x4 x4) (* 16.0 x3 x3 x4 x4) (* 12.0 x1 x4 x4 x4) (* (- 6.0) x2 x4 x4 x4) (* 24.0 x3 x4 x4 x4) (* 9.0 x4 x4 x4 x4)) 0.0))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (< (+ (* 3.0 x1 x1 x1 x1) (* (- 6.0) x1 x1 x1 x2) (* 3.0 x1 x1 x2 x2)) 0.0))
-(check-sat)

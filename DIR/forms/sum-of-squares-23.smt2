@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (< (+ (* (/ 249.0 10.0) x1 x1 x1 x1) (* (- 50.0) x1 x1 x1 x2) (* (/ 124.0 5.0) x1 x1 x2 x2) (* (- (/ 1.0 10.0)) x2 x2 x2 x2)) 0.0))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(declare-const x3 Real)
-(declare-const x4 Real)
-(assert (< (+ (* (/ 24999.0 1000.0) x1 x1) (* 10.0 x1 x2) (* (/ 9999.0 1000.0) x2 x2) (* (- 48.0) x1 x3) (* (- 18.0) x2 x3) (* (/ 24999.0 1000.0) x3 x3) (* (- 36.0) x1 x4) (* (- 6.0) x2 x4) (* 34.0 x3 x4) (* (/ 12999.0 1000.0) x4 x4)) 0.0))
-(check-sat)

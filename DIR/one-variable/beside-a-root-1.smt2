@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (<= (+ (* x1 x1 x1 x1) (* (- 4.0) x1 x1 x1) (* (- 1.0) x1 x1) (* 28.0 x1) (- 42.0)) 0.0))
-(assert (>= x1 (/ 13228757.0 5000000.0)))
-(assert (<= x1 7.0))
-(check-sat)

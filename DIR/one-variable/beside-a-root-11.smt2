@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (<= (+ (* x1 x1) (- 11.0)) 0.0))
-(assert (>= x1 (/ 4145781.0 1250000.0)))
-(assert (<= x1 11.0))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (<= (+ (* x1 x1 x1 x1) (* 2.0 x1 x1 x1) (* (- 1.0) x1 x1) (* (- 6.0) x1) (- 6.0)) 0.0))
-(assert (>= x1 (/ 1732050807.0 1000000000.0)))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (<= (+ (* x1 x1 x1 x1) (* (/ 8.0 3.0) x1 x1 x1) (* (- (/ 65.0 9.0)) x1 x1) (* (- (/ 88.0 3.0)) x1) (- (/ 374.0 9.0))) 0.0))
-(assert (>= x1 (/ 33167.0 10000.0)))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (<= (+ (* x1 x1) (- 11.0)) 0.0))
-(assert (>= x1 (/ 33166247.0 10000000.0)))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> (+ (* x1 x1 x1 x1) (* (- 5.0) x1 x1 x1) (* 5.0 x1 x1) (* (- 5.0) x1) 4.0) 0.0))
-(assert (> x1 1.0))
-(assert (<= x1 4.0))
-(check-sat)

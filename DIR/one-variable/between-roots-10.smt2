@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> (+ (* x1 x1 x1 x1) (* (- (/ 19.0 3.0)) x1 x1 x1) (* (/ 265.0 36.0) x1 x1) (* (- (/ 73.0 18.0)) x1) 28.0) 0.0))
-(assert (> x1 (/ 8.0 3.0)))
-(assert (<= x1 (/ 14.0 3.0)))
-(check-sat)

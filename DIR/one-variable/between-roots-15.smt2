@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (>= (+ (* x1 x1 x1 x1) (* (- (/ 29.0 6.0)) x1 x1 x1) (* (/ 55.0 6.0) x1 x1) (* (- (/ 413.0 54.0)) x1) (/ 275.0 162.0)) 0.0))
-(assert (> x1 (/ 1.0 3.0)))
-(assert (<= x1 (/ 11.0 6.0)))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> (+ (* x1 x1 x1 x1 x1 x1) (* (- (/ 17.0 3.0)) x1 x1 x1 x1 x1) (* (- 1.0) x1 x1 x1 x1) (* (/ 679.0 27.0) x1 x1 x1) (* (/ 3040.0 81.0) x1 x1) (* (- (/ 14150.0 81.0)) x1) (/ 3500.0 27.0)) 0.0))
-(assert (> x1 (/ 5.0 3.0)))
-(assert (<= x1 (/ 14.0 3.0)))
-(check-sat)

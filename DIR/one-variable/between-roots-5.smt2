@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (>= (+ (* x1 x1 x1 x1 x1 x1) (* (/ 25.0 3.0) x1 x1 x1 x1 x1) (* (/ 86.0 3.0) x1 x1 x1 x1) (* (/ 158.0 3.0) x1 x1 x1) (* (/ 164.0 3.0) x1 x1) (* (/ 88.0 3.0) x1) (/ 16.0 3.0)) 0.0))
-(assert (> x1 (- 2.0)))
-(assert (<= x1 (- (/ 1.0 3.0))))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 (- 1.0)))
-(assert (< x1 1.0))
-(assert (> (+ (* 256.0 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 576.0) x1 x1 x1 x1 x1 x1 x1) (* 432.0 x1 x1 x1 x1 x1) (* (- 120.0) x1 x1 x1) (* 9.0 x1)) 1.0))
-(check-sat)

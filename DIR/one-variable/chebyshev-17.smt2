@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 (- 1.0)))
-(assert (< x1 1.0))
-(assert (>= (+ (* 64.0 x1 x1 x1 x1 x1 x1 x1) (* (- 112.0) x1 x1 x1 x1 x1) (* 56.0 x1 x1 x1) (* (- 7.0) x1)) 1.0))
-(check-sat)

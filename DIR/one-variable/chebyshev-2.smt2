@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 (- 1.0)))
-(assert (< x1 1.0))
-(assert (> (+ (* 32.0 x1 x1 x1 x1 x1 x1) (* (- 48.0) x1 x1 x1 x1) (* 18.0 x1 x1) (- 1.0)) 1.0))
-(check-sat)

@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 (- 1.0)))
-(assert (< x1 1.0))
-(assert (>= (+ (* 2097152.0 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 11534336.0) x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* 27394048.0 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 36765696.0) x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* 30638080.0 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 16400384.0) x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* 5637632.0 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 1208064.0) x1 x1 x1 x1 x1 x1 x1 x1) (* 151008.0 x1 x1 x1 x1 x1 x1) (* (- 9680.0) x1 x1 x1 x1) (* 242.0 x1 x1) (- 1.0)) 1.0))
-(check-sat)

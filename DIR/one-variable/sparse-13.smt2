@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 0.0))
-(assert (< (+ (* x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 46137344.0) x1) 88080384.0) 0.0))
-(check-sat)

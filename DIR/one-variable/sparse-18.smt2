@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 0.0))
-(assert (< (+ (* x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 17.0) x1) (/ 159.0 10.0)) 0.0))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 0.0))
-(assert (< (+ (* x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- (/ 2882303761517117440.0 22876792454961.0)) x1) (/ 33434723633598562304.0 205891132094649.0)) 0.0))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 0.0))
-(assert (< (+ (* x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 141733920768.0) x1) 274877906944.0) 0.0))
-(check-sat)

@@ -1,6 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(assert (> x1 0.0))
-(assert (< (+ (* x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1 x1) (* (- 4980736.0) x1) (/ 46923776.0 5.0)) 0.0))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= x2 (* x1 x1 x1 x1 x1 x1)))
-(assert (<= x2 (+ (* (- (/ 729.0 16.0)) x1) (- (/ 3645.0 64.0)))))
-(assert (<= (* x1 x2) (- (/ 2059.0 128.0))))
-(check-sat)

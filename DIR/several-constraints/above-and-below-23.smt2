@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= x2 (+ (* x1 x1) (/ 1.0 1000.0))))
-(assert (<= x2 (+ (* (- 4.0) x1) (- 4.0))))
-(assert (<= (* x1 x2) (- (/ 3501.0 500.0))))
-(check-sat)

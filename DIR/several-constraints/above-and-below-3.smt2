@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= x2 (+ (* x1 x1 x1 x1 x1 x1) (/ 1.0 10.0))))
-(assert (<= x2 (+ (* 6.0 x1) (- 5.0))))
-(assert (<= (* x1 x2) (/ 21.0 10.0)))
-(check-sat)

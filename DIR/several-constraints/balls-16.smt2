@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* x1 x1) (* x2 x2) (* 4.0 x1) (* 4.0 x2) 8.0) (/ 1002001.0 1000000.0)))
-(assert (<= (+ (* x1 x1) (* x2 x2) (* (- 2.0) x1) (* (- 4.0) x2) 5.0) (/ 16008001.0 1000000.0)))
-(assert (<= (+ (* x1 x1) (* x2 x2) (* (/ 14.0 5.0) x1) (* (/ 12.0 5.0) x2) (/ 17.0 5.0)) 1.0))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* x1 x1) (* x2 x2) (* (- 3.0) x1) (/ 9.0 4.0)) (/ 160801.0 10000.0)))
-(assert (<= (+ (* x1 x1) (* x2 x2) (* (- 9.0) x1) (* (- 8.0) x2) (/ 145.0 4.0)) (/ 10201.0 10000.0)))
-(assert (<= (+ (* x1 x1) (* x2 x2) (* (- (/ 39.0 5.0)) x1) (* (- (/ 32.0 5.0)) x2) (/ 509.0 20.0)) 1.0))
-(check-sat)

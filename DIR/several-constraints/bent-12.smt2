@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* 3.0 x2 x2) (* 2.0 x1) (* (- 1.0) x2) (/ 5.0 4.0)) (/ 15992001.0 1000000.0)))
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* (- 3.0) x2 x2) (* (- 4.0) x1) (* (- 9.0) x2) (/ 97.0 4.0)) (/ 998001.0 1000000.0)))
-(check-sat)

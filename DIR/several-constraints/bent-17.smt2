@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* 2.0 x2 x2) x1 (* (- 4.0) x2) (/ 17.0 4.0)) (/ 121.0 100.0)))
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* (- 4.0) x2 x2) (* (- 5.0) x1) (* (- 12.0) x2) (/ 169.0 4.0)) (/ 1681.0 100.0)))
-(check-sat)

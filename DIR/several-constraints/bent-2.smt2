@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* 4.0 x2 x2 x2 x2) (* 4.0 x1 x2 x2) (* x1 x1) (* (- 7.0) x2 x2) (* (- 4.0) x1) (* (- (/ 2.0 3.0)) x2) (/ 37.0 9.0)) (/ 841.0 100.0)))
-(assert (<= (+ (* 4.0 x2 x2 x2 x2) (* 4.0 x1 x2 x2) (* x1 x1) (* (- 19.0) x2 x2) (* (- 10.0) x1) (* (- (/ 26.0 3.0)) x2) (/ 394.0 9.0)) (/ 361.0 100.0)))
-(check-sat)

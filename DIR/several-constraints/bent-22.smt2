@@ -1,7 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* (- 1.0) x1) (* (/ 2.0 3.0) x2) (/ 13.0 36.0)) (/ 998001.0 1000000.0)))
-(assert (<= (+ (* x2 x2 x2 x2) (* 2.0 x1 x2 x2) (* x1 x1) (* (- 6.0) x2 x2) (* (- 7.0) x1) (* (- (/ 22.0 3.0)) x2) (/ 925.0 36.0)) (/ 15992001.0 1000000.0)))
-(check-sat)

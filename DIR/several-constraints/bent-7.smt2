@@ -1,7 +1,0 @@
-(set-info :status sat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (<= (+ (* 4.0 x2 x2 x2 x2) (* 4.0 x1 x2 x2) (* x1 x1) (* (/ 23.0 3.0) x2 x2) (* (/ 10.0 3.0) x1) (* (- 2.0) x2) (/ 34.0 9.0)) (/ 4004001.0 1000000.0)))
-(assert (<= (+ (* 4.0 x2 x2 x2 x2) (* 4.0 x1 x2 x2) (* x1 x1) (* (- (/ 13.0 3.0)) x2 x2) (* (- (/ 8.0 3.0)) x1) (* (- 10.0) x2) (/ 241.0 9.0)) (/ 9006001.0 1000000.0)))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= (+ (* x1 x2) (* x2 x2) (* (- 2.0) x1) (- 4.0)) 0.0))
-(assert (>= (+ (* 3.0 x1 x1) (* (- 3.0) x2) (- 6.0)) 0.0))
-(assert (>= (+ (* (- 1.0) x1 x1 x1 x2) (* x1 x1 x2 x2) (* x1 x2 x2 x2) (* (- 1.0) x2 x2 x2 x2) (* 2.0 x1 x1 x1) (* (- 4.0) x1 x1 x2) (* 2.0 x1 x2 x2) (* (- 8.0) x1 x1) (* 4.0 x1 x2) (* (- 25.0) x2 x2) (* (- 6.0) x1) (* (- 23.0) x2) (- 5.0)) 0.0))
-(check-sat)

@@ -1,8 +1,0 @@
-(set-info :status unsat)
-(set-logic QF_NRA)
-(declare-const x1 Real)
-(declare-const x2 Real)
-(assert (>= (+ (* (- 5.0) x1 x2) (* x2 x2) 4.0) 0.0))
-(assert (>= (+ (* x1 x1) (* 2.0 x1 x2) (* 2.0 x2 x2) (- 5.0)) 0.0))
-(assert (>= (+ (* 10.0 x1 x1 x1 x2) (* 18.0 x1 x1 x2 x2) (* 11.0 x1 x2 x2 x2) (* (- 3.0) x2 x2 x2 x2) (* (- 19.0) x1 x1) (* (- 59.0) x1 x2) (* (- 17.0) x2 x2) (* 10.0 x1) (* 12.0 x2) 19.0) 0.0))
-(check-sat)

@@ -1,0 +1,121 @@
+"""Fixed points that are no square roots: the point as a parameter, in place of one that the
+equation of the point is linear in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import sympy
+
+from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.given import (
+    ANYWHERE,
+    Expr,
+    Map,
+    as_factor,
+    conjunction,
+    conjuncts,
+    holds,
+    renamed,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.points import PARAMETERS
+from juggleproof.proofs.stability.samples import Arrays, Floats, region
+
+NAMES = "ecuvwz"  # for the point, the first that is free
+REAL = 1e-9  # imaginary part, in floats
+MOST_DEGREE = 12
+
+
+@dataclass(frozen=True)
+class Renamed:
+    """The map with its fixed point as a parameter, and what its old parameter is then."""
+
+    system: Map
+    parameter: str
+    term: str
+
+
+def by_its_point(system: Map) -> Renamed | None:
+    """The map of one variable with its point for a parameter, where at samples there is one fixed
+    point in the space for each value of the parameters; None elsewhere.
+
+    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
+    ...         ("piece", "(2*x + a/x^2)/3")]
+    >>> found = by_its_point(read_rows("cube-root", rows))
+    >>> found.term, found.system.domain, found.system.pieces[0][1], found.system.point
+    ('e^3', 'e > 0', ('(2*x + (e^3)/x^2)/3',), ('e',))
+    """
+    taken = {*system.names, *(f"{name}_point" for name in system.state)}
+    free = [one for one in NAMES if one not in taken]
+    if len(system.state) > 1 or system.point or not system.parameters or not free:
+        return None
+    (state,), name = symbols(system.state), free[0]
+    for (guard, _), (image,) in zip(system.pieces, system.images):
+        gap = sympy.numer(sympy.together(image - state))
+        for factor, _ in sympy.factor_list(gap)[1]:
+            linear = [
+                one for one in symbols(system.parameters) if sympy.Poly(factor, one).degree() == 1
+            ]
+            inside = conjunction(system.space, guard)
+            if linear and sympy.degree(factor, state) > 2 and is_the_point(system, factor, inside):
+                (term,) = sympy.solve(factor, linear[0])
+                at = sympy.factor(term.subs(state, *symbols([name])))
+                return with_parameter(system, inside, name, str(linear[0]), at)
+    return None
+
+
+def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) -> Renamed:
+    """The map with a name for its point, in place of an old parameter, which is this term."""
+    put = {old: as_factor(written(term))}
+    over = tuple(one for one in system.parameters if one != old) + (name,)
+    at_point = renamed(inside, {system.state[0]: name})
+    every = conjuncts(renamed(conjunction(at_point, system.domain), put))
+    kept = [one for one in every if one != ANYWHERE]
+    for part in reversed(every):  # what the others say already
+        rest = [one for one in kept if one != part]
+        if part in kept and rest and not beyond(conjunction(*rest), part, over):
+            kept = rest
+    pieces = tuple(
+        (renamed(guard, put), tuple(renamed(image, put) for image in images))
+        for guard, images in system.pieces
+    )
+    space = renamed(system.space, put)
+    domain = conjunction(*kept) or ANYWHERE
+    changed = replace(system, parameters=over, domain=domain, space=space, pieces=pieces)
+    return Renamed(replace(changed, point=(name,)), old, written(term))
+
+
+def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
+    """Whether at all samples of the parameters one zero of the equation is in the set, and no other
+    one is.
+    """
+    (state,) = symbols(system.state)
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    poly = sympy.Poly(equation, state)
+    if poly.degree() > MOST_DEGREE:
+        return False
+    size = len(next(iter(parameters.values())))
+    columns = [
+        np.broadcast_to(np.asarray(value(written(c), parameters), float), (size,))
+        for c in poly.all_coeffs()
+    ]
+    return size > 0 and all(
+        zeros_inside(system, parameters, row, k, inside) == 1
+        for k, row in enumerate(np.stack(columns, axis=1))
+    )
+
+
+def zeros_inside(system: Map, parameters: Arrays, row: Floats, k: int, inside: str) -> int:
+    """How many real zeros the polynomial with these coefficients has in the set, for the
+    parameters of one number.
+    """
+    zeros = np.roots(row)
+    real = zeros.real[np.abs(zeros.imag) <= REAL * np.abs(zeros)]
+    known = {name: np.full(len(real), values[k]) for name, values in parameters.items()}
+    return int(np.sum(holds(inside, {**known, system.state[0]: real})))

@@ -1,0 +1,41 @@
+"""A term of a function of one variable falls by the signs of the factors of what contradicts it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.falls.by_factors import proof_by_factors
+from juggleproof.certificates.states import proves
+
+TEXT = """statement newton/falls
+forall e x_gap value
+range e > 0
+given e + x_gap > 0
+given x_gap <= value
+given -x_gap*e <= value*(e + x_gap)
+given value >= 0
+show {}"""
+POINTS = {
+    "e": np.array([1.0, 2.0, 1.0, 3.0]),
+    "x_gap": np.array([0.5, 8.0, -0.5, -2.75]),
+    "value": np.array([0.5, 8.0, 1.0, 33.0]),
+}
+
+
+def premise(shown: str) -> checker.Statement:
+    return checker.read_statements(TEXT.format(shown))["newton/falls"]
+
+
+@pytest.mark.parametrize(
+    "shown", ["x_gap^2 <= value*(e + x_gap)", "x_gap^3 <= value^2*(e + x_gap)"]
+)
+def test_what_is_a_product_once_the_bound_is_put_in_holds(shown: str) -> None:
+    proof = proof_by_factors(premise(shown), {}, (), "x_gap", POINTS)
+    assert proof is not None and proves(premise(shown), proof, {})
+
+
+def test_rejects_a_fall_that_is_too_large() -> None:
+    shown = "3*x_gap^2 <= value*(e + x_gap)"
+    assert proof_by_factors(premise(shown), {}, (), "x_gap", POINTS) is None
