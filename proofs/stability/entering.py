@@ -220,7 +220,7 @@ def states_at_ends(setting: Setting, space: str) -> Arrays:
         points[name] = np.where(
             rng.random(len(points[name])) < SHARE, _at(end, points), points[name]
         )
-    inside = np.broadcast_to(holds(space, points), points[name].shape)
+    inside = np.broadcast_to(holds(space, points), next(iter(points.values())).shape)
     return {name: values[inside] for name, values in points.items()}
 
 
