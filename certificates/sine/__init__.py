@@ -1,0 +1,1 @@
+"""The table that moves as a sine."""
