@@ -43,6 +43,7 @@ from .flights import (
     MAX_STEPS,
     ONE,
     PI2,
+    SLACK,
     Flights,
     Grid,
     Interval,
@@ -206,32 +207,32 @@ def check_box(certificate: Certificate, work: Work) -> None:
 
 
 class Counterexample(NamedTuple):
-    """What a line that refutes says: one pair of parameters, and why the theorem fails there;
-    columns and per_unit are the grid of a saddle's cell.
+    """What a line that refutes says: alpha, an interval of g on all of which the theorem fails, and
+    why; columns and per_unit are the grid of a saddle's cell.
     """
 
     refutes: str  # saddle or multiplier
     alpha: Fraction
-    g: Fraction
+    g: Interval
     columns: int
     per_unit: int
 
 
 def check_multiplier(one: Counterexample) -> None:
-    """At this pair the bounce is unstable: a multiplier is below -1.
+    """For this alpha and each g the bounce is unstable: a multiplier is below -1.
 
     At x = 0 the matrix of `check_trap` has determinant alpha^2 and trace
     1 + alpha^2 - (1 + alpha)^2 G, G = 2 pi g: its characteristic polynomial at -1 is
     2 (1 + alpha^2) - (1 + alpha)^2 G, and below 0 where one root is below -1.  The other is then
     within (-1, 0]: near the bounce, what does not start on one curve leaves.
     """
-    require(0 <= one.alpha < 1 and one.g > 0, "alpha or g is out of range")
-    beyond = (1 + one.alpha) ** 2 * Fraction(PI2, ONE) * one.g > 2 * (1 + one.alpha**2)
+    require(0 <= one.alpha < 1 and 0 < one.g[0] <= one.g[1], "alpha or g is out of range")
+    beyond = (1 + one.alpha) ** 2 * Fraction(PI2, ONE) * one.g[0] > 2 * (1 + one.alpha**2)
     require(beyond, "no multiplier is below -1")
 
 
 def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
-    """At this pair a second orbit of period one exists: a motion that does not tend to the bounce.
+    """For this alpha and each g a second orbit of period one exists, which is not the bounce.
 
     The other solution of c cos 2 pi x - g sin 2 pi x = c, with s = 1/(1 + alpha), has F = 0 one
     period later.  It is a motion where F > 0 up to then: flights from its cell land but in columns
@@ -239,14 +240,14 @@ def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
     of these, and vanishes there once.  Returned: the column and the row of the cell.
     """
     require(0 < one.alpha, "a ball with alpha = 0 may rest")
-    pair = (one.alpha, one.alpha), (one.g, one.g)
-    flights = Flights(Grid(*pair, one.columns, one.per_unit, one.per_unit), work)
+    alpha = one.alpha, one.alpha
+    flights = Flights(Grid(alpha, one.g, one.columns, one.per_unit, one.per_unit), work)
     # v passes c twice a period, at 0 and at the saddle, between a half and a whole period
-    home = flights.velocity[0]
+    home, margin = flights.velocity[0], flights.g_half + SLACK
     half = one.columns // 2
-    above = [i for i in range(half, one.columns - 1) if flights.velocity[2 * i] < home - 99]
+    above = [i for i in range(half, one.columns - 1) if flights.velocity[2 * i] < home - margin]
     i = above[-1] if above else 0
-    crosses = above and flights.velocity[2 * i + 2] > home + 99
+    crosses = above and flights.velocity[2 * i + 2] > home + margin
     require(crosses, "the saddle is not within one column of this grid")
     row = one.per_unit * one.alpha.denominator // (one.alpha.denominator + one.alpha.numerator)
     landings = list(flights.column(i))[row]
@@ -307,12 +308,13 @@ def check_cover(rectangle: Rectangle, boxes: list[Box], work: Work, cuts: int = 
         check_cover(rectangle._replace(alpha=part), boxes, work, cuts - (not ends))
 
 
-def holds_pair(rectangle: Rectangle, alpha: Fraction, g: Fraction) -> bool:
-    """Whether the pair is one of the rectangle."""
+def meets(one: Counterexample, rectangle: Rectangle) -> bool:
+    """Whether a pair where the theorem fails is surely one of the rectangle."""
     low, high = rectangle.values
     if rectangle.drive == "Gamma":
-        low, high = g_at(alpha, low, up=True), g_at(alpha, high, up=False)
-    return rectangle.alpha[0] <= alpha <= rectangle.alpha[1] and low <= g <= high
+        low, high = g_at(one.alpha, low, up=True), g_at(one.alpha, high, up=False)
+    inside = rectangle.alpha[0] <= one.alpha <= rectangle.alpha[1]
+    return inside and one.g[0] <= high and low <= one.g[1]
 
 
 # ------------------------------------------------------------ files
@@ -364,8 +366,9 @@ def read_line(line: str) -> Certificate | Counterexample:
     if keys == ["alpha", "g", "grid", "refutes"]:
         require(data["refutes"] in ("saddle", "multiplier"), "an unknown kind of refutation")
         columns, per_unit = map(whole, data["grid"])
-        pair = rational(data["alpha"]), rational(data["g"])
-        return Counterexample(data["refutes"], *pair, columns, per_unit)
+        g_low, g_high = map(rational, data["g"])
+        alpha = rational(data["alpha"])
+        return Counterexample(data["refutes"], alpha, (g_low, g_high), columns, per_unit)
     require(keys == ["alpha", "arc", "g", "grid", "ranks", "trap"], "not a line of certificates")
     a_low, a_high = map(rational, data["alpha"])
     g_low, g_high = map(rational, data["g"])
@@ -402,8 +405,7 @@ def outcome(
 ) -> tuple[str, str]:
     """(certified, refuted or unknown; why it is unknown), by what the lines prove."""
     boxes = [(one.grid.alpha, one.grid.g) for one in proved if isinstance(one, Certificate)]
-    pairs = [(one.alpha, one.g) for one in proved if isinstance(one, Counterexample)]
-    if any(holds_pair(rectangle, *pair) for pair in pairs):
+    if any(isinstance(one, Counterexample) and meets(one, rectangle) for one in proved):
         return "refuted", ""
     try:
         check_cover(rectangle, boxes, Work(MAX_STEPS))

@@ -1,54 +1,231 @@
-"""Covers a rectangle of parameters by boxes, each with a certificate; not believed."""
+"""Covers a rectangle of parameters by boxes, each with a certificate; not believed.
+
+The rectangle, in alpha and Gamma, is cut into boxes in alpha and g, each of which is tried on a
+grid; where a box fails it is cut across its longer side, until it is too narrow.  The boxes of one
+round are independent: any executor may share them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from fractions import Fraction
-from typing import NamedTuple
+from itertools import accumulate
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+from juggleproof.certificates.checker import Rejected, load
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.processes import spread
+from juggleproof.certificates.store import write_file
 
 from .checker import (
+    CERTIFICATES,
+    STATEMENTS,
     Box,
+    Certificate,
+    Counterexample,
     Rectangle,
     check_line,
     g_at,
+    meets,
+    outcome,
+    read_line,
 )
 from .flights import Interval
 from .search import find_certificate, line_of
 
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
-# of a box that is wider: so many columns, and rows of a unit of speed
-GRIDS = ((Fraction(3, 1000), 512, 32), (Fraction(1, 1000), 1024, 64), (Fraction(1, 4000), 2048, 64))
+GRIDS = ((256, 16), (512, 32), (1024, 64), (2048, 64))  # columns, and rows of a unit of speed
+# the grid on which a box that is wider is tried first; narrower ones go through all
+WIDTHS = ((Fraction(3, 1000), 1), (Fraction(1, 1000), 2), (Fraction(1, 4000), 3))
+SADDLE = 2048, 128  # the grid on which a saddle is looked for
+BUDGET = 20_000_000  # cells
+
+Proved = Certificate | Counterexample
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+
+class Piece(NamedTuple):
+    """A box of (alpha, g), and the grid on which it is tried."""
+
+    box: Box
+    grid: int
 
 
 class Tried(NamedTuple):
-    """box: of (alpha, g); line: its certificate, as the checker took it, or "" for the reason."""
+    """piece; line: its certificate, as the checker took it, or "" where there is none; cells: how
+    many the search looked at.
+    """
 
-    box: Box
+    piece: Piece
     line: str
-    reason: str
     cells: int
 
 
-def grid_of(box: Box) -> tuple[int, int] | None:
-    """The columns and rows of a unit of speed on which a box is tried; None where it is so narrow
-    that it is given up.
+class Covered(NamedTuple):
+    """outcome: certified, refuted or unknown; boxes: how many have a certificate; left: those that
+    have none; cells: how many the search looked at; rejected: lines of the folder that the checker
+    did not take, with the reason; counterexample: for refuted.
     """
-    width = max(end - start for start, end in box)
-    for least, columns, per_unit in GRIDS:
-        if width > least:
-            return columns, per_unit
-    return None
+
+    outcome: str
+    boxes: int
+    left: list[Box]
+    cells: int
+    rejected: list[str]
+    counterexample: Counterexample | None
 
 
-def try_box(box: Box) -> Tried:
+def cover(
+    rectangle: Rectangle,
+    folder: Path,
+    executor: Executor | None = None,
+    budget: int = BUDGET,
+    progress: Callable[[int, int], None] = lambda done, known: None,
+) -> Covered:
+    """Certifies the theorem on the rectangle as far as it can, or refutes it; keeps each box in the
+    folder as soon as it is certified, and goes on from those that are there.
+
+    budget: cells that the search may look at; progress: is told how many boxes are done, of how
+    many that are known.  Raises ClaimError, one line, where the folder cannot be used or the
+    executor fails.
+    """
+    proved, rejected = kept(folder, executor)
+    counterexample = find_counterexample(rectangle, list(proved.values()))
+    if counterexample is not None:
+        proved[line_of(counterexample)] = counterexample
+        write(folder, rectangle, proved)
+        return Covered("refuted", 0, [], 0, rejected, counterexample)
+    pieces = [first_piece(box) for box in first_boxes(rectangle)]
+    left: list[Box] = []
+    cells = known = done = 0
+
+    def take(_: int, one: Tried) -> None:
+        nonlocal done
+        done += 1
+        progress(done, known)
+        if one.line:
+            proved[one.line] = read_line(one.line)
+            write(folder, rectangle, proved)
+
+    while pieces:
+        pieces = [piece for piece in pieces if not within(piece.box, proved.values())]
+        affordable = [grid_cells(piece.grid) for piece in pieces]
+        fits = sum(cells + total <= budget for total in accumulate(affordable))
+        left += [piece.box for piece in pieces[fits:]]
+        known += fits
+        tried = shared(try_piece, pieces[:fits], executor, take)
+        cells += sum(one.cells for one in tried)
+        failed = [one.piece for one in tried if not one.line]
+        pieces = []
+        for piece in failed:
+            smaller = smaller_pieces(rectangle, piece)
+            pieces += smaller
+            left += [] if smaller else [piece.box]
+    write(folder, rectangle, proved)
+    word, _ = outcome(rectangle, list(proved.values()))
+    boxes = sum(isinstance(one, Certificate) for one in proved.values())
+    return Covered(word, boxes, sorted(left), cells, rejected, None)
+
+
+def shared(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    executor: Executor | None,
+    done: Callable[[int, Result], None] = lambda place, result: None,
+) -> list[Result]:
+    """The results of the work on the items, by the executor; ClaimError where that fails."""
+    try:
+        return spread(work, items, executor, done)
+    except (OSError, BrokenExecutor, CancelledError, RuntimeError) as error:
+        raise ClaimError(
+            f"the executor failed ({type(error).__name__}); certified boxes are kept: run it again"
+        ) from None
+
+
+# ------------------------------------------------------------ files
+
+
+def kept(folder: Path, executor: Executor | None) -> tuple[dict[str, Proved], list[str]]:
+    """({line: what it proves}, what is wrong with others) of the certificates in a folder."""
+    path = folder / CERTIFICATES
+    if not path.exists():
+        return {}, []
+    try:
+        lines = load(str(path)).splitlines()
+    except Rejected as reason:
+        raise ClaimError(f"{path}: {reason}; name another --store") from None
+    checked = shared(check_line, lines, executor)
+    return (
+        {line: one for line, (one, _) in zip(lines, checked) if one is not None},
+        [
+            f"{path}, line {number}: {reason}"
+            for number, (one, reason) in enumerate(checked, 1)
+            if one is None
+        ],
+    )
+
+
+def write(folder: Path, rectangle: Rectangle, proved: dict[str, Proved]) -> None:
+    """Writes the certificates, by parameters, and the statement beside those that are there."""
+    path = folder / STATEMENTS
+    statements = {rectangle.text}
+    if path.exists():
+        statements.update(path.read_text(encoding="ascii").splitlines())
+    write_file(path, "".join(f"{line}\n" for line in sorted(statements)).encode())
+    lines = sorted(proved, key=lambda line: (box_of(proved[line]), line))
+    write_file(folder / CERTIFICATES, "".join(f"{line}\n" for line in lines).encode())
+
+
+def box_of(one: Proved) -> Box:
+    """The box of (alpha, g) of a certificate, or of a counterexample."""
+    if isinstance(one, Certificate):
+        return one.grid.alpha, one.grid.g
+    return (one.alpha, one.alpha), one.g
+
+
+# ------------------------------------------------------------ boxes
+
+
+def within(box: Box, proved: Iterable[Proved]) -> bool:
+    """Whether a box lies in one that has a certificate."""
+    return any(
+        isinstance(one, Certificate)
+        and all(a <= c and d <= b for (a, b), (c, d) in zip(box_of(one), box))
+        for one in proved
+    )
+
+
+def grid_cells(grid: int) -> int:
+    """About how many cells a grid has."""
+    columns, per_unit = GRIDS[grid]
+    return columns * per_unit * 4 // 3
+
+
+def first_piece(box: Box) -> Piece:
+    """The box, with the grid on which it is tried first."""
+    return Piece(box, next((grid for least, grid in WIDTHS if width_of(box) > least), 0))
+
+
+def width_of(box: Box) -> Fraction:
+    """The longer side."""
+    return max(end - start for start, end in box)
+
+
+def try_piece(piece: Piece) -> Tried:
     """Looks for a certificate of the theorem for a box, and has the checker read it."""
-    columns, per_unit = grid_of(box) or (0, 0)
-    found = find_certificate(*box, columns, per_unit)
-    if found.certificate is None:
-        return Tried(box, "", found.reason, found.cells)
-    line = line_of(found.certificate)
-    proved, reason = check_line(line)
-    return Tried(box, line if proved else "", reason, found.cells)
+    found = find_certificate(*piece.box, *GRIDS[piece.grid])
+    line = line_of(found.certificate) if found.certificate else ""
+    return Tried(piece, line if line and check_line(line)[0] else "", found.cells)
+
+
+def smaller_pieces(rectangle: Rectangle, piece: Piece) -> list[Piece]:
+    """What is tried after a piece: its halves, or, where it is narrow, the next grid."""
+    if width_of(piece.box) > WIDTHS[-1][0]:
+        return [first_piece(half) for half in halves(rectangle, piece.box)]
+    return [Piece(piece.box, piece.grid + 1)] if piece.grid + 1 < len(GRIDS) else []
 
 
 def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:
@@ -91,3 +268,31 @@ def halves(rectangle: Rectangle, box: Box) -> Iterator[Box]:
         low, high = max(low, one_g[0]), min(high, one_g[1])
         if low < high:
             yield one_alpha, (low, high)
+
+
+# ------------------------------------------------------------ refutations
+
+
+def find_counterexample(rectangle: Rectangle, proved: Sequence[Proved]) -> Counterexample | None:
+    """A pair of the rectangle where the checker refutes the theorem: one that is known, or one of
+    the corners.
+    """
+    known = [one for one in proved if isinstance(one, Counterexample)]
+    corners = [
+        Counterexample(why, alpha, g, *SADDLE)
+        for alpha in rectangle.alpha
+        for g in corner_values(rectangle, alpha)
+        for why in ("multiplier", "saddle")
+    ]
+    for one in known + corners:
+        if meets(one, rectangle) and check_line(line_of(one))[0]:
+            return one
+    return None
+
+
+def corner_values(rectangle: Rectangle, alpha: Fraction) -> list[Interval]:
+    """The least and the greatest g of the rectangle at this alpha, each between bounds."""
+    low, high = rectangle.values
+    if rectangle.drive == "g":
+        return [(low, low), (high, high)]
+    return [g_between(rectangle._replace(values=(end, end)), (alpha, alpha)) for end in (low, high)]

@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..checker import Rejected, Work
-from .checker import Certificate, check_trap
+from .checker import Certificate, Counterexample, check_trap
 from .flights import (
     MAX_STEPS,
     ONE,
@@ -210,9 +210,13 @@ def descend(
                     ready.append(other)
 
 
-def line_of(certificate: Certificate) -> str:
-    """The certificate as a line of certificates."""
-    one, grid = certificate, certificate.grid
+def line_of(one: Certificate | Counterexample) -> str:
+    """What is written of it as a line of certificates."""
+    if isinstance(one, Counterexample):
+        cells = [one.columns, one.per_unit]
+        pair = {"alpha": str(one.alpha), "g": [str(end) for end in one.g]}
+        return json.dumps({**pair, "grid": cells, "refutes": one.refutes})
+    grid = one.grid
     return json.dumps(
         {
             "alpha": [str(end) for end in grid.alpha],
