@@ -130,8 +130,8 @@ def why_refuted(one: Counterexample) -> str:
     column, row = check_saddle(one, Work(MAX_STEPS))
     return (
         f"{at} a second orbit of period one exists: from a phase between {column}/{one.columns}"
-        f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands there"
-        " again one period later; the phase of the bounce is 0"
+        f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands"
+        " there again one period later; the phase of the bounce is 0"
     )
 
 
