@@ -179,19 +179,35 @@ def test_the_command_says_what_is_proved(
     ]
 
 
+def test_frequency_and_amplitude_give_the_drive(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = ["--alpha", "0.05", "--jobs", "1", "--store", str(tmp_path)]
+    # 4 pi^2 25^2 0.001232/9.80665 = 3.09977..
+    assert run(["certify", "sine", *options, "--frequency", "25", "--amplitude", "1.232"]) == 0
+    assert capsys.readouterr().out.splitlines()[:2] == [
+        f"certified: {WORDS} [1/20, 1/20] and Gamma in [30997/10000, 15499/5000]",
+        "which holds all tables of 25 Hz with an amplitude of 1.232 mm, under 9.80665 m/s^2",
+    ]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ([], "needs --alpha A0:A1 and --gamma G0:G1"),
-        (["--alpha", "0.05"], "needs --alpha A0:A1 and --gamma G0:G1"),
+        ([], "needs --alpha A0:A1, and --gamma G0:G1"),
+        (["--alpha", "0.05"], "needs --alpha A0:A1, and --gamma G0:G1"),
+        (["--alpha", "0.05", "--frequency", "30"], "--frequency and --amplitude go together"),
+        (["--alpha", "0.05", "--amplitude", "1", "--gamma", "3"], "go together, without --gamma"),
         (["--alpha", "1", "--gamma", "3"], "--alpha 1: restitution is at least 0 and below 1"),
         (["--alpha", "-1/10", "--gamma", "3"], "--alpha -1/10: no interval"),
         (["--alpha", "0.06:0.04", "--gamma", "3"], "begins above its end; write 0.04:0.06"),
         (["--alpha", "0.05", "--gamma", "3.2:3.1"], "begins above its end; write 3.1:3.2"),
-        (["--alpha", "0.05", "--gamma", "2.8"], "--gamma 2.8: below pi (1 - alpha)/(1 + alpha)"),
+        (["--alpha", "0.05", "--gamma", "2.8"], "Gamma = 14/5: below pi (1 - alpha)/(1 + alpha)"),
         (["--alpha", "0.05", "--gamma", "0"], "--gamma 0: a table at rest drives nothing"),
         (["--alpha", "nan", "--gamma", "3"], "--alpha nan: no interval"),
         (["--alpha", "1:2:3", "--gamma", "3"], "--alpha 1:2:3: no interval"),
+        (["--alpha", "0.05", "--gamma", "3.1", "--only", "eq-6"], "--only: not for sine"),
+        (["mine.py", "--alpha", "0.05"], "--alpha: for `certify sine` only"),
     ],
 )
 def test_rejects_what_is_no_rectangle(
