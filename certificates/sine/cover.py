@@ -71,13 +71,13 @@ class Tried(NamedTuple):
 
 
 class Covered(NamedTuple):
-    """outcome: certified, refuted or unknown; boxes: how many have a certificate; left: those that
-    have none; cells: how many the search looked at; rejected: lines of the folder that the checker
+    """outcome: certified, refuted or unknown; boxes: those with a certificate; left: those without
+    one; cells: how many the search looked at; rejected: lines of the folder that the checker
     did not take, with the reason; counterexample: for refuted.
     """
 
     outcome: str
-    boxes: int
+    boxes: list[Box]
     left: list[Box]
     cells: int
     rejected: list[str]
@@ -103,7 +103,7 @@ def cover(
     if counterexample is not None:
         proved[line_of(counterexample)] = counterexample
         write(folder, rectangle, proved)
-        return Covered("refuted", 0, [], 0, rejected, counterexample)
+        return Covered("refuted", [], [], 0, rejected, counterexample)
     pieces = [first_piece(box) for box in first_boxes(rectangle)]
     left: list[Box] = []
     cells = known = done = 0
@@ -116,7 +116,7 @@ def cover(
             proved[one.line] = read_line(one.line)
             write(folder, rectangle, proved)
 
-    while pieces:
+    while pieces and outcome(rectangle, list(proved.values()))[0] != "certified":
         pieces = [piece for piece in pieces if not within(piece.box, proved.values())]
         affordable = [grid_cells(piece.grids[0]) for piece in pieces]
         fits = sum(cells + total <= budget for total in accumulate(affordable))
@@ -132,7 +132,7 @@ def cover(
             left += [] if then else [piece.box]
     write(folder, rectangle, proved)
     word, _ = outcome(rectangle, list(proved.values()))
-    boxes = sum(isinstance(one, Certificate) for one in proved.values())
+    boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
     return Covered(word, boxes, sorted(left), cells, rejected, None)
 
 
@@ -201,12 +201,11 @@ def box_of(one: Proved) -> Box:
 
 
 def within(box: Box, proved: Iterable[Proved]) -> bool:
-    """Whether a box lies in one that has a certificate."""
-    return any(
-        isinstance(one, Certificate)
-        and all(a <= c and d <= b for (a, b), (c, d) in zip(box_of(one), box))
-        for one in proved
-    )
+    """Whether boxes that have a certificate cover a box."""
+    near = [
+        one for one in proved if all(a <= d and c <= b for (a, b), (c, d) in zip(box_of(one), box))
+    ]
+    return outcome(Rectangle("", box[0], "g", box[1]), near)[0] == "certified"
 
 
 def grid_cells(grid: int) -> int:

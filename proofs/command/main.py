@@ -166,6 +166,8 @@ def build_parser() -> argparse.ArgumentParser:
         "--executor", metavar="ADDRESS", help="for sine: a Dask cluster that shares the boxes"
     )
 
+    certify.add_argument("--picture", type=Path, metavar="F", help="for sine: the boxes, as F.svg")
+
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
     check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
     listed = commands.add_parser("list", help="the claims, with place and registered verdict")
@@ -377,7 +379,7 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if parsed.command == "certify" and [str(path) for path in parsed.files] == ["sine"]:
         return int(import_module(SINE).command(parsed))
-    for option in (*SINE_OPTIONS, "executor") if parsed.command == "certify" else ():
+    for option in (*SINE_OPTIONS, "executor", "picture") if parsed.command == "certify" else ():
         if getattr(parsed, option) is not None:
             raise ClaimError(f"--{option}: for `certify sine` only; leave it out")
     if parsed.command == "certify" and are_scripts(parsed.files):

@@ -20,12 +20,16 @@ from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import (
     Box,
     Counterexample,
+    Rectangle,
     check_saddle,
     g_at,
     read_statement,
 )
 from juggleproof.certificates.sine.cover import BUDGET, Covered, cover
 from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.extras import needed
 
 NAME = "sine"
 STORE = Path("sine.certificates")
@@ -46,6 +50,7 @@ class SineOptions(argparse.Namespace):
     budget: int
     executor: str | None
     store: Path | None
+    picture: Path | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -73,6 +78,10 @@ def certify(options: SineOptions) -> int:
     for option in NOT_FOR_SINE:
         if getattr(options, option):
             raise ClaimError(f"--{option}: not for sine; leave it out")
+    if options.picture is not None:
+        needed("matplotlib", "picture")
+        if fault := fault_of(options.picture):
+            raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
     rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
     low = rectangle.values[0]
     if not g_at(rectangle.alpha[0], low, up=False):
@@ -94,6 +103,10 @@ def certify(options: SineOptions) -> int:
     for line in explained(covered):
         print(line)
     print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
+    if options.picture is not None:
+        drawn = picture_of(rectangle, covered)
+        write_file(options.picture, drawn)
+        print(f"wrote {options.picture}")
     return int(covered.outcome != "certified")
 
 
@@ -146,12 +159,29 @@ def interval(text: str, option: str) -> Interval:
     return low, high
 
 
+def picture_of(rectangle: Rectangle, covered: Covered) -> bytes:
+    """The boxes, with the curves between which the theorem may hold, as SVG."""
+    picture = needed("juggleproof.scenes.table.picture", "picture")
+    alpha, gamma = in_floats(rectangle.alpha), in_floats(rectangle.values)
+    certified, left = (
+        [(in_floats(one), in_floats(g)) for one, g in boxes]
+        for boxes in (covered.boxes, covered.left)
+    )
+    drawn: bytes = picture.cover(alpha, gamma, certified, left)
+    return drawn
+
+
+def in_floats(ends: Interval) -> tuple[float, float]:
+    """An interval, to be shown."""
+    return float(ends[0]), float(ends[1])
+
+
 def explained(covered: Covered) -> Iterator[str]:
     """What there is beside the verdict, line by line."""
     if covered.counterexample is not None:
         yield why_refuted(covered.counterexample)
         return
-    yield f"{covered.cells:,} cells were looked at; boxes with a certificate: {covered.boxes}"
+    yield f"{covered.cells:,} cells were looked at; boxes with a certificate: {len(covered.boxes)}"
     if covered.left:
         yield f"boxes that are left: {len(covered.left)}"
     for one in covered.left[:SHOWN]:
@@ -162,7 +192,7 @@ def explained(covered: Covered) -> Iterator[str]:
 
 def in_words(box: Box) -> str:
     """A box of alpha and g, in decimals."""
-    alpha, g = ((float(low), float(high)) for low, high in box)
+    alpha, g = map(in_floats, box)
     return f"alpha {alpha[0]:.6f} to {alpha[1]:.6f}, g {g[0]:.6f} to {g[1]:.6f}"
 
 
