@@ -346,5 +346,6 @@ class Walk:
             low = max(after, 0)
             slope += rise * step >> BITS
             m += 1
-        flights.work.spend(steps)
+        # the ranks of the rows that are reached will be looked at
+        flights.work.spend(steps + sum(top - low for _, low, top in landings) // 64)
         return landings
