@@ -48,6 +48,7 @@ from .flights import (
     Grid,
     Interval,
     Refused,
+    Walk,
     absorbing_strip,
     require,
 )
@@ -237,11 +238,12 @@ def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
     The other solution of c cos 2 pi x - g sin 2 pi x = c, with s = 1/(1 + alpha), has F = 0 one
     period later.  It is a motion where F > 0 up to then: flights from its cell land but in columns
     next to each other, with s1 > 0, among which is the cell's own one period later: F falls in all
-    of these, and vanishes there once.  Returned: the column and the row of the cell.
+    of these, and vanishes there once.  No landing up to there is above the rows, as its
+    s1 <= 1 + 2 rho < 4.  Returned: the column and the row of the cell.
     """
     require(0 < one.alpha, "a ball with alpha = 0 may rest")
     alpha = one.alpha, one.alpha
-    flights = Flights(Grid(alpha, one.g, one.columns, one.per_unit, one.per_unit), work)
+    flights = Flights(Grid(alpha, one.g, one.columns, one.per_unit, 4 * one.per_unit), work)
     # v passes c twice a period, at 0 and at the saddle, between a half and a whole period
     home, margin = flights.velocity[0], flights.g_half + SLACK
     half = one.columns // 2
@@ -250,7 +252,8 @@ def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
     crosses = above and flights.velocity[2 * i + 2] > home + margin
     require(crosses, "the saddle is not within one column of this grid")
     row = one.per_unit * one.alpha.denominator // (one.alpha.denominator + one.alpha.numerator)
-    landings = list(flights.column(i))[row]
+    landings = Walk(flights, i).landings(row, i)
+    require(landings, "a cell without a landing")
     places = [m for m, _, _ in landings]
     require(places == list(range(places[0], places[-1] + 1)), "it may land in two places")
     require(places[0] <= i + one.columns <= places[-1], "it does not land one period later")
@@ -297,7 +300,9 @@ def check_cover(rectangle: Rectangle, boxes: list[Box], work: Work, cuts: int = 
         require(g_low > 0, "Gamma is below the birth of the bounce, pi (1 - alpha)/(1 + alpha)")
     reached = None
     for (a_low, a_high), (b_low, b_high) in sorted(boxes, key=lambda box: box[1]):
-        if a_low <= low and high <= a_high and b_low <= (g_low if reached is None else reached):
+        if not (a_low <= low and high <= a_high and g_low <= b_high):
+            continue  # elsewhere, or all below
+        if b_low <= (g_low if reached is None else reached):
             reached = b_high if reached is None else max(reached, b_high)
     if reached is not None and reached >= g_high:
         return
@@ -320,7 +325,7 @@ def meets(one: Counterexample, rectangle: Rectangle) -> bool:
 # ------------------------------------------------------------ files
 
 STATEMENTS, CERTIFICATES = "statements.txt", "certificates.jsonl"
-NUMBER = r"(\d{1,30}(?:/[1-9]\d{0,29})?)"
+NUMBER = r"([0-9]{1,30}(?:/[1-9][0-9]{0,29})?)"
 STATEMENT = re.compile(
     rf"every motion tends to the period-one bounce for all alpha in \[{NUMBER}, {NUMBER}\]"
     rf" and (Gamma|g) in \[{NUMBER}, {NUMBER}\]"
@@ -350,6 +355,12 @@ def whole(value: object) -> int:
     return value if isinstance(value, int) else 0
 
 
+def listed(value: object) -> list[object]:
+    """A list: neither a text nor an object, whose letters or keys could be read one by one."""
+    require(isinstance(value, list), "not a list")
+    return value if isinstance(value, list) else []
+
+
 def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
     require(len(dict(pairs)) == len(pairs), "a key stands twice")
     return dict(pairs)
@@ -365,17 +376,17 @@ def read_line(line: str) -> Certificate | Counterexample:
     keys = sorted(data)
     if keys == ["alpha", "g", "grid", "refutes"]:
         require(data["refutes"] in ("saddle", "multiplier"), "an unknown kind of refutation")
-        columns, per_unit = map(whole, data["grid"])
-        g_low, g_high = map(rational, data["g"])
+        columns, per_unit = map(whole, listed(data["grid"]))
+        g_low, g_high = map(rational, listed(data["g"]))
         alpha = rational(data["alpha"])
         return Counterexample(data["refutes"], alpha, (g_low, g_high), columns, per_unit)
     require(keys == ["alpha", "arc", "g", "grid", "ranks", "trap"], "not a line of certificates")
-    a_low, a_high = map(rational, data["alpha"])
-    g_low, g_high = map(rational, data["g"])
-    columns, per_unit, rows = map(whole, data["grid"])
-    *sides, weight = data["trap"]
+    a_low, a_high = map(rational, listed(data["alpha"]))
+    g_low, g_high = map(rational, listed(data["g"]))
+    columns, per_unit, rows = map(whole, listed(data["grid"]))
+    *sides, weight = listed(data["trap"])
     width, low, high = map(whole, sides)
-    start, end = map(whole, data["arc"])
+    start, end = map(whole, listed(data["arc"]))
     require(0 <= columns * rows <= MAX_CELLS, "too many cells")
     packed = b64decode(data["ranks"], validate=True)
     ranks = zlib.decompressobj().decompress(packed, columns * rows + 1)
@@ -420,10 +431,13 @@ def check_folder(folder: str) -> list[tuple[str, str, str]]:
     """
     lines = load(os.path.join(folder, STATEMENTS)).splitlines()
     rectangles = [read_statement(line) for line in lines]
-    proved, results = [], []
+    proved: list[Certificate | Counterexample] = []
+    results = []
     for number, line in enumerate(load(os.path.join(folder, CERTIFICATES)).splitlines(), 1):
         proves, why = check_line(line)
-        if proves:
+        if isinstance(proves, Certificate):  # its ranks have done their work, and take memory
+            proved.append(proves._replace(ranks=b""))
+        elif proves:
             proved.append(proves)
         else:
             results.append((f"{CERTIFICATES}, line {number}", "rejected", why))

@@ -209,6 +209,16 @@ def round_up(value: Fraction) -> int:
     return -(-value.numerator * ONE // value.denominator)
 
 
+class Row(NamedTuple):
+    """Bounds of a row's s; alpha s at the centre; bounds of alpha s."""
+
+    low: int
+    high: int
+    rebound: int
+    least: int
+    most: int
+
+
 class Walk:
     """The flights that start in one column; see `Flights`.  What all rows share is kept."""
 
@@ -275,57 +285,66 @@ class Walk:
         self.speeds[p] = found
         return found
 
-    def landings(self, row: int, first: int) -> list[Landing]:
+    def row(self, row: int) -> Row:
+        flights = self.flights
+        low, high = row * ONE // flights.per_unit, (row + 1) * ONE // flights.per_unit
+        rebound = flights.alpha * (low + high) >> BITS + 1
+        least, most = flights.alpha_low * low >> BITS, (flights.alpha_high * high >> BITS) + 1
+        return Row(low, high, rebound, least, most)
+
+    def height(self, m: int, row: Row) -> tuple[int, int]:
+        """Bounds of F at x1 = m/N for all that starts in a row of this column."""
+        flights = self.flights
+        s_low, s_high, rebound, least, most = row
+        found = self.heights.get(m) or self.height_at(m)
+        value, n, low, high, lag_low, lag_high, c_low, c_high, radius = found
+        by_x = max(lag_high - least, most - lag_low)
+        by_alpha = max((s_high * high >> BITS) + 1 - c_low, c_high - (s_low * low >> BITS))
+        radius += by_x * flights.half + by_alpha * flights.alpha_half >> BITS
+        value += rebound * n >> flights.shift
+        return value - radius, value + radius
+
+    def speed(self, p: int, row: Row) -> tuple[int, int]:
+        """Bounds of s1 at x1 = p/(2N), or, p being odd, in the column around it."""
+        s_low, s_high, rebound = row[:3]
+        value, c_low, c_high, radius = self.speeds.get(p) or self.speed_at(p)
+        radius += max(c_high - s_low, s_high - c_low) * self.flights.alpha_half >> BITS
+        return value - rebound - radius, value - rebound + radius
+
+    def landing(self, m: int, row: Row) -> list[Landing]:
+        """A landing in column m, unless F rises all over it or s1 is beyond the rows."""
+        rows, unit = self.flights.rows, BITS + 1 - self.flights.per_unit.bit_length()
+        slowest, fastest = self.speed(2 * m + 1, row)
+        lowest = max(slowest, 0) >> unit
+        if fastest < 0 or lowest >= rows:
+            return []
+        return [(m, lowest, min(fastest >> unit, rows - 1))]
+
+    def landings(self, number: int, first: int) -> list[Landing]:
         """Where the flights of one row land, none of which lands before the column `first`."""
-        flights, i = self.flights, self.i
-        columns, alpha_half, fall = flights.columns, flights.alpha_half, flights.fall
+        flights, i, row = self.flights, self.i, self.row(number)
+        columns, fall, least = flights.columns, flights.fall, row.least
         step = 2 * flights.half
-        s_low, s_high = row * ONE // flights.per_unit, (row + 1) * ONE // flights.per_unit
-        rebound = flights.alpha * (s_low + s_high) >> BITS + 1  # alpha s at the centre
-        least, most = (flights.alpha_low * s_low >> BITS), (flights.alpha_high * s_high >> BITS) + 1
-        unit = BITS + 1 - flights.per_unit.bit_length()
-
-        def height(m: int) -> tuple[int, int]:
-            found = self.heights.get(m) or self.height_at(m)
-            value, n, low, high, lag_low, lag_high, c_low, c_high, radius = found
-            by_x = max(lag_high - least, most - lag_low)
-            by_alpha = max((s_high * high >> BITS) + 1 - c_low, c_high - (s_low * low >> BITS))
-            radius += by_x * flights.half + by_alpha * alpha_half >> BITS
-            value += rebound * n >> flights.shift
-            return value - radius, value + radius
-
-        def speed(p: int) -> tuple[int, int]:
-            value, c_low, c_high, radius = self.speeds.get(p) or self.speed_at(p)
-            radius += max(c_high - s_low, s_high - c_low) * alpha_half >> BITS
-            return value - rebound - radius, value - rebound + radius
-
         landings: list[Landing] = []
-
-        def land(m: int) -> None:
-            slowest, fastest = speed(2 * m + 1)
-            if fastest >= 0 and max(slowest, 0) >> unit < flights.rows:
-                top = min(fastest >> unit, flights.rows - 1)
-                landings.append((m, max(slowest, 0) >> unit, top))
-
         m = first
         if m == i:
             # x anywhere in the column: F >= alpha s t + rise t^2/2 up to its end
             if self.rise[0] <= 0 and least * 2 * columns <= -self.rise[0]:
-                land(m)
+                landings += self.landing(m, row)
             m += 1
             low, slope = 0, least + (min(0, self.rise[0]) * step >> BITS)
         else:
-            low, slope = 0, -speed(2 * m)[1]
+            low, slope = 0, -self.speed(2 * m, row)[1]
         steps = 0
         while True:
             steps += 1
             require(m - i <= LONGEST * columns, "a flight without an end")
-            least_height, most_height = height(m)
+            least_height, most_height = self.height(m, row)
             if most_height < 0:
                 break
             low = max(low, least_height)
             if low > step >> 2:
-                slope = max(slope, -speed(2 * m)[1])
+                slope = max(slope, -self.speed(2 * m, row)[1])
                 time = (slope + isqrt(slope * slope + 2 * fall * low)) * ONE // fall
                 jump = time // step
                 if jump > 1:
@@ -339,12 +358,12 @@ class Walk:
                     raise Refused("a jump over a landing")
             rise, bend = self.rise[(m - i) % columns], self.bend[(m - i) % columns]
             after = low + (slope * step >> BITS) + (rise * step >> BITS + 1) * step // ONE
-            if not (after > 0 if rise <= 0 else slope >= 0) and not (
-                low > bend and height(m + 1)[0] > bend
-            ):
-                land(m)
+            free = after > 0 if rise <= 0 else slope >= 0
+            if not free and not (low > bend and self.height(m + 1, row)[0] > bend):
+                landings += self.landing(m, row)
             low = max(after, 0)
             slope += rise * step >> BITS
             m += 1
-        flights.work.spend(steps)
+        # the ranks of the rows that are reached will be looked at
+        flights.work.spend(steps + sum(top - low for _, low, top in landings) // 64)
         return landings
