@@ -82,9 +82,9 @@ def command(parsed: argparse.Namespace) -> int:
     cannot be carried out.
     """
     try:
-        return (
-            juggler(JugglerOptions(**vars(parsed))) if parsed.scene == "juggler" else _part(parsed)
-        )
+        if parsed.scene == "juggler":
+            return juggler(JugglerOptions(**vars(parsed)))
+        return _part(parsed) if parsed.scene == "part" else _table(parsed)
     except SceneError as problem:
         raise ClaimError(str(problem)) from None
     except KeyboardInterrupt:
@@ -98,6 +98,12 @@ def _part(parsed: argparse.Namespace) -> int:
     from juggleproof.proofs.command.simulate_part import PartOptions, part
 
     return part(PartOptions(**vars(parsed)))
+
+
+def _table(parsed: argparse.Namespace) -> int:
+    from juggleproof.proofs.command.simulate_table import TableOptions, table
+
+    return table(TableOptions(**vars(parsed)))
 
 
 def juggler(options: JugglerOptions) -> int:

@@ -161,7 +161,7 @@ def interval(text: str, option: str) -> Interval:
 
 def picture_of(rectangle: Rectangle, covered: Covered) -> bytes:
     """The boxes, with the curves between which the theorem may hold, as SVG."""
-    picture = needed("juggleproof.scenes.table.picture", "picture")
+    picture = needed("juggleproof.scenes.table.cover", "picture")
     alpha, gamma = in_floats(rectangle.alpha), in_floats(rectangle.values)
     certified, left = (
         [(in_floats(one), in_floats(g)) for one, g in boxes]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from juggleproof.scenes.figures.arcs import Arc, Point, straight
-from juggleproof.scenes.figures.drawing import Plane, Sides, blank, style, svg, ticks
+from juggleproof.scenes.figures.arcs import Arc
+from juggleproof.scenes.figures.drawing import Plane, Sides, style, svg
 from juggleproof.scenes.figures.look import KEPT, PLAIN, Look, R
 from juggleproof.scenes.table.curves import birth, doubling, gamma_of, grazing
+from juggleproof.scenes.table.plane import LETTERS, axes, joined, spaced
 
 Box = tuple[tuple[float, float], tuple[float, float]]  # of alpha, of g
-WIDTH, HEIGHT = 600.0, 340.0  # points
-LEFT, RIGHT, BOTTOM, TOP = 48.0, 120.0, 44.0, 48.0
+SIZE, RIGHT = (600.0, 340.0), 120.0  # points
 POINTS = 60  # of a curve
 CERTIFIED = Look(R.colour, "", tint=0.35)
 OPEN = Look(KEPT.colour, "", tint=0.6)
@@ -36,7 +36,7 @@ def cover(alpha: Sides, gamma: Sides, certified: Sequence[Box], left: Sequence[B
         for name, label, curve, dashes in CURVES:
             _draw_curve(plane, name, label, curve, Look(PLAIN.colour, "", dashes))
         (a, b), (c, d) = alpha, gamma
-        plane.line(_joined([(a, c), (b, c), (b, d), (a, d), (a, c)]), "asked", linewidth=1.2)
+        plane.line(joined([(a, c), (b, c), (b, d), (a, d), (a, c)]), "asked", linewidth=1.2)
     plane.figure.set_facecolor("white")
     return svg(plane.figure, "cover")
 
@@ -47,36 +47,11 @@ def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
     across = max(0.0, alpha[0] - margin), min(0.999, alpha[1] + margin)
     ends = [curve(end) for _, _, curve, _ in CURVES for end in alpha]
     up = min(gamma[0], *ends) - 0.05, max(gamma[1], *ends) + 0.05
-    box = (
-        LEFT / WIDTH,
-        BOTTOM / HEIGHT,
-        1 - (LEFT + RIGHT) / WIDTH,
-        1 - (BOTTOM + TOP) / HEIGHT,
-    )
-    plane = Plane(blank(WIDTH / 72, HEIGHT / 72), box, across, up)
-    plane.words((LEFT, HEIGHT - 10), "A table that moves as a sine", ha="left", fontsize=11)
     counts = f"{certified} boxes where every motion tends to the bounce of one period, certified"
     counts += f"; {left} left" if left else ""
-    plane.words((LEFT, HEIGHT - 26), counts, ha="left", fontsize=8)
-    plane.frame(_ticks(across), _ticks(up), r"restitution $\alpha$", r"drive $\Gamma$", 30)
+    plane = axes(SIZE, RIGHT, across, up, ("A table that moves as a sine", counts))
+    plane.frame(spaced(across), spaced(up), r"restitution $\alpha$", r"drive $\Gamma$", 30)
     return plane
-
-
-def _ticks(sides: Sides) -> dict[float, str]:
-    """Three to seven round numbers within these ends."""
-    low, high = sides
-    step = next(
-        part * 10.0**power
-        for power in range(-6, 3)
-        for part in (1, 2, 5)
-        if (high - low) / (part * 10.0**power) <= 7
-    )
-    first = int(low / step) + 1
-    return ticks(round(k * step, 9) for k in range(first, int(high / step) + 1))
-
-
-def _joined(points: Sequence[Point]) -> list[Arc]:
-    return [straight(a, b) for a, b in zip(points, points[1:])]
 
 
 def _outline(box: Box) -> list[Arc]:
@@ -85,15 +60,16 @@ def _outline(box: Box) -> list[Arc]:
     along = [low + (high - low) * k / 4 for k in range(5)]
     points = [(x, gamma_of(x, g[0])) for x in along]
     points += [(x, gamma_of(x, g[1])) for x in reversed(along)]
-    return _joined([*points, points[0]])
+    return joined([*points, points[0]])
 
 
 def _draw_curve(
     plane: Plane, name: str, label: str, curve: Callable[[float], float], look: Look
 ) -> None:
+    """One of the curves, where it is within the plane, with its name at its end."""
     low, high = plane.across
     along = [low + (high - low) * k / POINTS for k in range(POINTS + 1)]
     points = [(x, y) for x in along if plane.up[0] <= (y := curve(x)) <= plane.up[1]]
-    plane.line(_joined(points), name, look, linewidth=1.0)
+    plane.line(joined(points), name, look, linewidth=1.0)
     if points:
-        plane.text(points[-1], label, (5, 0), ha="left", va="center", fontsize=8)
+        plane.text(points[-1], label, (5, 0), ha="left", va="center", fontsize=LETTERS)
