@@ -41,6 +41,11 @@ class TableOptions(argparse.Namespace):
     output: Path | None
 
 
+def command(parsed: argparse.Namespace) -> int:
+    """Follows the orbits, or draws them; returns the exit code."""
+    return table(TableOptions(**vars(parsed)))
+
+
 def table(options: TableOptions) -> int:
     """Prints the events of each orbit, or draws a picture; 0.  Raises ClaimError or SceneError, one
     line, for what cannot be carried out.
