@@ -16,7 +16,7 @@ Section Motions.
   Local Notation downward := (downward alpha g).
   Local Notation flight := (flight alpha g).
 
-  Definition rises (b : R) : Prop := downward b = 1 /\ forall d, 0 < d -> exists z, b < z < b + d /\ 1 < downward z.
+  Definition rises (b : R) : Prop := downward b = 1 /\ forall d, 0 < d -> ~ forall z, b < z < b + d -> downward z <= 1.
 
   (* While S <= 1 the table does not fall away; the ball leaves where S rises through 1. *)
   Definition rests (a b : R) : Prop := a <= b /\ (forall y, a <= y <= b -> downward y <= 1) /\ rises b.
@@ -128,21 +128,15 @@ Section Motions.
     assert (less : b < e) by (destruct (Rle_lt_or_eq_dec b e (proj2 range)) as [|same]; [assumption|subst b; lra]).
     assert (below : forall y, a <= y <= b -> downward y <= 1).
     { intros y inside. destruct (Req_dec y b) as [->|]; [exact at_b|apply before; lra]. }
-    assert (beyond : forall d, 0 < d -> exists z, b < z < b + d /\ 1 < downward z).
-    { intros d positive. set (t := Rmin (b + d / 2) e).
+    assert (beyond : forall d, 0 < d -> ~ forall z, b < z < b + d -> downward z <= 1).
+    { intros d positive all. set (t := Rmin (b + d / 2) e).
       assert (inside : b < t < b + d /\ t <= e)
         by (unfold t; split; [split; [apply Rmin_glb_lt; lra|apply Rle_lt_trans with (b + d / 2); [apply Rmin_l|lra]]|apply Rmin_r]).
-      assert (fails : ~ forall y, b < y <= t -> ~ 1 < downward y).
-      { intro all. assert (slow t); [|pose proof (bound t H); lra]. split; [lra|]. intros y between.
-        destruct (Rle_dec y b); [apply below; lra|]. apply Rnot_lt_le, all. lra. }
-      (* a point with S > 1 is found as the supremum's defect: the greatest value of S on [b, t] *)
-      destruct (continuity_ab_maj downward b t ltac:(lra)) as (m & greatest & place).
-      { intros y _. destruct (downward_derivative y) as [slope is]. exact (continuous _ _ _ is). }
-      assert (1 < downward m). { apply Rnot_le_lt. intro all. apply fails. intros y between. specialize (greatest y ltac:(lra)). lra. }
-      exists m. split; [|assumption]. destruct (Req_dec m b) as [->|]; lra. }
+      assert (more : slow t); [|pose proof (bound t more); lra].
+      split; [lra|]. intros y between. destruct (Rle_dec y b); [apply below|apply all]; lra. }
     exists b. split; [exact less|]. repeat split; [lra|exact below| |exact beyond].
     apply Rle_antisym; [exact at_b|]. apply Rnot_lt_le. intro slower.
-    destruct (stays_near b (1 - downward b) ltac:(lra)) as (d & positive & near). destruct (beyond d positive) as (z & inside & faster).
+    destruct (stays_near b (1 - downward b) ltac:(lra)) as (d & positive & near). apply (beyond d positive). intros z inside.
     specialize (near z ltac:(apply Rabs_def1; lra)). apply Rabs_def2 in near. lra.
   Qed.
 

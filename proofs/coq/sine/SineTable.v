@@ -169,10 +169,10 @@ Section Table.
 
   (* ---------------------------------------------------------------- where S rises through 1 *)
 
-  Lemma rises_once b y e : downward b = 1 -> (forall d, 0 < d -> exists z, b < z < b + d /\ 1 < downward z) ->
+  Lemma rises_once b y e : downward b = 1 -> (forall d, 0 < d -> ~ forall z, b < z < b + d -> downward z <= 1) ->
     b < y <= e -> e < b + 1 -> 1 < downward e -> 1 < downward y.
   Proof.
-    intros level rises order short high. pose proof PI_RGT_0 as pi.
+    intros level rises order short high. pose proof PI_RGT_0 as pi. apply Rnot_le_lt. intro not_above.
     set (half := fun x => half_gap * cos (PI * (x + b)) - g * sin (PI * (x + b))).
     assert (product : forall x, downward x - 1 = 4 * PI * (sin (PI * (x - b)) * half x)).
     { intro x. rewrite <- level. unfold downward, wave, half.
@@ -183,10 +183,10 @@ Section Table.
     { intros p q inside. apply sin_gt_0; [apply Rmult_lt_0_compat; lra|]. rewrite <- (Rmult_1_r PI) at 2. apply Rmult_lt_compat_l; lra. }
     assert (sign : forall x, b < x < b + 1 -> 1 < downward x -> 0 < half x).
     { intros x inside above. pose proof (product x) as equal. pose proof (between b x inside).
-      apply Rnot_le_lt. intro low. assert (0 <= 4 * PI * (sin (PI * (x - b)) * - half x)); [|lra].
+      apply Rnot_le_lt. intro small. assert (0 <= 4 * PI * (sin (PI * (x - b)) * - half x)); [|lra].
       apply Rmult_le_pos; [lra|]. apply Rmult_le_pos; lra. }
-    destruct (rises (y - b) ltac:(lra)) as (z & near & above).
-    destruct (Rle_lt_or_eq_dec y e (proj2 order)) as [before|same]; [|now subst y].
+    destruct (Rle_lt_or_eq_dec y e (proj2 order)) as [before|same]; [|subst y; lra].
+    apply (rises (y - b)); [lra|]. intros z near. apply Rnot_lt_le. intro above.
     assert (identity : sin (PI * (e - z)) * half y = sin (PI * (e - y)) * half z + sin (PI * (y - z)) * half e).
     { unfold half.
       replace (PI * (e - z)) with (PI * (e + b) - PI * (z + b)) by ring. replace (PI * (e - y)) with (PI * (e + b) - PI * (y + b)) by ring.
@@ -196,7 +196,7 @@ Section Table.
     assert (0 < sin (PI * (e - y)) * half z) by now apply Rmult_lt_0_compat.
     assert (0 < sin (PI * (y - z)) * half e) by now apply Rmult_lt_0_compat.
     assert (0 < half y) by (apply Rmult_lt_reg_l with (sin (PI * (e - z))); lra).
-    assert (0 < 4 * PI * (sin (PI * (y - b)) * half y)); [|rewrite <- product in *; lra].
+    assert (0 < 4 * PI * (sin (PI * (y - b)) * half y)); [|pose proof (product y); lra].
     apply Rmult_lt_0_compat; [lra|]. now apply Rmult_lt_0_compat.
   Qed.
 
