@@ -23,7 +23,6 @@ Proof. intros. split; nra. Qed.
 
 Section Landing.
   Variables alpha g : R.
-  Hypothesis alpha_range : 0 <= alpha < 1.
   Local Notation height := (height alpha g).
   Local Notation velocity := (velocity alpha g).
   Local Notation downward := (downward alpha g).
@@ -125,6 +124,7 @@ Section Landing.
 
   (* ---------------------------------------------------------------- two flights *)
 
+  Hypothesis alpha_range : 0 <= alpha < 1.
   Variables M V : R.
   Hypothesis M_large : 1 <= M.
   Hypothesis V_positive : 0 <= V.
