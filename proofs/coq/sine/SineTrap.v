@@ -4,9 +4,8 @@
    has a norm of at most rate < 1 in max (|dx|, |ds| / weight), for all values of its terms in the trap.
 
    Proved:   local_contraction   two flights that start close to each other end closer, but for a term of second order;
-             trap_contracts      so do any two flights, as there is a flight from each state between them;
-             bounce_flies        the bounce is a flight: the ball stays above the table up to its end;
-             to_the_bounce       every flight comes closer to the bounce, by the rate. *)
+             flights_contract    so do any two flights, as there is a flight from each state between them;
+             trap_flies          there is a flight from each state of the trap. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Juggleproof Require Import Rules SineTable SineMotions SineLanding.
@@ -198,4 +197,11 @@ Section Trap.
       all: destruct (weights e some) as (f & less & equal); destruct (limits f less); lra.
     Qed.
   End Bounded.
+
+  Theorem flights_contract D z z' w w' : 0 < D -> in_trap 0 z -> in_trap 0 z' -> apart D z z' -> flight z w -> flight z' w' -> apart (rate * D) w w'.
+  Proof.
+    intros positive inside inside' far flown flown'. destruct (table_bounded alpha g) as (M & V & M_large & V_positive & bounds).
+    rewrite (flight_is_lands M V M_large V_positive bounds z w inside flown), (flight_is_lands M V M_large V_positive bounds z' w' inside' flown').
+    exact (trap_contracts M V M_large V_positive bounds D z z' positive inside inside' far).
+  Qed.
 End Trap.
