@@ -7,16 +7,8 @@
              first_order   the ends of two flights differ by the derivatives of the implicit function theorem, and a rest of second order. *)
 
 From Coq Require Import Reals Lra Lia.
-From Juggleproof Require Import SineTable SineMotions.
+From Juggleproof Require Import SineMean SineTable SineMotions.
 Open Scope R_scope.
-
-Lemma mean_value f f' a b : (forall x, derivable_pt_lim f x (f' x)) -> exists m, (a <= m <= b \/ b <= m <= a) /\ f b - f a = f' m * (b - a).
-Proof.
-  intro is. destruct (Rtotal_order a b) as [less|[<-|more]].
-  - destruct (MVT_cor2 f f' a b less (fun x _ => is x)) as (m & equal & inside). exists m. split; [left; lra|exact equal].
-  - exists a. split; [left; lra|ring].
-  - destruct (MVT_cor2 f f' b a more (fun x _ => is x)) as (m & equal & inside). exists m. split; [right; lra|lra].
-Qed.
 
 Lemma product_within a b A B : - A <= a <= A -> - B <= b <= B -> - (A * B) <= a * b <= A * B.
 Proof. intros. split; nra. Qed.
@@ -116,8 +108,8 @@ Section Landing.
         intros m k order early. specialize (near k ltac:(apply Rabs_def1; lra)). apply Rabs_def2 in near. nra. }
     destruct enough as (h & positive & holds). exists h. split; [exact positive|]. split; [lra|]. intros y inside.
     destruct (Rle_lt_or_eq_dec _ _ (proj1 inside)) as [less|<-]; [|rewrite gap_start; lra].
-    destruct (MVT_cor2 _ _ _ _ less (fun t _ => gap_derivative alpha g z t)) as (m & equal & m_inside).
-    destruct (MVT_cor2 _ _ _ _ (proj1 m_inside) (fun t _ => arrival_derivative alpha g z t)) as (k & equal_ & k_inside).
+    destruct (mean_value_between _ _ _ _ less (gap_derivative alpha g z)) as (m & m_inside & equal).
+    destruct (mean_value _ _ (fst z) m (arrival_derivative alpha g z)) as (k & k_inside & equal_).
     rewrite gap_start in equal. rewrite arrival_start in equal_. specialize (holds m k ltac:(lra) ltac:(lra)).
     replace (gap z y) with (- arrival z m * (y - fst z)) by lra. apply Rmult_le_pos; lra.
   Qed.
@@ -168,8 +160,8 @@ Section Landing.
     apply Rnot_le_lt. intro beyond. set (y := fst w' + h) in *.
     pose proof (above y ltac:(unfold nearby in *; unfold y in *; lra)) as not_under.
     pose proof (gap_changes d z' z y near' near close ltac:(unfold y in *; lra)) as change.
-    destruct (MVT_cor2 _ _ (fst w') y ltac:(unfold y; lra) (fun t _ => gap_derivative alpha g z' t)) as (m & equal & m_inside).
-    destruct (MVT_cor2 _ _ _ _ (proj1 m_inside) (fun t _ => arrival_derivative alpha g z' t)) as (k & equal_ & k_inside).
+    destruct (mean_value_between _ _ (fst w') y ltac:(unfold y; lra) (gap_derivative alpha g z')) as (m & m_inside & equal).
+    destruct (mean_value _ _ (fst w') m (arrival_derivative alpha g z')) as (k & k_inside & equal_).
     rewrite zero in equal. rewrite <- speed in equal_. unfold y in *.
     assert (M * h <= low / 2) by lra.
     pose proof (product_within (1 - downward k) (m - fst w') M h ltac:(destruct (bounds k); lra) ltac:(lra)).

@@ -12,6 +12,7 @@
              one_period        and so does, of the states with S > 0 and less than half a period away, no other. *)
 
 From Coq Require Import Reals Lra.
+From Juggleproof Require Import SineMean.
 Open Scope R_scope.
 
 (* An impact: its phase, counted on over periods, and its closing speed. *)
@@ -67,12 +68,6 @@ Section Table.
   Lemma velocity_derivative x : derivable_pt_lim velocity x (- downward x).
   Proof. eapply derivative_is; [exact (wave_derivative _ _ x)|]. unfold downward, wave. ring. Qed.
 
-  Lemma line_derivative a b x : derivable_pt_lim (fun y => a * (y - b)) x a.
-  Proof.
-    eapply derivative_is; [exact (derivable_pt_lim_scal _ a x _ (derivable_pt_lim_minus id (fct_cte b) x _ _
-      (derivable_pt_lim_id x) (derivable_pt_lim_const b x)))|]. ring.
-  Qed.
-
   Lemma square_derivative b x : derivable_pt_lim (fun y => (y - b) ^ 2 / 2) x (x - b).
   Proof.
     assert (half : derivable_pt_lim (fun y => (1 * (y - b)) * (/ 2 * (y - b))) x (1 * (/ 2 * (x - b)) + 1 * (x - b) * / 2))
@@ -126,22 +121,24 @@ Section Table.
     lra.
   Qed.
 
-  Lemma falls_behind z w : 0 <= alpha -> 0 <= snd z -> flight z w -> (forall y, fst z < y < fst w -> 1 < downward y) -> False.
+  Lemma falls_behind z w : 0 <= alpha -> 0 <= snd z -> flight z w -> (forall y, fst z <= y <= fst w -> 1 < downward y) -> False.
   Proof.
-    intros nonnegative slow (later & zero & _ & _) faster.
-    destruct (MVT_cor2 _ _ _ _ later (fun y _ => gap_derivative z y)) as (m & equal & inside).
-    rewrite zero, gap_start in equal.
-    destruct (MVT_cor2 _ _ _ _ (proj1 inside) (fun y _ => arrival_derivative z y)) as (k & equal_ & inside_).
-    rewrite arrival_start in equal_. pose proof (faster k ltac:(lra)). pose proof (Rmult_le_pos _ _ nonnegative slow).
-    assert (arrival z m = 0) by nra. nra.
+    intros nonnegative slow (later & zero & _ & _) faster. pose proof (Rmult_le_pos _ _ nonnegative slow).
+    assert (below : forall y, fst z <= y <= fst w -> arrival z y <= 0 /\ (fst z < y -> arrival z y < 0)).
+    { intros y inside. destruct (mean_value _ _ (fst z) y (arrival_derivative z)) as (k & place & equal). rewrite arrival_start in equal.
+      pose proof (faster k ltac:(lra)). split; [|intro past]; nra. }
+    set (c := (fst z + fst w) / 2). assert (middle : fst z < c < fst w) by (unfold c; lra).
+    destruct (mean_value_between _ _ _ _ (proj1 middle) (gap_derivative z)) as (m & place & equal).
+    destruct (mean_value_between _ _ _ _ (proj2 middle) (gap_derivative z)) as (k & place_ & equal_).
+    rewrite gap_start in equal. rewrite zero in equal_.
+    pose proof (proj1 (below m ltac:(lra))). pose proof (proj2 (below k ltac:(lra)) ltac:(lra)). nra.
   Qed.
 
   Lemma speed_by_time z w bound : flight z w -> (forall y, Rabs (1 - downward y) <= bound) -> snd w <= bound * (fst w - fst z).
   Proof.
     intros (later & zero & _ & ->) bounded.
-    destruct (MVT_cor2 _ _ _ _ later (fun y _ => gap_derivative z y)) as (m & equal & inside).
-    rewrite zero, gap_start in equal.
-    destruct (MVT_cor2 _ _ _ _ (proj2 inside) (fun y _ => arrival_derivative z y)) as (k & equal_ & inside_).
+    destruct (mean_value_between _ _ _ _ later (gap_derivative z)) as (m & inside & equal). rewrite zero, gap_start in equal.
+    destruct (mean_value _ _ m (fst w) (arrival_derivative z)) as (k & _ & equal_).
     assert (arrival z m = 0) by nra. pose proof (bounded k) as near. pose proof (Rle_abs (1 - downward k)).
     pose proof (Rabs_pos (1 - downward k)). nra.
   Qed.
