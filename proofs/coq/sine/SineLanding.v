@@ -35,13 +35,14 @@ Section Landing.
   (* M bounds 1 - S, and V the velocity and the height. *)
   Lemma table_bounded : exists M V, 1 <= M /\ 0 <= V /\ forall y, - M <= 1 - downward y <= M /\ - V <= velocity y <= V /\ - V <= height y <= V.
   Proof.
-    set (B := Rabs (half_gap alpha) + Rabs g). exists (1 + 2 * PI * B), B. pose proof PI_RGT_0 as pi. pose proof PI2_3_2 as large.
+    set (B := Rabs (half_gap alpha) + Rabs g). exists (1 + 2 * PI * B), (B + / (2 * PI) * B). pose proof PI_RGT_0 as pi.
     assert (positive : 0 <= B) by (unfold B; pose proof (Rabs_pos (half_gap alpha)); pose proof (Rabs_pos g); lra).
-    split; [nra|]. split; [exact positive|]. intro y. pose proof (waves_within (half_gap alpha) g y) as one. fold B in one.
+    assert (inverse : 0 < / (2 * PI)) by (apply Rinv_0_lt_compat; lra).
+    assert (part : 0 <= 2 * PI * B /\ 0 <= / (2 * PI) * B) by (split; apply Rmult_le_pos; lra).
+    split; [lra|]. split; [lra|]. intro y. pose proof (waves_within (half_gap alpha) g y) as one. fold B in one.
     pose proof (waves_within (- g) (half_gap alpha) y) as two. rewrite Rabs_Ropp, Rplus_comm in two. fold B in two.
-    unfold downward, velocity, height. split; [split; nra|]. split; [exact two|].
-    assert (small : 0 < / (2 * PI) < 1) by (split; [apply Rinv_0_lt_compat; lra|rewrite <- Rinv_1; apply Rinv_lt_contravar; lra]).
-    split; nra.
+    unfold downward, velocity, height. pose proof (product_within (2 * PI) _ (2 * PI) B ltac:(lra) one).
+    pose proof (product_within (/ (2 * PI)) _ (/ (2 * PI)) B ltac:(lra) one). lra.
   Qed.
 
   (* ---------------------------------------------------------------- there is a flight *)
