@@ -5,8 +5,7 @@
    rank, or to the trap.  The trap leads to the trap one period later.
 
    Proved:   comes_to_the_trap    every motion does, whatever it rests, and from there on it only flies;
-             no_endless_rests     stages in bounded time are flights but for finitely many: their impacts accumulate as in `accumulation`,
-                                  and so a motion can always be cut into stages for all times. *)
+             no_endless_rests     stages in bounded time are flights but for finitely many: their impacts accumulate. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Juggleproof Require Import SineTable SineMotions.

@@ -13,11 +13,12 @@
    Proved:   every_motion_tends      to the bounce, flying only, once a period;
              bounce_is_stable        what starts close to the bounce stays close to it, and flies only;
              bounce_is_a_motion      for all times;
-             motions_go_on           after every impact there is a stage; endless flights in bounded time are one stage, a chatter;
-             rests_are_few           stages in bounded time are flights but for finitely many. *)
+             motions_go_on           after every impact there is a flight, or a rest;
+             endless_flights_chatter   endless flights in bounded time are the first part of a stage, a chatter, that leads beyond them;
+             rests_are_few           stages in bounded time are flights but for finitely many: so a motion can be cut into stages for all times. *)
 
 From Coq Require Import Reals ZArith Lra Lia Bool.
-From Juggleproof Require Import Rules Relation SineTable SineMotions SineStrip SineDescent SineLanding SineTrap SineBounce SineGrid.
+From Juggleproof Require Import Rules Relation SineMean SineTable SineMotions SineStrip SineDescent SineLanding SineTrap SineBounce SineGrid.
 Open Scope R_scope.
 
 Section Theorem_.
@@ -158,7 +159,7 @@ Section Theorem_.
       rewrite <- !surjective_pairing. apply all.
     Qed.
 
-    Lemma few_rests bound : (forall n, fst (z n) <= bound) -> ~ forall m, exists n, (m <= n)%nat /\ ~ flight (z n) (z (S n)).
+    Theorem rests_are_few bound : (forall n, fst (z n) <= bound) -> ~ forall m, exists n, (m <= n)%nat /\ ~ flight (z n) (z (S n)).
     Proof.
       apply (no_endless_rests alpha g (start columns first) (finish columns last) (depth per_unit) top at_rest
         (ranked columns per_unit rows width low high first last rank) trap); try (now apply grid_arc_short with (1 := cells_hold holds)).
@@ -248,5 +249,43 @@ Section Theorem_.
     split; [cbn [snd]; apply Rlt_le, Rdiv_lt_0_compat; pose proof alpha_nonnegative; lra|]. split.
     - intro n. apply flies. apply (flight_periods alpha g (Z.of_nat n)) in once. rewrite <- INR_IZR_INZ in once. now rewrite S_INR, Rplus_comm with (r1 := INR n), <- (Rplus_0_l (INR n)) at 1.
     - intro time. destruct (exceeded_by_a_number (time + 1)) as [n past]. exists n. cbn [fst]. lra.
+  Qed.
+
+  (* ---------------------------------------------------------------- there are motions *)
+
+  Lemma before_the_arc_ends x : downward alpha g x <= 1 -> exists e, x < e < x + 1 /\ 1 < downward alpha g e.
+  Proof.
+    intro slow. pose proof (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as short.
+    pose proof (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as outside.
+    destruct (slow_is_in_the_arc alpha g (start columns first) (finish columns last) outside x slow) as [k place].
+    exists (finish columns last + IZR k). split; [lra|]. apply (outside k). lra.
+  Qed.
+
+  Theorem motions_go_on z : 0 <= snd z -> exists w, stage z w.
+  Proof.
+    intro speed. pose proof (Rmult_le_pos _ _ alpha_nonnegative speed) as fast.
+    assert (flown : (exists h, 0 < h /\ airborne alpha g z (fst z + h)) -> exists w, stage z w).
+    { intros (h & positive & up). exists (lands alpha g z). apply flies. exact (flies_from alpha g z h positive up). }
+    destruct (Rlt_dec 0 (alpha * snd z)) as [up|still]; [now apply flown, takes_off; [|left]|].
+    destruct (Rlt_dec 1 (downward alpha g (fst z))) as [falls|slow]; [now apply flown, takes_off; [|right]|].
+    destruct (before_the_arc_ends (fst z) ltac:(lra)) as (e & place & high_). destruct (is_launched alpha g (fst z) e ltac:(lra) ltac:(lra) high_) as (b & early & rest).
+    destruct (Rle_lt_or_eq_dec _ _ (proj1 rest)) as [less|same]; [exists (b, 0); apply sticks; try assumption; [lra|reflexivity]|].
+    apply flown. exists (e - fst z). split; [lra|]. replace (fst z + (e - fst z)) with e by ring. split; [lra|]. intros y inside.
+    destruct rest as (_ & _ & level & up). rewrite <- same in level, up.
+    destruct (Req_dec y (fst z)) as [->|other]; [rewrite gap_start; lra|].
+    destruct (mean_value_between _ _ (fst z) y ltac:(lra) (gap_derivative alpha g z)) as (m & m_place & equal).
+    destruct (mean_value _ _ (fst z) m (arrival_derivative alpha g z)) as (k & k_place & equal_). rewrite gap_start in equal. rewrite arrival_start in equal_.
+    assert (rising : 1 <= downward alpha g k).
+    { destruct (Req_dec k (fst z)) as [->|]; [lra|]. apply Rlt_le, (rises_once alpha g (fst z) k e level up); lra. }
+    assert (0 <= (downward alpha g k - 1) * (m - fst z)) by (apply Rmult_le_pos; lra).
+    replace (gap alpha g z y) with (- arrival alpha g z m * (y - fst z)) by lra. apply Rmult_le_pos; lra.
+  Qed.
+
+  Theorem endless_flights_chatter x bound : 0 <= snd (x O) -> (forall n : nat, flight (x n) (x (S n))) -> (forall n, fst (x n) <= bound) ->
+    Un_cv (fun n => snd (x n)) 0 /\ exists w, stage (x O) w /\ forall n, fst (x n) < fst w.
+  Proof.
+    intros speed runs bounded. destruct (accumulation alpha g alpha_nonnegative x bound speed runs bounded) as (limit & tends & _ & slow & still). split; [exact still|].
+    destruct (before_the_arc_ends limit slow) as (e & place & high_). destruct (is_launched alpha g limit e ltac:(lra) slow high_) as (b & _ & rest).
+    exists (b, 0). split; [now apply chatters with x limit|]. intro n. pose proof (flights_later alpha g x limit runs tends n). cbn [fst]. destruct rest. lra.
   Qed.
 End Theorem_.
