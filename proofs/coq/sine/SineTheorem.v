@@ -6,7 +6,7 @@
    Not mechanised: that a box for which `check_box` does not raise has the properties in the record `certified` for each of its parameters.
    That is the enclosure of flights (`Flights`, the field flights_lead) and of S on columns (arc_outside, rank_of_rest, trap_downward), the
    tables of sines, the rounding of `absorbing_strip`, the interval products of `check_trap`, and the cover of a rectangle by boxes.
-   `check_cells` looks at the columns of one period: the field for all periods follows by `flight_period`.  Its landings have a margin, so
+   `check_cells` looks at the columns of one period: SinePeriod.v proves that these are enough.  Its landings have a margin, so
    that the bounce is inside the trap, and not on its edge, which stability needs; `check_trap` itself tests <=.  Nor is it mechanised that a
    ball has a first impact, that its heights converge with its impacts, or that refutations are counterexamples.
 
@@ -15,7 +15,8 @@
              bounce_is_a_motion      for all times;
              motions_go_on           after every impact there is a flight, or a rest;
              endless_flights_chatter   endless flights in bounded time are the first part of a stage, a chatter, that leads beyond them;
-             rests_are_few           stages in bounded time are flights but for finitely many: so a motion can be cut into stages for all times. *)
+             rests_are_few           stages in bounded time, from below the top, are flights but for finitely many: what is left of them is a chatter,
+                                     and so a motion can be cut into stages for all times. *)
 
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Juggleproof Require Import Rules Relation SineMean SineTable SineMotions SineStrip SineDescent SineLanding SineTrap SineBounce SineGrid.
