@@ -91,7 +91,7 @@ def largest(interval: Interval) -> Fraction:
 def check_trap(certificate: Certificate, flights: Flights) -> None:
     """The bounce is a stable fixed point in the trap, and all that starts in the trap tends to it.
 
-    The trap is a box |x| <= width/N, low/K <= s <= high/K that holds the bounce for each alpha.
+    The trap is a box |x| <= width/N, low/K <= s <= high/K with the bounce inside, for each alpha.
     `check_cells` has seen that all its flights land in it, one period later, and so with s1 > 0:
     without a touch before, so that the map from impact to impact is differentiable there.  By the
     implicit function theorem on F = 0, with y = x1 - x,
@@ -111,8 +111,8 @@ def check_trap(certificate: Certificate, flights: Flights) -> None:
     require(high <= grid.rows, "the trap is beyond the rows")
     a_low, a_high = grid.alpha
     speed = (Fraction(low, per_unit), Fraction(high, per_unit))
-    holds = speed[0] <= 1 / (1 + a_high) and 1 / (1 + a_low) <= speed[1]
-    require(holds, "the trap does not hold the bounce for each alpha")
+    holds = speed[0] < 1 / (1 + a_high) and 1 / (1 + a_low) < speed[1]
+    require(holds, "the bounce is not inside the trap for each alpha")
     S_low = min(flights.S_low[i] for i in range(-width, width))
     S_high = max(flights.S_high[i] for i in range(-width, width))
     require(S_low > (0 if a_low > 0 else ONE), "the table is too slow in the trap")

@@ -80,8 +80,8 @@ def find_trap(graph: Graph) -> Certificate:
     """
     grid, columns = graph.grid, graph.grid.columns
     bounce = [1 / (1 + end) * grid.per_unit for end in reversed(grid.alpha)]
-    # the speeds that hold the bounce; where one is on a line, the rows on both of its sides do
-    first = int(bounce[0]), -int(-bounce[1] // 1)
+    # the rows with the bounce inside: where it is on a line, those on both of its sides
+    first = -int(-bounce[0] // 1) - 1, int(bounce[1] // 1) + 1
     for width in range(columns // 8, 0, -1):
         rows = trapped_rows(graph, width, first)
         if rows is None:
