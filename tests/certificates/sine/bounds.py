@@ -11,6 +11,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 from flint import arb, ctx
+
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.sine import flights
 from tests.certificates.sine.impacts import PRECISION, State, exact, flight
@@ -52,7 +53,11 @@ def broken_bounds(code: Code, grid: flights.Grid, count: int, seed: int) -> list
         m = i + 1 + source.choice((0, source.randrange(1, columns), source.randrange(3 * columns)))
         walk = code.flights.Walk(there, i)
         row = walk.row(number)
-        height, speed, along = (walk.height(m, row), walk.speed(2 * m, row), walk.speed(2 * m + 1, row))
+        height, speed, along = (
+            walk.height(m, row),
+            walk.speed(2 * m, row),
+            walk.speed(2 * m + 1, row),
+        )
         steep = there.S_low[i], there.S_high[i]
         for parts in product((0, 1), (0, 1), grid.alpha, grid.g):
             x, s = Q(i + parts[0], columns), Q(number + parts[1], per_unit)
@@ -174,8 +179,7 @@ def roundings(code: Code, grid: flights.Grid, count: int, seed: int) -> int:
     ctx.prec = PRECISION
     source = random.Random(seed)
     there = code.flights.Flights(grid, Work(STEPS))
-    columns, slack = grid.columns, code.flights.SLACK
-    worst = 0
+    columns, worst = grid.columns, 0
     for _ in range(count):
         i, number = source.randrange(columns), source.randrange(grid.rows)
         m = i + source.randrange(1, 4 * columns)
@@ -192,4 +196,4 @@ def roundings(code: Code, grid: flights.Grid, count: int, seed: int) -> int:
         ):
             error = abs(value * UNIT - sum(bounds) // 2).upper()
             worst = max(worst, int(error.ceil().unique_fmpz()))
-    return worst * (100 if slack < 200 else 1)
+    return worst

@@ -153,6 +153,4 @@ def holds(found: Any, landing: tuple[int, int, int], grid: flights.Grid) -> bool
     m, lowest, highest = landing
     columns, per_unit = grid.columns, grid.per_unit
     beside = x1 < exact(Q(m, columns)) or x1 > exact(Q(m + 1, columns))
-    return not (
-        beside or s1 < exact(Q(lowest, per_unit)) or s1 > exact(Q(highest + 1, per_unit))
-    )
+    return not (beside or s1 < exact(Q(lowest, per_unit)) or s1 > exact(Q(highest + 1, per_unit)))
