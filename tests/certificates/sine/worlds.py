@@ -4,9 +4,11 @@ whose norm Arb knows, rectangles and boxes.
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from itertools import product
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -157,18 +159,40 @@ def ball(low: Fraction, high: Fraction) -> arb:
     return exact(low).union(exact(high))
 
 
-def norm(certificate: Any, steep: arb) -> arb:
-    """Bounds of the norm of the map's matrix over a trap, for S in an interval."""
+NO_TRAP = "the map does not contract the trap"
+TURN = 2 * math.pi
+
+
+def needed(certificate: Any) -> tuple[float, float]:
+    """The weights between which the map's matrix is below 1 at those of its ends that are tried."""
     grid, columns = certificate.grid, certificate.grid.columns
-    alpha, weight = ball(*grid.alpha), exact(certificate.weight)
+    far = certificate.width / columns
+    speeds = certificate.low / grid.per_unit, certificate.high / grid.per_unit
+    least, most = 0.0, math.inf
+    pairs = product(map(float, grid.alpha), map(float, grid.g))
+    for (alpha, g), x, x1, s, s1 in product(pairs, (-far, 0, far), (-far, 0, far), speeds, speeds):
+        c = (1 - alpha) / (2 * (1 + alpha))
+        lag, lag1 = (
+            1 - TURN * (c * math.sin(TURN * one) + g * math.cos(TURN * one)) for one in (x, x1)
+        )
+        x_by_x, x_by_s = ((1 + x1 - x) * lag - alpha * s) / s1, alpha * (1 + x1 - x) / s1
+        least = max(least, abs(lag1 * x_by_x - lag) / (1 - abs(lag1 * x_by_s - alpha)))
+        most = min(most, (1 - abs(x_by_x)) / x_by_s)
+    return least, most
+
+
+def enough(certificate: Any, steep: arb) -> tuple[arb, arb]:
+    """Weights between which the map's matrix is below 1 all over a trap, for S in an interval."""
+    grid, columns = certificate.grid, certificate.grid.columns
+    alpha = ball(*grid.alpha)
     speed = ball(Q(certificate.low, grid.per_unit), Q(certificate.high, grid.per_unit))
     time = ball(1 - Q(2 * certificate.width, columns), 1 + Q(2 * certificate.width, columns))
     x_by_x = (time * (1 - steep) - alpha * speed) / speed
     x_by_s = alpha * time / speed
     s_by_x = (1 - steep) * x_by_x - (1 - steep)
     s_by_s = (1 - steep) * x_by_s - alpha
-    rows = (abs(x_by_x) + abs(x_by_s) * weight, abs(s_by_x) / weight + abs(s_by_s))
-    return arb(max(float(row.upper()) for row in rows))
+    sizes = [arb(abs(one).upper()) for one in (x_by_x, x_by_s, s_by_x, s_by_s)]
+    return sizes[2] / (1 - sizes[3]), (1 - sizes[0]) / sizes[1]
 
 
 def steepness(certificate: Any, room: int) -> arb:
@@ -176,7 +200,7 @@ def steepness(certificate: Any, room: int) -> arb:
     grid = certificate.grid
     x = Q(certificate.width, grid.columns) + Q(room, 2 * grid.columns)
     found = None
-    parts = 16
+    parts = 8
     for k in range(parts):
         sine, cosine = (2 * ball(-x + 2 * x * k / parts, -x + 2 * x * (k + 1) / parts)).sin_cos_pi()
         for alpha in grid.alpha:
@@ -188,28 +212,34 @@ def steepness(certificate: Any, room: int) -> arb:
 
 
 def wrong_traps(code: Code, count: int, seed: int) -> tuple[int, list[str]]:
-    """Traps of all kinds: (those that contract, those on which `check_trap` and Arb differ)."""
+    """Traps with weights just beyond those that Arb knows to contract, and just within: (those that
+    contract, those on which `check_trap` differs).
+    """
     ctx.prec = PRECISION
     source = random.Random(seed)
     contract, wrong = 0, []
-    for _ in range(count):
-        alpha, g = Q(source.randrange(1, 300), 1000), Q(source.randrange(100, 300), 1000)
+    for number in range(count):
+        alpha, g = Q(source.randrange(1, 300), 1000), Q(source.randrange(20, 300), 1000)
         wide = [Q(source.choice((0, source.randrange(30))), 1000) for _ in range(2)]
         per_unit = source.choice((16, 64))
-        grid = code.flights.Grid((alpha, alpha + wide[0]), (g, g + wide[1]), 256, per_unit, 100)
+        grid = code.flights.Grid((alpha, alpha + wide[0]), (g, g + wide[1]), 1024, per_unit, 100)
         ends = 1 / (1 + alpha + wide[0]), 1 / (1 + alpha)
-        low = int(ends[0] * per_unit) - source.randrange(3)
-        high = -int(-ends[1] * per_unit // 1) + source.randrange(3)
+        low = int(ends[0] * per_unit) - source.randrange(4)
+        high = -int(-ends[1] * per_unit // 1) + source.randrange(4)
         there = code.flights.Flights(grid, Work(1 << 20))
-        for width in (1, 3, 8):
-            weight = Q(source.randrange(8, 40), 16)
-            one = code.checker.Certificate(grid, width, low, high, weight, (0, 1), b"")
-            why = reason(code, code.checker.check_trap, one, there)
-            if norm(one, steepness(one, 2)) < 1 and why == "the map does not contract the trap":
-                wrong.append(f"{one} contracts")
-            if norm(one, steepness(one, 0)) >= 1 and not why:
-                wrong.append(f"{one} does not contract")
-            contract += not why
+        for width in (1, 12, 32):
+            one = code.checker.Certificate(grid, width, low, high, Q(1), (0, 1), b"")
+            least, most = needed(one)
+            begin, end = enough(one, steepness(one, 2))
+            within = [Q(float(begin)) * Q(501, 500), Q(float(end)) * Q(499, 500)]
+            within = [weight for weight in within if begin < exact(weight) < end]
+            for weight in (*within, Q(least) * Q(499, 500), Q(most) * Q(501, 500)):
+                if weight > 0:
+                    tried = one._replace(weight=weight)
+                    why = reason(code, code.checker.check_trap, tried, there)
+                    contract += not why
+                    if (weight in within) and why == NO_TRAP or weight not in within and not why:
+                        wrong.append(f"{number}, {width}, {float(weight)}: {why}")
     return contract, wrong
 
 
@@ -314,6 +344,7 @@ def wrong_drives(code: Code, count: int, seed: int) -> list[str]:
 
 
 MULTIPLIERS = Q(1, 20), (Q(29, 100), Q(3, 10))  # alpha and g: Gamma is 3.3764.. to 3.4107..
+BELOW_BIRTH = (Q(0), Q(1, 2)), "Gamma", (Q(3), Q(4))
 BEGINS = "every motion tends to the period-one bounce for all"
 # (name, the rest of a statement, whether MULTIPLIERS refute it)
 MEETS = [
