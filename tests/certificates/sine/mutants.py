@@ -22,7 +22,7 @@ TEXTS = {name: Path(str(one.__file__)).read_text() for name, one in FILES.items(
 SHARED = {  # what the checker imports from the flights
     name
     for name, value in vars(flights).items()
-    if not name.startswith("_") and vars(checker).get(name) is value
+    if name.isidentifier() and name[0] != "_" and vars(checker).get(name) is value
 }
 
 
@@ -41,7 +41,7 @@ def read() -> tuple[list[Mutant], list[Mutant]]:
     redundant = False
     for block in Path(__file__).with_suffix(".txt").read_text().rstrip("\n").split("\n\n"):
         if block.startswith("# "):
-            redundant = "redundant" in block
+            redundant = "redundant" in block.lower()
             continue
         head, old, new = block.split("\n")
         file, name = head.split(": ")
@@ -100,9 +100,8 @@ NO_STATEMENTS = (
 def in_order(code: Code) -> bool:
     """Small things of their own: what a test of its own name says beside this file."""
     why = worlds.reason
-    read = [
-        why(code, code.checker.read_statement, f"{worlds.BEGINS} {one}") for one in NO_STATEMENTS
-    ]
+    statements = [f"{worlds.BEGINS} {one}" for one in NO_STATEMENTS]
+    read = [why(code, code.checker.read_statement, one) for one in statements]
     long = code.flights.Flights(box("1/2", "1/5", 16, 1, 64), Work(STEPS))
     short = code.flights.Flights(box("1/2", "1/5", 64, 1024, 8), Work(STEPS))
     poor = code.flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(10))

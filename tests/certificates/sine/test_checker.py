@@ -14,6 +14,7 @@ from juggleproof.certificates.sine import checker, flights
 from juggleproof.certificates.sine.checker import check_folder, check_line, main
 from tests.certificates.sine import worlds
 from tests.certificates.sine.lines import ACCEPTED, REJECTED, line, refuting
+from tests.certificates.sine.mutants import NO_STATEMENTS
 from tests.certificates.sine.states import CODE
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -100,16 +101,19 @@ FALSE = [
 DOUBLED = refuting("multiplier", "1/5", "2/7", 16, 16)
 
 
-def test_a_folder_says_what_its_lines_prove_holds(tmp_path: Path) -> None:
+def test_a_folder_says_what_its_lines_prove_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     beyond = "alpha in [1/5, 1/5] and g in [2/7, 2/7]"
     statements = [TRUE, PLASTIC, FALSE[0], FALSE[1], FALSE[2], beyond]
     named = folder(tmp_path, statements, [line(), "{}", line("plastic"), *SADDLES, DOUBLED])
-    first, *others = check_folder(named)
-    assert first == ("certificates.jsonl, line 2", "rejected", "not a line of certificates")
-    words = [word for _, word, _ in others]
-    assert words == ["certified", "certified", "refuted", "refuted", "refuted", "refuted"]
     assert main([named]) == 1
-    assert main([folder(tmp_path, statements[:5], [line(), line("plastic"), *SADDLES])]) == 0
+    first, *others = capsys.readouterr().out.splitlines()
+    assert first == "rejected  certificates.jsonl, line 2: not a line of certificates"
+    words = [one.split()[0] for one in others]
+    assert words == ["certified", "certified", "refuted", "refuted", "refuted", "refuted"]
+    assert [one[10:] for one in others] == [f"{BEGINS} {one}" for one in statements]
+    assert main([folder(tmp_path, FALSE, SADDLES)]) == 0
 
 
 def test_a_wider_statement_than_its_boxes_is_unknown_holds(tmp_path: Path) -> None:
@@ -123,19 +127,7 @@ def test_a_saddle_of_another_rectangle_refutes_nothing_holds(tmp_path: Path) -> 
     assert [word for _, word, _ in results] == ["certified"]
 
 
-@pytest.mark.parametrize(
-    "rest",
-    [
-        "alpha in [1/20, 1/21] and g in [1/5, 1/5]",
-        "alpha in [1/20, 1] and g in [1/5, 1/5]",
-        "alpha in [1/20, 1/20] and g in [1/5, 1/6]",
-        "alpha in [1/20, 1/20] and g in [0, 1/5]",
-        "alpha in [1/20, 1/20] and drive in [1, 2]",
-        "alpha in [0.05, 0.05] and Gamma in [3, 3]",
-        "alpha in [-1/20, 1/20] and Gamma in [3, 3]",
-        "alpha in [1/20, 1/20] and Gamma in [3, 3] or so",
-    ],
-)
+@pytest.mark.parametrize("rest", NO_STATEMENTS)
 def test_rejects_a_statement_that_is_none(
     rest: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -17,7 +17,7 @@ from tests.certificates.sine.impacts import PRECISION
 from tests.certificates.sine.states import CODE, STEPS, box, escapes
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
-SHARE = 10_000 if ALL else 100  # of impacts, for each grid
+SHARE = 10_000 if ALL else 60  # of impacts, for each grid
 GRIDS = range(len(states.GRIDS))
 BOUNDED = range(len(bounds.GRIDS))
 
