@@ -155,9 +155,9 @@ def test_certificates_that_are_proved_leave_their_ranks_behind_holds(
 
 def test_work_bounds_what_a_cover_may_take_holds() -> None:
     rectangle = checker.Rectangle("", (Fraction(0), Fraction(1, 2)), "g", (Fraction(), Fraction(1)))
-    whole = [((Fraction(k, 400), Fraction(k + 1, 400)), rectangle.values) for k in range(200)]
+    whole = [((Fraction(k, 160), Fraction(k + 1, 160)), rectangle.values) for k in range(80)]
     assert not worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 25))
-    assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 22))
+    assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 20))
 
 
 def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) -> None:

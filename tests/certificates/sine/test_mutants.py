@@ -14,7 +14,7 @@ import pytest
 from tests.certificates.sine.mutants import Mutant, mutated, noticed, read
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
-SHARE = 40  # one mutant in so many
+SHARE = 128  # one mutant in so many
 MUTANTS, REDUNDANT = read()
 
 
