@@ -32,9 +32,20 @@ settings.load_profile("suite")
 pytest_plugins = ["pytester"]
 
 
+# The folders that take longest come first, so that no process is left with one of them at the end.
+LONGEST = ("tests/proofs/coq", "tests/proofs/reports", "tests/proofs/stability", "tests/benchmarks")
+TOGETHER = {"tests/proofs": "tests/proofs/reports"}  # one process, which judges the paper once
+
+
+def folder_of(nodeid: str) -> str:
+    """The folder of a test, of those together the one that they are named by."""
+    folder = nodeid.partition("::")[0].rpartition("/")[0]
+    return TOGETHER.get(folder, folder)
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The folder that takes longest comes first, so that no process is left with it at the end."""
-    items.sort(key=lambda item: not item.nodeid.startswith("tests/proofs/coq/"))
+    order = {folder: place for place, folder in enumerate(LONGEST)}
+    items.sort(key=lambda item: order.get(folder_of(item.nodeid), len(order)))
 
 
 def pytest_sessionfinish() -> None:
@@ -56,6 +67,6 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
     class ByFolder(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            return nodeid.partition("::")[0].rpartition("/")[0]
+            return folder_of(nodeid)
 
     return ByFolder(config, log)

@@ -381,7 +381,12 @@ def search_map_rule(
             return {"unknown": f"it rests on {name}, which is not certified"}
     proofs: dict[str, Proof] = {}
     premises = checker.premises_of(statement, known)
-    for name, proof in search_premises(premises, known, budget, lemmas):
+
+    def is_false(name: str) -> bool:
+        violation = Violation.of(premises[name], None, NO_ROLES)
+        return violation.absent_everywhere(Budget(budget)) is False
+
+    for name, proof in search_premises(premises, known, budget, lemmas, is_false):
         if proof is None:
             return {"unknown": f"no proof of the premise {name} was found"}
         proofs[name] = proof

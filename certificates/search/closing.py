@@ -230,7 +230,7 @@ class Closing:
                 close_over_box(inside, FEW_BOXES, self.budget)
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
-                or (None if depth else close_by_cuts(inside, self.budget))
+                or (None if depth or self.effort == 1 else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))

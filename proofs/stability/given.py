@@ -100,9 +100,10 @@ class Map:
         after = [np.full(shape, np.nan) for _ in self.state]
         for here, (_, images) in zip(self.applying(point), self.trees):
             if here.any():
-                inside = {name: values[here] for name, values in point.items()}
+                where = ... if here.all() else here  # most maps have one piece; no copies for it
+                inside = {name: values[where] for name, values in point.items()}
                 for values, image in zip(after, images):
-                    values[here] = _value(image, inside, Fraction)
+                    values[where] = _value(image, inside, Fraction)
         return tuple(after)
 
     def exact_next(self, point: Mapping[str, Fraction]) -> tuple[int, dict[str, Fraction]]:

@@ -1,5 +1,6 @@
 """The action is safe for forks, and its shell steps do what they say, here with a made up
-environment of GitHub.
+environment of GitHub.  With JUGGLEPROOF_MUTANTS=all (as CI sets it) the whole step certifies the
+paper; `make test` runs it on files of one's own, and on a run of the paper that is stood in for.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ FORBIDDEN = (
     "GITHUB_TOKEN",
     "actions/cache",
 )
+ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 EXPRESSIONS = r"inputs\.[\w\-]+|steps\.(certify|tex)\.outputs\.\w+|runner\.temp"
 
 
@@ -250,6 +252,28 @@ def test_pdf_is_left_out_and_said_so_where_it_cannot_be_made_holds(runner: Runne
     assert runner.outputs() == {"pdf": "false"}
 
 
+@pytest.mark.parametrize(
+    ("theorem", "told"), [({"proved": True}, "proved"), ({"proved": False}, "lost"), (None, "none")]
+)
+def test_outputs_are_those_of_the_run_holds(
+    theorem: dict[str, bool] | None, told: str, runner: Runner
+) -> None:
+    written = json.dumps({"counts": {"claims": 312, "changes": 1}, "theorem": theorem})
+    runner.installed()
+    runner.tool(
+        "juggleproof",
+        'made="${2#--json=}"; made="${made%/*}"; printf "# The summary\\n" > "$made/juggleproof.md"'
+        f"\nprintf '%s' '{written}' > \"$made/juggleproof.json\"; exit 1",
+        runner.venv,
+    )
+    done = runner.run("Certify", PDF="false")
+    assert done.returncode == 0, done.stderr
+    counts = '{"claims": 312, "changes": 1}'
+    assert runner.outputs() == {"exit": "1", "theorem": told, "counts": counts}
+    assert runner.summary.read_text(encoding="utf-8") == "# The summary\n"
+
+
+@pytest.mark.skipif(not ALL, reason="the paper is certified by the step in CI")
 def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_path: Path) -> None:
     """The whole step on the paper; the store is a copy, so that a run of the tests leaves the tree
     as it is.

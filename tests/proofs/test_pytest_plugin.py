@@ -13,12 +13,13 @@ from pathlib import Path
 
 import pytest
 
+from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs import pytest_items
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
-from juggleproof.proofs.run import Options, Run, run
-from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, file_with
+from juggleproof.proofs.run import Options, Run
+from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, file_with, paper_run
 
 ROOT = Path(__file__).resolve().parents[2]
 Result = pytest.RunResult
@@ -180,8 +181,9 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
     count = len(register)
 
     def counted(claims: Sequence[Claim], options: Options) -> Run:
+        assert list(claims) == paper_run()[0].claims
         judged.append(options)
-        return run(claims, options)
+        return paper_run()[0]
 
     monkeypatch.setattr(pytest_items, "run", counted)
     monkeypatch.setattr(pytest_items, "PATH", inner.path / "register.json")
@@ -205,7 +207,8 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
             "the claim is gone from the sources",
         ]
     )
-    assert len(judged) == 1
+    (options,) = judged  # of a copy of the store, and else as in the run that is given instead
+    assert options == Options(options.store, jobs=1) and options.store != DEFAULT
     assert {
         path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
     } == store

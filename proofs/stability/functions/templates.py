@@ -272,10 +272,33 @@ def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
 SOLVER = Solver((("output_flag", False), ("threads", 1), ("random_seed", 1)))
 
 
+FIRST = 300  # rows that a linear program begins with; those that it breaks are added
+TOLERANCE = 1e-7  # HiGHS's own tolerance
+
+
 def program(
     matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
 ) -> Floats | None:
-    """The point of least cost with matrix x >= least between the bounds."""
+    """The point of least cost with matrix x >= least between the bounds; of many rows few decide,
+    so that a part is asked for, and then what the point of that part breaks.
+    """
+    rows = len(matrix)
+    asked = np.zeros(rows, bool)
+    asked[:: max(rows // FIRST, 1)] = True
+    while True:
+        found = _program(matrix[asked], least[asked], low, high, costs)
+        if found is None:
+            return None
+        broken = np.flatnonzero(~asked & (matrix @ found < least - TOLERANCE))
+        if not len(broken):
+            return found
+        by = (matrix[broken] @ found - least[broken]).argsort(kind="stable")
+        asked[broken[by[:FIRST]]] = True
+
+
+def _program(
+    matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
+) -> Floats | None:
     rows, columns = matrix.shape
     model = highspy.HighsLp()
     model.num_col_, model.num_row_ = columns, rows

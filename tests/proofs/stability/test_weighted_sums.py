@@ -11,7 +11,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from juggleproof.proofs.stability.functions.templates import Sides
+from juggleproof.proofs.stability.functions.templates import Sides, program
 from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_rules
 from juggleproof.proofs.stability.given import Map, read_rows
 from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
@@ -86,3 +86,18 @@ def test_the_terms_at_samples_are_those_of_the_statement_holds(even: bool) -> No
     numbers = list(map(int, rng.integers(-5, 6, len(sides.every_term()))))
     values = sides.function(list(map(Fraction, numbers))).at(points, 40)
     assert np.allclose(sides.columns(points) @ numbers, values)
+
+
+def test_a_program_of_many_rows_keeps_every_row_and_one_that_breaks_some_has_no_point_holds() -> (
+    None
+):
+    angles = np.linspace(0, np.pi / 2, 5000)
+    rows = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    bounds = np.full(2, -4.0), np.full(2, 4.0)
+    found = program(rows, np.ones(5000), *bounds, np.array([3.0, 4.0]))
+    assert found is not None and (rows @ found >= 1 - 1e-6).all()
+    assert abs(found @ [3, 4] - 7) < 1e-6  # the least that the first and the last row allow
+    corner = np.zeros((5000, 2))
+    corner[1237] = 1, 1  # a row that the program does not begin with
+    assert program(corner, 9 * corner[:, 0], *bounds, np.ones(2)) is None
+    assert program(corner, 8 * corner[:, 0], *bounds, np.ones(2)) is not None
