@@ -8,7 +8,7 @@ round are independent: any executor may share them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor
+from concurrent.futures import Executor
 from fractions import Fraction
 from itertools import accumulate
 from pathlib import Path
@@ -37,8 +37,14 @@ from .search import find_certificate, line_of
 
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
 GRIDS = ((256, 16), (512, 32), (1024, 64), (2048, 64))  # columns, and rows of a unit of speed
-# the grid on which a box that is wider is tried first; narrower ones go through all
-WIDTHS = ((Fraction(3, 1000), 1), (Fraction(1, 1000), 2), (Fraction(1, 4000), 3))
+# which of them are tried, one after the other, for a box that is wider; then it is cut in halves
+TRIALS = (
+    (Fraction(1, 100), (1,)),
+    (Fraction(3, 1000), (0, 1)),
+    (Fraction(1, 1000), (2,)),
+    (Fraction(1, 4000), (3,)),
+)
+LAST = (0, 1, 2, 3)  # for narrower boxes, which are not cut
 SADDLE = 2048, 128  # the grid on which a saddle is looked for
 BUDGET = 20_000_000  # cells
 
@@ -48,10 +54,10 @@ Result = TypeVar("Result")
 
 
 class Piece(NamedTuple):
-    """A box of (alpha, g), and the grid on which it is tried."""
+    """A box of (alpha, g), and the grids on which it is still to be tried."""
 
     box: Box
-    grid: int
+    grids: tuple[int, ...]
 
 
 class Tried(NamedTuple):
@@ -65,13 +71,13 @@ class Tried(NamedTuple):
 
 
 class Covered(NamedTuple):
-    """outcome: certified, refuted or unknown; boxes: how many have a certificate; left: those that
-    have none; cells: how many the search looked at; rejected: lines of the folder that the checker
+    """outcome: certified, refuted or unknown; boxes: those with a certificate; left: those without
+    one; cells: how many the search looked at; rejected: lines of the folder that the checker
     did not take, with the reason; counterexample: for refuted.
     """
 
     outcome: str
-    boxes: int
+    boxes: list[Box]
     left: list[Box]
     cells: int
     rejected: list[str]
@@ -97,7 +103,7 @@ def cover(
     if counterexample is not None:
         proved[line_of(counterexample)] = counterexample
         write(folder, rectangle, proved)
-        return Covered("refuted", 0, [], 0, rejected, counterexample)
+        return Covered("refuted", [], [], 0, rejected, counterexample)
     pieces = [first_piece(box) for box in first_boxes(rectangle)]
     left: list[Box] = []
     cells = known = done = 0
@@ -110,9 +116,9 @@ def cover(
             proved[one.line] = read_line(one.line)
             write(folder, rectangle, proved)
 
-    while pieces:
+    while pieces and outcome(rectangle, list(proved.values()))[0] != "certified":
         pieces = [piece for piece in pieces if not within(piece.box, proved.values())]
-        affordable = [grid_cells(piece.grid) for piece in pieces]
+        affordable = [grid_cells(piece.grids[0]) for piece in pieces]
         fits = sum(cells + total <= budget for total in accumulate(affordable))
         left += [piece.box for piece in pieces[fits:]]
         known += fits
@@ -121,12 +127,12 @@ def cover(
         failed = [one.piece for one in tried if not one.line]
         pieces = []
         for piece in failed:
-            smaller = smaller_pieces(rectangle, piece)
-            pieces += smaller
-            left += [] if smaller else [piece.box]
+            then = next_pieces(rectangle, piece)
+            pieces += then
+            left += [] if then else [piece.box]
     write(folder, rectangle, proved)
     word, _ = outcome(rectangle, list(proved.values()))
-    boxes = sum(isinstance(one, Certificate) for one in proved.values())
+    boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
     return Covered(word, boxes, sorted(left), cells, rejected, None)
 
 
@@ -139,9 +145,14 @@ def shared(
     """The results of the work on the items, by the executor; ClaimError where that fails."""
     try:
         return spread(work, items, executor, done)
-    except (OSError, BrokenExecutor, CancelledError, RuntimeError) as error:
+    except ClaimError:
+        raise
+    except Exception as error:
+        if executor is None:
+            raise
+        why = f"{type(error).__name__}: {error}"[:100].partition("\n")[0]
         raise ClaimError(
-            f"the executor failed ({type(error).__name__}); certified boxes are kept: run it again"
+            f"the executor failed ({why}); certified boxes are kept: run it again"
         ) from None
 
 
@@ -190,12 +201,11 @@ def box_of(one: Proved) -> Box:
 
 
 def within(box: Box, proved: Iterable[Proved]) -> bool:
-    """Whether a box lies in one that has a certificate."""
-    return any(
-        isinstance(one, Certificate)
-        and all(a <= c and d <= b for (a, b), (c, d) in zip(box_of(one), box))
-        for one in proved
-    )
+    """Whether boxes that have a certificate cover a box."""
+    near = [
+        one for one in proved if all(a <= d and c <= b for (a, b), (c, d) in zip(box_of(one), box))
+    ]
+    return outcome(Rectangle("", box[0], "g", box[1]), near)[0] == "certified"
 
 
 def grid_cells(grid: int) -> int:
@@ -205,8 +215,8 @@ def grid_cells(grid: int) -> int:
 
 
 def first_piece(box: Box) -> Piece:
-    """The box, with the grid on which it is tried first."""
-    return Piece(box, next((grid for least, grid in WIDTHS if width_of(box) > least), 0))
+    """The box, with all grids on which it is tried."""
+    return Piece(box, next((grids for least, grids in TRIALS if width_of(box) > least), LAST))
 
 
 def width_of(box: Box) -> Fraction:
@@ -216,16 +226,18 @@ def width_of(box: Box) -> Fraction:
 
 def try_piece(piece: Piece) -> Tried:
     """Looks for a certificate of the theorem for a box, and has the checker read it."""
-    found = find_certificate(*piece.box, *GRIDS[piece.grid])
+    found = find_certificate(*piece.box, *GRIDS[piece.grids[0]])
     line = line_of(found.certificate) if found.certificate else ""
     return Tried(piece, line if line and check_line(line)[0] else "", found.cells)
 
 
-def smaller_pieces(rectangle: Rectangle, piece: Piece) -> list[Piece]:
-    """What is tried after a piece: its halves, or, where it is narrow, the next grid."""
-    if width_of(piece.box) > WIDTHS[-1][0]:
+def next_pieces(rectangle: Rectangle, piece: Piece) -> list[Piece]:
+    """What is tried after a piece: its next grid, or its halves, or nothing where it is narrow."""
+    if len(piece.grids) > 1:
+        return [Piece(piece.box, piece.grids[1:])]
+    if width_of(piece.box) > TRIALS[-1][0]:
         return [first_piece(half) for half in halves(rectangle, piece.box)]
-    return [Piece(piece.box, piece.grid + 1)] if piece.grid + 1 < len(GRIDS) else []
+    return []
 
 
 def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:

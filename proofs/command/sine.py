@@ -20,16 +20,21 @@ from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import (
     Box,
     Counterexample,
+    Rectangle,
     check_saddle,
     g_at,
     read_statement,
 )
 from juggleproof.certificates.sine.cover import BUDGET, Covered, cover
-from juggleproof.certificates.sine.flights import MAX_STEPS, Interval
+from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.extras import needed
 
 NAME = "sine"
 STORE = Path("sine.certificates")
 PAUSE = 3.0  # seconds between two lines of progress
+GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
 NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
 
@@ -39,10 +44,13 @@ class SineOptions(argparse.Namespace):
 
     alpha: str | None
     gamma: str | None
+    frequency: str | None
+    amplitude: str | None
     jobs: int
     budget: int
     executor: str | None
     store: Path | None
+    picture: Path | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -50,15 +58,36 @@ def command(parsed: argparse.Namespace) -> int:
     return certify(SineOptions(**vars(parsed)))
 
 
+NOT_FOR_SINE = (
+    "only",
+    "accept",
+    "json",
+    "junit",
+    "markdown",
+    "timings",
+    "report",
+    "output",
+    "fresh",
+)
+
+
 def certify(options: SineOptions) -> int:
     """Covers the rectangle by boxes and prints what is proved; 0 where all of it is certified, 1
     where it is refuted or boxes are left.  Raises ClaimError, one line, for unusable input.
     """
-    rectangle = read_statement(statement_of(options.alpha, options.gamma))
-    if not g_at(rectangle.alpha[0], rectangle.values[0], up=False):
+    for option in NOT_FOR_SINE:
+        if getattr(options, option):
+            raise ClaimError(f"--{option}: not for sine; leave it out")
+    if options.picture is not None:
+        needed("matplotlib", "picture")
+        if fault := fault_of(options.picture):
+            raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
+    rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
+    low = rectangle.values[0]
+    if not g_at(rectangle.alpha[0], low, up=False):
         raise ClaimError(
-            f"--gamma {options.gamma}: below pi (1 - alpha)/(1 + alpha) at alpha ="
-            f" {rectangle.alpha[0]} no bounce of one period exists; begin higher"
+            f"Gamma = {low}: below pi (1 - alpha)/(1 + alpha) at alpha = {rectangle.alpha[0]} no"
+            " bounce of one period exists; begin higher"
         )
     folder = options.store or STORE
     with _executor(options) as executor:
@@ -66,10 +95,36 @@ def certify(options: SineOptions) -> int:
     for line in covered.rejected:
         print(f"rejected by the checker: {line}")
     print(f"{covered.outcome}: {rectangle.text}")
+    if options.frequency:
+        print(
+            f"which holds all tables of {options.frequency} Hz with an amplitude of"
+            f" {options.amplitude} mm, under 9.80665 m/s^2"
+        )
     for line in explained(covered):
         print(line)
     print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
+    if options.picture is not None:
+        drawn = picture_of(rectangle, covered)
+        write_file(options.picture, drawn)
+        print(f"wrote {options.picture}")
     return int(covered.outcome != "certified")
+
+
+def drive_of(options: SineOptions) -> str | None:
+    """Gamma as FROM:TO, from --gamma, or from frequency and amplitude: 4 pi^2 f^2 A/g with
+    g = 9.80665 m/s^2, rounded outward to 1/10000.
+    """
+    pair = options.frequency, options.amplitude
+    if None not in pair and options.gamma is None:
+        hertz, metres = interval(str(pair[0]), "--frequency"), interval(str(pair[1]), "--amplitude")
+        turns = Fraction(PI2, ONE), Fraction(PI2 + 1, ONE)
+        low, high = (
+            (turn * f) ** 2 * a / 1000 / GRAVITY for turn, f, a in zip(turns, hertz, metres)
+        )
+        return f"{int(low * 10**4)}/10000:{-int(-high * 10**4 // 1)}/10000"
+    if pair != (None, None):
+        raise ClaimError("certify sine: --frequency and --amplitude go together, without --gamma")
+    return options.gamma
 
 
 def statement_of(alpha: str | None, gamma: str | None) -> str:
@@ -79,7 +134,9 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
     'for all alpha in [1/25, 3/50] and Gamma in [31/10, 31/10]'
     """
     if alpha is None or gamma is None:
-        raise ClaimError("certify sine: needs --alpha A0:A1 and --gamma G0:G1")
+        raise ClaimError(
+            "certify sine: needs --alpha A0:A1, and --gamma G0:G1 or --frequency and --amplitude"
+        )
     (a_low, a_high), (low, high) = interval(alpha, "--alpha"), interval(gamma, "--gamma")
     if a_high >= 1:
         raise ClaimError(f"--alpha {alpha}: restitution is at least 0 and below 1")
@@ -102,12 +159,29 @@ def interval(text: str, option: str) -> Interval:
     return low, high
 
 
+def picture_of(rectangle: Rectangle, covered: Covered) -> bytes:
+    """The boxes, with the curves between which the theorem may hold, as SVG."""
+    picture = needed("juggleproof.scenes.table.cover", "picture")
+    alpha, gamma = in_floats(rectangle.alpha), in_floats(rectangle.values)
+    certified, left = (
+        [(in_floats(one), in_floats(g)) for one, g in boxes]
+        for boxes in (covered.boxes, covered.left)
+    )
+    drawn: bytes = picture.cover(alpha, gamma, certified, left)
+    return drawn
+
+
+def in_floats(ends: Interval) -> tuple[float, float]:
+    """An interval, to be shown."""
+    return float(ends[0]), float(ends[1])
+
+
 def explained(covered: Covered) -> Iterator[str]:
     """What there is beside the verdict, line by line."""
     if covered.counterexample is not None:
         yield why_refuted(covered.counterexample)
         return
-    yield f"{covered.cells:,} cells were looked at; boxes with a certificate: {covered.boxes}"
+    yield f"{covered.cells:,} cells were looked at; boxes with a certificate: {len(covered.boxes)}"
     if covered.left:
         yield f"boxes that are left: {len(covered.left)}"
     for one in covered.left[:SHOWN]:
@@ -118,7 +192,7 @@ def explained(covered: Covered) -> Iterator[str]:
 
 def in_words(box: Box) -> str:
     """A box of alpha and g, in decimals."""
-    alpha, g = ((float(low), float(high)) for low, high in box)
+    alpha, g = map(in_floats, box)
     return f"alpha {alpha[0]:.6f} to {alpha[1]:.6f}, g {g[0]:.6f} to {g[1]:.6f}"
 
 
@@ -130,8 +204,8 @@ def why_refuted(one: Counterexample) -> str:
     column, row = check_saddle(one, Work(MAX_STEPS))
     return (
         f"{at} a second orbit of period one exists: from a phase between {column}/{one.columns}"
-        f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands there"
-        " again one period later; the phase of the bounce is 0"
+        f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands"
+        " there again one period later; the phase of the bounce is 0"
     )
 
 
