@@ -34,8 +34,9 @@ def test_bounds_hold_at_all_corners_of_cells_and_boxes(grid: int) -> None:
 
 
 def test_walks_find_the_first_zero_of_a_known_height_holds() -> None:
-    looked, missed = missed_zeros(CODE, 4000 if ALL else 200, seed=3)
-    assert looked > SHARE and not missed
+    count = 4000 if ALL else 200
+    looked, missed = missed_zeros(CODE, count, seed=3)
+    assert looked > count / 2 and not missed
 
 
 @pytest.mark.parametrize("grid", GRIDS)
