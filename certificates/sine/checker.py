@@ -16,6 +16,9 @@ table.  The next impact is the first zero x1 > x of F, with s1 = (x1 - x) + v(x1
 starts on or above the table tends to the period-one bounce x = 0, s = 1/(1 + alpha), whose flights
 take one period, and which is a stable fixed point of the map from impact to impact.
 
+A statement is this theorem for a rectangle of pairs; it is refuted by one pair where a motion tends
+elsewhere, or where the bounce is not stable.
+
 A motion is a sequence of flights and impacts.  Where impacts accumulate, or where s = 0 and
 S <= 1, or where alpha = 0 and S <= 1, the ball rests on the table; it leaves where S rises through
 1, as the state s = 0 there.  A touch with s = 0 in flight may count as an impact or not: both are

@@ -179,8 +179,7 @@ def roundings(code: Code, grid: flights.Grid, count: int, seed: int) -> int:
     ctx.prec = PRECISION
     source = random.Random(seed)
     there = code.flights.Flights(grid, Work(STEPS))
-    columns, slack = grid.columns, code.flights.SLACK
-    worst = 0
+    columns, worst = grid.columns, 0
     for _ in range(count):
         i, number = source.randrange(columns), source.randrange(grid.rows)
         m = i + source.randrange(1, 4 * columns)
@@ -197,4 +196,4 @@ def roundings(code: Code, grid: flights.Grid, count: int, seed: int) -> int:
         ):
             error = abs(value * UNIT - sum(bounds) // 2).upper()
             worst = max(worst, int(error.ceil().unique_fmpz()))
-    return worst * (100 if slack < 200 else 1)
+    return worst

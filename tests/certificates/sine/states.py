@@ -16,6 +16,7 @@ from tests.certificates.sine.impacts import State, exact, first_impact
 
 Q = Fraction
 STEPS = 1 << 26
+UNIT = 1 << 40
 
 
 class Code(NamedTuple):
@@ -66,7 +67,7 @@ def drawn(grid: flights.Grid, source: random.Random) -> Iterator[State]:
 
 
 def resting(grid: flights.Grid, source: random.Random) -> Iterator[State]:
-    """States where S is 1, or just above, and the ball leaves at a closing speed of 0, or almost."""
+    """States where S is 1, or just above, and the ball leaves at a speed of 0, or almost."""
     alpha, g = source.choice(grid.alpha), source.choice(grid.g)
     c = float((1 - alpha) / (1 + alpha) / 2)
     drive = 2 * math.pi * math.hypot(c, float(g))
