@@ -23,15 +23,18 @@ import zlib  # noqa: F401
 sys.dont_write_bytecode = True
 sys.pycache_prefix = os.devnull
 FOLDER = os.path.dirname(os.path.abspath(__file__))
+FIRST = os.path.join(os.path.dirname(FOLDER), "checker")
 sys.path[:0] = [os.path.dirname(os.path.dirname(FOLDER))]
 
 from certificates.sine.checker import main  # noqa: E402
 
 del sys.path[0]
-# A run says which text was believed in it.
-for name in ("flights.py", "checker.py"):
-    with open(os.path.join(FOLDER, name), "rb") as file:
-        print(f"{name:12} sha256 {hashlib.sha256(file.read()).hexdigest()}")
+# A run says which text was believed in it: of the first checker, the meter of work and `load`.
+for folder, names in ("sine", ("flights.py", "checker.py")), ("checker", sorted(os.listdir(FIRST))):
+    for name in names:
+        if name.endswith(".py"):
+            with open(os.path.join(os.path.dirname(FOLDER), folder, name), "rb") as file:
+                print(f"{folder}/{name:12} sha256 {hashlib.sha256(file.read()).hexdigest()}")
 
 gc.disable()
 sys.exit(main(sys.argv[1:]))

@@ -330,8 +330,8 @@ def meets(one: Counterexample, rectangle: Rectangle) -> bool:
 STATEMENTS, CERTIFICATES = "statements.txt", "certificates.jsonl"
 NUMBER = r"([0-9]{1,30}(?:/[1-9][0-9]{0,29})?)"
 STATEMENT = re.compile(
-    rf"every motion tends to the period-one bounce for all alpha in \[{NUMBER}, {NUMBER}\]"
-    rf" and (Gamma|g) in \[{NUMBER}, {NUMBER}\]"
+    "the period-one bounce is stable and every motion tends to it for all"
+    rf" alpha in \[{NUMBER}, {NUMBER}\] and (Gamma|g) in \[{NUMBER}, {NUMBER}\]"
 )
 
 

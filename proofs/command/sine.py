@@ -143,8 +143,8 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
     if not low:
         raise ClaimError(f"--gamma {gamma}: a table at rest drives nothing; begin above 0")
     return (
-        f"every motion tends to the period-one bounce for all alpha in [{a_low}, {a_high}]"
-        f" and Gamma in [{low}, {high}]"
+        "the period-one bounce is stable and every motion tends to it for all"
+        f" alpha in [{a_low}, {a_high}] and Gamma in [{low}, {high}]"
     )
 
 

@@ -7,7 +7,7 @@
    That is the enclosure of flights (`Flights`, the field flights_lead) and of S on columns (arc_outside, rank_of_rest, trap_downward), the
    tables of sines, the rounding of `absorbing_strip`, the interval products of `check_trap`, and the cover of a rectangle by boxes.
    `check_cells` looks at the columns of one period: SinePeriod.v proves that these are enough.  Its landings have a margin, so
-   that the bounce is inside the trap, and not on its edge, which stability needs; `check_trap` itself tests <=.  Nor is it mechanised that a
+   that the bounce is inside the trap, and not on its edge, which stability needs; `check_trap` tests that too.  Nor is it mechanised that a
    ball has a first impact, that its heights converge with its impacts, or that refutations are counterexamples.
 
    Proved:   every_motion_tends      to the bounce, flying only, once a period;

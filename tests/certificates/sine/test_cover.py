@@ -25,7 +25,7 @@ from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.sine.stored import STORE, sine_line
 from juggleproof.proofs.command.main import run
 
-WORDS = "every motion tends to the period-one bounce for all alpha in"
+WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
 
 
 def rectangle(alpha: str, gamma: str) -> Rectangle:

@@ -345,7 +345,7 @@ def wrong_drives(code: Code, count: int, seed: int) -> list[str]:
 
 MULTIPLIERS = Q(1, 20), (Q(29, 100), Q(3, 10))  # alpha and g: Gamma is 3.3764.. to 3.4107..
 BELOW_BIRTH = (Q(0), Q(1, 2)), "Gamma", (Q(3), Q(4))
-BEGINS = "every motion tends to the period-one bounce for all"
+BEGINS = "the period-one bounce is stable and every motion tends to it for all"
 # (name, the rest of a statement, whether MULTIPLIERS refute it)
 MEETS = [
     ("that g", "alpha in [1/20, 1/20] and g in [29/100, 30/100]", True),
