@@ -4,7 +4,9 @@ positive, in the parameters above all.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Sequence
+from itertools import combinations
 from math import prod
 
 from flint import fmpz_mpoly
@@ -105,31 +107,49 @@ def facts_kept(
     state: State, ring: Ring, terms: Collection[int], unknowns: Collection[str]
 ) -> list[int]:
     """The numbers of the facts that are used: the equations, the last fact, which is the negated
-    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone.
+    goal, these terms of V, value >= 0, and what is linear in the state or in the parameters alone;
+    no equation that only defines an unknown.
     """
     kept, count = [], 0
-    for k, (poly, relation) in enumerate(state.facts):
-        lowered = ring.read(poly)
-        used = {ring.names[v] for v, power in enumerate(lowered.degrees()) if power}
+    read = [ring.read(poly) for poly, _ in state.facts]
+    every = [{ring.names[v] for v, power in enumerate(p.degrees()) if power} for p in read]
+    tied = Counter(name for used in every if len(used) > 1 for name in used)
+    defined = {name for name in unknowns if tied[name] == 1}  # an equation that tells nothing else
+    for k, ((_, relation), lowered, used) in enumerate(zip(state.facts, read, every)):
         gaps = any(name.endswith("_gap") for name in used)
         alone = used <= set(MOVING)
         if "value" in used and gaps:
             count += 1
         if (
             k == len(state.facts) - 1
-            or (relation == "=" and not any(map(is_moving, used)))
+            or (relation == "=" and not any(map(is_moving, used)) and not used & defined)
             or ("value" in used and gaps and count - 1 in terms)
             or (alone and (len(lowered) == 1 or any(c < 0 for c in lowered.coeffs())))
-            or ("value" not in used and gaps and total_degree(lowered) == 1)
+            or ("value" not in used and gaps and is_bound(lowered, ring))
             or (
                 not any(map(is_moving, used))
                 and not used & set(unknowns)
                 and any(c < 0 for c in lowered.coeffs())
             )
-            or (len(used) == 1 and len(lowered) == 1)
+            or (len(used) == 1 and len(lowered) == 1 and not used & set(unknowns))
         ):
             kept.append(k)
     return kept
+
+
+def is_end(problem: Problem, number: int, ring: Ring) -> bool:
+    """Whether a fact bounds one variable of the state by terms in the parameters, of which products
+    with V alone are used.
+    """
+    lowered = problem.source.lowered[problem.facts[number].factors[0][0]]
+    return total_degree(lowered) > 1 and is_bound(lowered, ring)
+
+
+def is_bound(poly: fmpz_mpoly, ring: Ring) -> bool:
+    """Whether it is linear in all, or bounds one variable of the state by the parameters."""
+    powers = poly.degrees()
+    moving = [v for v, power in enumerate(powers) if power and is_moving(ring.names[v])]
+    return total_degree(poly) == 1 or len(moving) == 1 and powers[moving[0]] == 1
 
 
 def is_moving(name: str) -> bool:
@@ -166,7 +186,8 @@ def leaf(
             any(now[v] for v in moving) or not any(first[v] for v in unknown)
         ):
             positive.append(k)
-    positive = independent(problem, positive)
+    ends = [k for k in positive if is_end(problem, k, ring)]
+    positive = independent(problem, [k for k in positive if k not in ends])
     packing = Packing(ring, [*problem.polys(), *roots])
     first = [k for k in generators if kept[problem.facts[k].factors[0][0]] == goal]
     common = [
@@ -182,6 +203,13 @@ def leaf(
         generators = [k for k in generators if not problem.facts[k].poly.degrees()[level]]
     polys: list[tuple[fmpz_mpoly, tuple[int, ...], int]]
     polys = [(problem.facts[k].poly, (k,), -1) for k in generators]
+    values = [ring.gens[ring.names.index("value")]] if "value" in ring.names else []
+    polys += [
+        (one * problem.facts[k].poly, (*own, k), -1)
+        for one, own, _ in list(polys)
+        if one in values
+        for k in ends
+    ]
     polys += [(root**2, (), k) for k, root in enumerate(roots)]
     shared = prod((problem.facts[k].poly for k in common), start=ring.one)
     used = [poly // shared if own and own[0] in first else poly for poly, own, _ in polys]
@@ -196,7 +224,7 @@ def leaf(
         (poly, own, root) if own and own[0] in first else (poly * shared, (*own, *common), root)
         for poly, own, root in polys
     ]
-    top = max(total_degree(poly) for poly, _, _ in polys)
+    top = max(total_degree(poly) for poly, _, root in polys if root < 0)
     for more in MORE:
         program = Program()
         columns: list[tuple[tuple[int, ...], int]] = []
@@ -221,7 +249,9 @@ def leaf(
 
 
 def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
-    """Those of the facts that are not a sum of another and of products of positive variables."""
+    """Those of the facts that are no sum of two others, or of another and of products of positive
+    variables.
+    """
     polys = {k: problem.facts[k].poly for k in positive}
     single = {
         poly.degrees().index(1)
@@ -239,6 +269,10 @@ def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
     for k, poly in list(polys.items()):
         parts = problem.ring.factors(poly)
         if len(parts) > 1 and all(str(p) in every or str(-p) in every for p, _ in parts):
+            del polys[k]
+    for k, poly in list(polys.items()):
+        others = [one for other, one in polys.items() if other != k]
+        if len(poly) > 1 and any(poly == a + b for a, b in combinations(others, 2)):
             del polys[k]
     return [
         k

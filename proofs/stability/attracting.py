@@ -5,6 +5,7 @@ first, until one is certified.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import islice
 
 from juggleproof.certificates import checker
@@ -18,7 +19,14 @@ from juggleproof.proofs.stability.certifying import (
     signs_of,
     tried,
 )
-from juggleproof.proofs.stability.entering import boxes_of, entering_rules, within
+from juggleproof.proofs.stability.entering import (
+    boxes_of,
+    entering_rules,
+    inner,
+    rules_into,
+    spaces_entered,
+    within,
+)
 from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
@@ -48,6 +56,7 @@ from juggleproof.proofs.stability.samples import (
     around,
     region,
 )
+from juggleproof.proofs.stability.settings import known_of
 
 SIGNS_BUDGET = 1_000_000
 MOST_WORK = 4_000_000  # on all candidates of a kind
@@ -68,10 +77,28 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     """
     boxes = boxes_of(setting.system)
     part = within(setting, boxes[-1]) if boxes else setting
-    if not by_shape(proof, part, log) and not by_samples(proof, part, log):
-        return False
+    if not by_shape(proof, part, log):
+        if not boxes and any(in_entered(proof, setting, far, log) for far in (False, True)):
+            return True
+        if not by_samples(proof, part, log):
+            return False
     rules = entering_rules(setting, boxes, setting.system.name) if boxes else []
     return proof.add_all(rules, EFFORTS, log)
+
+
+def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
+    """The same for a part of the space that every orbit enters, as the space of a map."""
+    spaces = spaces_entered(setting, far)
+    if not spaces:
+        return False
+    count, part = len(proof.rules), inner(setting, spaces[-1])
+    part = replace(part, have=known_of(part))
+    if not proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
+        if by_shape(proof, part, log):
+            if proof.add_all(rules_into(setting, spaces), EFFORTS, log):
+                return True
+    proof.keep(count)
+    return False
 
 
 def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -101,7 +128,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
             return True
     chains = contracting_box_rules(setting, setting.system.name)
-    return any(proof.add_all(chain, (1, 2), log) for chain in chains)
+    return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:

@@ -104,12 +104,16 @@ class Proof:
         efforts: Sequence[int],
         report: Report,
         signs: Mapping[str, Sequence[str]] | None = None,
+        searches: Mapping[str, Search] | None = None,
     ) -> bool:
-        """Certifies all of these statements, or none; signs: for premises of those with a V."""
+        """Certifies all of these statements, or none; signs, searches: for premises of those with
+        a V.
+        """
         count = len(self.rules)
         for rule in rules:
             if dict(rule.rows).get("value"):
-                fault = tried(self, rule, efforts, ENVELOPE_BUDGET, report, signs)
+                budget = BUDGET // 4 if searches else ENVELOPE_BUDGET
+                fault = tried(self, rule, efforts, budget, report, signs, searches)
             else:
                 fault = self.add(rule, efforts, LOCAL_BUDGET)
             if fault:

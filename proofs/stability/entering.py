@@ -1,18 +1,34 @@
 """Boxes that every orbit enters after so many steps, as where a map saturates: bounds of the next
-state by the guards of the pieces, step by step.
+state by the guards of the pieces, step by step; of one rational piece, by its values at the ends of
+the box before, such as 0 < x/(1 + y).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
+import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import Expr, Map, atoms, conjunction, symbols, written
-from juggleproof.proofs.stability.samples import STATES, around
+from juggleproof.proofs.stability.given import (
+    Expr,
+    Map,
+    atoms,
+    conjunction,
+    conjuncts,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.samples import SEED, STATES, Arrays, Floats, around
+
+SHARE = 0.3  # of the states that are put at an end
 
 
 def boxes_of(system: Map) -> list[str]:
@@ -100,5 +116,157 @@ def entering_rules(setting: Setting, boxes: Sequence[str], name: str) -> list[Ma
         MapRule(
             f"{name}/attracts",
             (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov")),
+        ),
+    ]
+
+
+# -------------------------------------------------------------------------------------------------
+# Parts of the space that every orbit enters, each the space of a map with the same piece.
+
+LOW, HIGH = 1, -1
+Side = tuple[int, int]  # the number of a variable, LOW or HIGH
+
+
+def spaces_entered(setting: Setting, far: bool) -> list[str]:
+    """For one step after another, the space with bounds of all states so many steps after any of
+    its states: that they are at no end of it, or `far`: how far the images go.
+    """
+    system, found = setting.system, [setting.system.space]
+    bounded: dict[Side, str] = {}
+    if len(system.pieces) > 1:
+        return []
+    for _ in system.state:
+        ends, points = ends_of_space(system, found[-1]), states_at_ends(setting, found[-1])
+        known = atoms(found[-1])
+        rows: dict[Side, str] = {}
+        for side in product(range(len(system.state)), (LOW, HIGH)):
+            row = "" if side in bounded else _bound(system, side, ends, points, far)
+            rows |= {side: row} if row and atoms(row)[0] not in known else {}
+        if not rows:
+            break
+        bounded |= rows
+        said = {poly for poly, _ in atoms(conjunction(*rows.values()))}
+        kept = (
+            part for part in conjuncts(found[-1]) if not {poly for poly, _ in atoms(part)} & said
+        )
+        found.append(conjunction(*rows.values(), *kept))  # the new bounds come first
+    return found[1:]
+
+
+def _bound(system: Map, side: Side, ends: dict[Side, Expr], points: Arrays, far: bool) -> str:
+    """A bound of the next value of a variable on one side, as formula; nothing where there is none,
+    or none that is new.
+    """
+    (place, sign), end = side, ends.get(side)
+    image = system.images[0][place]
+    if far:
+        limit = limit_of(system, image, sign, ends, points)
+        end = None if limit == end else limit
+    if end is None or not end.is_rational_function():
+        return ""
+    beyond = sign * (_at(image, points) - _at(end, points))
+    attained = bool((beyond == 0).any())
+    if (beyond < 0).any() or attained and not far:
+        return ""
+    relation = (">" if sign == LOW else "<") + ("=" if attained else "")
+    return f"{system.state[place]} {relation} {written(end)}"
+
+
+def limit_of(
+    system: Map, image: Expr, sign: int, ends: dict[Side, Expr], points: Arrays
+) -> Expr | None:
+    """The least value of a rational term, or the greatest, that is monotone in each variable, as
+    all go to an end; None where there is none.
+    """
+    for place, one in enumerate(symbols(system.state)):
+        slope = _at(sympy.diff(image, one), points)
+        if slope.min() < 0 < slope.max():
+            return None
+        above, below = sympy.fraction(sympy.together(image))
+        end = ends.get((place, sign if slope.max() > 0 else -sign))
+        if end is None:  # far out
+            degree = sympy.degree(below, one)
+            if sympy.degree(above, one) > degree:
+                return None
+            above, below = (
+                sympy.Poly(part, one).coeff_monomial(one**degree) for part in (above, below)
+            )
+        divisor = sympy.expand(below.subs(one, end) if end is not None else below)
+        if divisor == 0:
+            return None
+        image = sympy.cancel((above.subs(one, end) if end is not None else above) / divisor)
+    return image
+
+
+def ends_of_space(system: Map, space: str) -> dict[Side, Expr]:
+    """The ends that the space has, as terms in the parameters."""
+    state = symbols(system.state)
+    found: dict[Side, Expr] = {}
+    for poly, _ in atoms(space):
+        named = poly.free_symbols & set(state)
+        slope = sympy.diff(poly, *named) if len(named) == 1 else sympy.Integer(0)
+        if slope.is_Rational and slope != 0:
+            (one,) = named
+            side = state.index(one), LOW if slope > 0 else HIGH
+            found.setdefault(side, sympy.expand(one - poly / slope))
+    return found
+
+
+def states_at_ends(setting: Setting, space: str) -> Arrays:
+    """States of the space, many of them at an end of it."""
+    rng, points = np.random.default_rng(SEED), dict(setting.states.points)
+    for (place, _), end in ends_of_space(setting.system, space).items():
+        name = setting.system.state[place]
+        points[name] = np.where(
+            rng.random(len(points[name])) < SHARE, _at(end, points), points[name]
+        )
+    inside = np.broadcast_to(holds(space, points), points[name].shape)
+    return {name: values[inside] for name, values in points.items()}
+
+
+def _at(term: Expr, points: Arrays) -> Floats:
+    count = len(next(iter(points.values())))
+    return np.broadcast_to(np.asarray(value(written(term), points), float), (count,))
+
+
+def inner(setting: Setting, space: str) -> Setting:
+    """The same point of the map on this part of the space."""
+    system = replace(setting.system, space=space)
+    states = around(system, setting.point, setting.parameters, STATES)
+    return replace(setting, system=system, states=states, map="map-1")
+
+
+def radius_of(setting: Setting, space: str) -> str:
+    """Less than the point's distances to the ends that this part of the space adds: the least of
+    positive numbers is above 1/(the sum of 1/each).
+    """
+    at = dict(zip(symbols(setting.system.state), map(expression, setting.point.terms)))
+    known = atoms(setting.system.space)
+    ends = {
+        sympy.cancel(poly.subs(at)) for poly, strict in atoms(space) if (poly, strict) not in known
+    }
+    return written(sympy.factor(1 / (2 * sum(1 / end for end in ends))))
+
+
+def rules_into(setting: Setting, spaces: Sequence[str]) -> list[MapRule]:
+    """The statements that every orbit enters the last of the spaces, and that the point attracts
+    all states, as it attracts those.
+    """
+    name = setting.system.name
+    stages = [("stage", space) for space in (setting.system.space, *spaces)]
+    rank = [("domain", setting.domain), ("rank", "0")]
+    descent, lyapunov = f"{name}/descends-1", f"{name}/lyapunov"
+    attraction = ("attraction", f"{name}/attracts-1")
+    return [
+        MapRule(descent, (("map", f"{name}/map-1"), *rank, stages[-1])),
+        MapRule(attraction[1], (("descent", descent), ("lyapunov", lyapunov))),
+        MapRule(f"{name}/descends", (("map", f"{name}/map"), *rank, *stages)),
+        MapRule(
+            f"{name}/attracts",
+            (
+                ("descent", f"{name}/descends"),
+                attraction,
+                ("radius", radius_of(setting, spaces[-1])),
+            ),
         ),
     ]

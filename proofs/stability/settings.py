@@ -29,25 +29,26 @@ from juggleproof.proofs.stability.samples import (
 )
 
 
-def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
+def known_of(setting: Setting) -> tuple[str, ...]:
     """What premises are to know of a point whose terms are not simple: that it is a fixed point,
     and on which side of the guard and of the bounds of the space it lies.
     """
-    terms = [expression(term) for term in fixed.point.terms]
-    if all("/" not in written(t) or not t.free_symbols for t in terms) and not fixed.point.roots:
+    system, point, piece = setting.system, setting.point, setting.piece
+    terms = [expression(term) for term in point.terms]
+    if all("/" not in written(t) or not t.free_symbols for t in terms) and not point.roots:
         return ()
     names = {name: f"{name}_point" for name in system.state}
     lines = []
-    for name, image in zip(system.state, system.images[fixed.piece]):
+    for name, image in zip(system.state, system.images[piece]):
         above, below = sympy.fraction(sympy.together(image))
         left = f"{name}_point" if below == 1 else f"{name}_point*({written(below)})"
         lines.append(f"{left} = {written(above)}")
     state = symbols(system.state)
-    if not sympy.Matrix(system.images[fixed.piece]).jacobian(state).free_symbols.isdisjoint(state):
+    if not sympy.Matrix(system.images[piece]).jacobian(state).free_symbols.isdisjoint(state):
         for name, term in zip(system.state, terms):  # the equations have other solutions
             above, below = sympy.fraction(term)
             lines.append(f"{name}_point*({written(below)}) = {written(above)}")
-    guard, _ = system.pieces[fixed.piece]
+    guard, _ = system.pieces[piece]
     points = setting.states.points
     for poly, _ in atoms(conjunction(system.space, guard)):
         if poly.free_symbols & set(symbols(system.state)):
@@ -74,4 +75,4 @@ def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = F
                 domain = positive
     states = around(system, point, parameters, STATES)
     bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
-    return replace(bare, have=known_of(system, fixed, bare))
+    return replace(bare, have=known_of(bare))

@@ -21,11 +21,9 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.certifying import Search, beyond
 from juggleproof.proofs.stability.functions.part_metric import CLOSE
-from juggleproof.proofs.stability.functions.ratios import (
-    at_parameters,
-)
+from juggleproof.proofs.stability.functions.ratios import at_parameters, distance_rules
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
     FEW_FOLD,
@@ -38,6 +36,7 @@ from juggleproof.proofs.stability.functions.values import (
 from juggleproof.proofs.stability.given import (
     Expr,
     as_factor,
+    atoms,
     bounds,
     conjunction,
     expression,
@@ -60,16 +59,19 @@ FAR = 1e-3  # of the greatest value, what is not rounding
 SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of a side; -1: any
 TOGETHER = 3  # of the factors of a constant
 SPAN = 2.5  # powers of ten below and above 1 that a side without an end runs over
+LOOSE = 4.0  # how well a constant fits, above which the fall at the end itself is taken
 LOW, HIGH = -1, 1
 Side = tuple[int, int]  # the number of a variable, LOW or HIGH
 Ends = dict[Side, Expr]  # as terms in the parameters
 
 
-def contracting_box_rules(setting: Setting, name: str) -> Iterator[list[MapRule]]:
-    """The statements, in order, by which the point attracts every state; what samples refute is
-    left out.
+def contracting_box_rules(
+    setting: Setting, name: str
+) -> Iterator[tuple[list[MapRule], dict[str, Search]]]:
+    """The statements, in order, by which the point attracts every state, with searches for premises
+    of that with a V; what samples refute is left out.
     """
-    system = setting.system
+    system, known = setting.system, setting
     plain = not (setting.point.roots or setting.outer)
     if not plain or not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
         return
@@ -93,16 +95,28 @@ def contracting_box_rules(setting: Setting, name: str) -> Iterator[list[MapRule]
             return
         entered = entered | {side: end}
         descents.append((step, condition(setting, side, end)))
-    yield from _statements(setting, box, widths, descents, name)
+    space = conjunction(system.space, *(bound for _, bound in descents))
+    inside = replace(
+        known,
+        system=replace(system, space=space),
+        domain=domain,
+        states=states_of(setting, box),
+        map=f"map-{len(box) - 1}",
+    )
+    every: list[tuple[MapRule, dict[str, Search]]] = [
+        *distance_rules(inside, f"{name}/lyapunov"),
+        *((rule, {}) for rule in lyapunov_rules(setting, box, widths, descents[-1][1], name)),
+    ]
+    yield from _statements(setting, every, widths, descents, name)
 
 
 def _statements(
     setting: Setting,
-    box: Ends,
+    every: Sequence[tuple[MapRule, dict[str, Search]]],
     widths: Sequence[Expr],
     descents: Sequence[tuple[str, str]],
     name: str,
-) -> Iterator[list[MapRule]]:
+) -> Iterator[tuple[list[MapRule], dict[str, Search]]]:
     """One descent for each bound, on a map whose space has the bounds before it."""
     system, space = setting.system, setting.system.space
     maps: list[MapRule] = []
@@ -122,9 +136,10 @@ def _statements(
             then = [("attraction", f"{name}/attracts{following}"), ("radius", radii[0][1])]
         rows = [("descent", falling[-1].name), *then]
         attracting.append(MapRule(f"{name}/attracts{suffix}", tuple(rows)))
-    for rule in lyapunov_rules(setting, box, widths, descents[-1][1], f"{name}/lyapunov"):
-        inner = replace(rule, rows=(("map", maps[-1].name), *rule.rows[1:]))
-        yield [*maps[1:], inner, *falling, *reversed(attracting)]
+    for rule, searches in every:
+        changed = {"map": maps[-1].name, "radius": radii[0][1]}
+        inner = replace(rule, rows=tuple((key, changed.get(key, text)) for key, text in rule.rows))
+        yield [*maps[1:], inner, *falling, *reversed(attracting)], searches
 
 
 def lyapunov_rules(
@@ -159,7 +174,7 @@ def lyapunov_rules(
             ("upper", inverse(steep)),
             ("radius", radius),
         ]
-        yield setting.rule(name, function, rows)
+        yield setting.rule(f"{name}/lyapunov", function, rows)
 
 
 def weights_of(setting: Setting, widths: Sequence[Expr]) -> list[Expr]:
@@ -319,7 +334,32 @@ def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
         return ""
     distance = as_factor(written(symbols([name])[0] - lower))
     factor = as_factor(inverse(found[0][1]))
+    if found[0][0] > LOOSE:
+        factor = fall_at(setting, entered, side, end) or factor
     return f"{factor}*{distance}" if direction == HIGH else f"{factor}/{distance}"
+
+
+def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
+    """1 over the fall of a step from the end itself, without factors that are 1 at least; nothing
+    where the domain does not say that the others are positive.
+    """
+    image, lower = worst(setting, entered, side, end), bounds_of_space(setting)[side[0], LOW]
+    if image is None:
+        return ""
+    fall = end - image if side[1] == HIGH else 1 / (end - lower) - 1 / (image - lower)
+    above, below = sympy.fraction(sympy.factor(fall))
+    constant, factors = sympy.factor_list(above)
+    known = {poly for poly, strict in atoms(setting.domain) if strict}
+    below, kept = below / abs(constant), []
+    for factor, power in factors:
+        at = at_parameters(setting, factor)
+        one = factor if at.max() > 0 else -factor
+        if sympy.expand(one) in known:
+            kept.append(f"{as_factor(written(one))}^{power}")
+        elif np.abs(at).min() < 1:
+            return ""
+    below = -below if at_parameters(setting, below).max() < 0 else below
+    return f"({as_factor(written(below))}/({'*'.join(kept) or 1}))"
 
 
 def bounds_of_space(setting: Setting) -> Ends:

@@ -35,14 +35,16 @@ from juggleproof.proofs.stability.functions.values import (
 )
 from juggleproof.proofs.stability.given import (
     Expr,
+    as_factor,
     atoms,
     bounds,
     conjunction,
     expression,
+    holds,
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import Floats, licence
+from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
 
 Row = tuple[int, ...]
 
@@ -61,45 +63,66 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
     if not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
         return
     setting, put = with_equations(setting)
-    for origin in origins(setting):
-        derivative = in_logarithms(setting, origin, put)
-        for rows in sets_of_rows(len(system.state)):
-            sums = sums_of(setting, derivative, rows)
-            if sums is None or len(str(sums.matrix)) > LONGEST:
-                continue
-            found = []
-            for weights in weights_of(setting, sums.matrix):
-                terms = terms_of(setting, put, origin, rows, weights)
-                falls = falls_of(sums.matrix, weights)
-                for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
-                    rank += len(" ".join(terms)) / 50
-                    positive = [*factors, *factors_of(setting, weights)]
-                    rule = _rule(setting, name, origin, positive, terms, lines)
-                    found.append((rank, rule))
-            unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
-            gaps = _gaps(setting)
-            squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
-            searches: dict[str, Search] = {
-                f"falls-1-{k + 1}": partial(
-                    proof_by_products,
-                    terms=sums.used(k),
-                    unknowns=unknowns,
-                    squares=squares,
-                    signs=gaps,
-                )
-                for k in range(2 * len(rows))
-            }
-            searches["least"] = partial(
-                proof_by_products,
-                terms=[k for k, row in enumerate(rows * 2) if sum(map(abs, row)) == 1],
-                unknowns=unknowns,
-                squares=(),
-                signs=(),
-            )
-            for _, rule in sorted(found, key=lambda one: one[0])[:MOST_RULES]:
-                yield rule, searches
-            if found:
-                return
+    every = (_rules(setting, put, origin, name) for origin in origins(setting))
+    yield from next(filter(None, every), [])
+
+
+def distance_rules(setting: Setting, name: str) -> list[tuple[MapRule, dict[str, Search]]]:
+    """The same for weighted distances."""
+    setting, put = with_equations(setting)
+    return _rules(setting, put, [sympy.Integer(1)] * len(setting.system.state), name)
+
+
+def _rules(
+    setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr], name: str
+) -> list[tuple[MapRule, dict[str, Search]]]:
+    """The same for one origin, of the first rows for which there are any."""
+    derivative = in_logarithms(setting, origin, put)
+    for rows in sets_of_rows(len(setting.system.state), is_plain(origin)):
+        sums = sums_of(setting, derivative, rows)
+        if sums is None or len(str(sums.matrix)) > LONGEST:
+            continue
+        found = []
+        for weights in weights_of(setting, sums.matrix):
+            terms = terms_of(setting, put, origin, rows, weights)
+            falls = falls_of(sums.matrix, weights)
+            for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
+                rank += len(" ".join(terms)) / 50
+                positive = [*factors, *factors_of(setting, weights)]
+                rule = _rule(setting, name, origin, positive, terms, lines)
+                found.append((rank, rule))
+        if found:
+            best = sorted(found, key=lambda one: one[0])[:MOST_RULES]
+            searches = _searches(setting, put, rows, sums)
+            return [(rule, searches) for _, rule in best]
+    return []
+
+
+def _searches(
+    setting: Setting, put: dict[Expr, Expr], rows: Sequence[Row], sums: Sums
+) -> dict[str, Search]:
+    """For some premises, the facts that are used, and squares and signs."""
+    unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
+    gaps = _gaps(setting)
+    squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
+    found: dict[str, Search] = {
+        f"falls-1-{k + 1}": partial(
+            proof_by_products,
+            terms=sums.used(k),
+            unknowns=unknowns,
+            squares=squares,
+            signs=gaps,
+        )
+        for k in range(2 * len(rows))
+    }
+    found["least"] = partial(
+        proof_by_products,
+        terms=[k for k, row in enumerate([*rows, *rows]) if sum(map(abs, row)) == 1],
+        unknowns=unknowns,
+        squares=(),
+        signs=(),
+    )
+    return found
 
 
 def origins(setting: Setting) -> Iterator[list[Expr]]:
@@ -122,11 +145,18 @@ def origins(setting: Setting) -> Iterator[list[Expr]]:
         yield [one + shift for one in state]
 
 
-def sets_of_rows(count: int) -> Iterator[list[Row]]:
+def is_plain(origin: Sequence[Expr]) -> bool:
+    """Whether there are no ratios: V is the greatest of weighted distances, which ratios of x + c
+    tend to for large c.
+    """
+    return all(one.is_number for one in origin)
+
+
+def sets_of_rows(count: int, plain: bool) -> Iterator[list[Row]]:
     """The variables; of two variables also with their quotient, or their product."""
     units = [tuple(int(i == j) for j in range(count)) for i in range(count)]
     yield units
-    if count == 2:
+    if count == 2 and not plain:
         yield [*units, (1, -1)]
         yield [*units, (1, 1)]
 
@@ -162,17 +192,32 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
         if not factors:
             continue
         zero = min(factors, key=lambda one: np.median(np.abs(at_parameters(setting, one))))
-        for one in [*symbols(setting.system.parameters), *reversed(names)]:
+        parameters = symbols(setting.system.parameters)
+        simple = sorted(parameters, key=lambda one: _size(sympy.diff(zero, one)))
+        for one in [*simple, *reversed(names)]:
             if sympy.degree(zero, one) == 1:
                 (solution,) = sympy.solve(zero, one)
                 put = {key: sympy.cancel(t.subs(one, solution)) for key, t in put.items()}
                 put[one] = sympy.cancel(solution)
                 break
     have = [line for line in setting.have if ">" in line]
+    conditions = [
+        one.subs(put)
+        for one, strict in atoms(setting.domain)
+        if strict and one.free_symbols & put.keys()
+    ]
+    for factor in factors_of(setting, [one for one in conditions if one.free_symbols]):
+        if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
+            have.append(f"{written(factor)} > 0")
     for one, term in put.items():
         above, below = map(written, sympy.fraction(sympy.together(term)))
         have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
     return replace(setting, have=tuple(have)), put
+
+
+def _size(term: Expr) -> int:
+    """How many terms a polynomial has."""
+    return len(sympy.Add.make_args(sympy.expand(term)))
 
 
 def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr]) -> Expr:
@@ -314,8 +359,14 @@ def terms_of(
             above, below = (above * here, below * there) if power else (above, below)
         gap = f"{'-' if sign < 0 else ''}{names[row.index(1)]}_gap"
         top = gap if sum(map(abs, row)) == 1 else written(above - below)
-        terms.append(f"({top})/({written(below * weight)})")
+        terms.append(_divided(f"({top})", below * weight))
     return terms
+
+
+def _divided(text: str, term: Expr) -> str:
+    """The text divided by a term, as one quotient."""
+    over, under = sympy.fraction(sympy.factor(1 / term))
+    return f"{'' if over == 1 else as_factor(written(over)) + '*'}{text}/({written(under)})"
 
 
 def _losses(
@@ -330,6 +381,8 @@ def _losses(
     small where they fit well, and with what is positive in them.
     """
     terms = terms_of(setting, put, origin, rows, weights)
+    if is_plain(origin):
+        setting = at_corners(setting, weights)
     here, there, samples = values(setting, terms)
     before, now = here.max(axis=0), there.max(axis=0)
     if not len(before) or (now > before * (1 + CLOSE)).any():
@@ -352,15 +405,41 @@ def _losses(
     fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
     for power in POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
-        for rank, constant in bounded_below(np.minimum(least + CLOSE, fall), products):
+        constants = bounded_below(np.minimum(least + CLOSE, fall), products)
+        for rank, constant in constants:
             over = "/(1 + {})" if power else ""
             lines = [
                 ("loss", f"({constant})*value" + over.format("value")),
-                ("least", f"({constant})*distance/({written(total)})" + over.format("level")),
+                ("least", f"({constant})*{_divided('distance', total)}" + over.format("level")),
                 ("upper", written(upper)),
                 ("radius", written(radius)),
             ]
             yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
+        if constants and is_plain(origin):
+            return
+
+
+def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
+    """The same with states at the corners of the boxes around the point with these sides, where a
+    map that is monotone in each variable moves most.
+    """
+    system, samples = setting.system, setting.states
+    sides = [at_parameters(setting, one)[samples.which] for one in weights]
+    gaps = zip(system.state, sides)
+    size = np.max([np.abs(samples.points[f"{one}_gap"]) / side for one, side in gaps], axis=0)
+    rng, points = np.random.default_rng(SEED), dict(samples.points)
+    for name, side in zip(system.state, sides):
+        points[f"{name}_gap"] = size * side * rng.choice((-1, 1), len(size))
+        points[name] = points[f"{name}_point"] + points[f"{name}_gap"]
+    corners = Samples(points, samples.which).where(
+        np.broadcast_to(holds(system.space, points), size.shape)
+    )
+    both = {
+        name: np.concatenate([states, corners.points[name]])
+        for name, states in samples.points.items()
+    }
+    which = np.concatenate([samples.which, corners.which])
+    return replace(setting, states=Samples(both, which))
 
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
@@ -387,9 +466,9 @@ def _rule(
             have.append(f"{written(factor)} > 0")
     if have:
         at = dict(zip(symbols(setting.system.state), point_names(setting)))
-        have += [f"{written(one.subs(at))} > 0" for one in origin]
+        have += [f"{written(one.subs(at))} > 0" for one in origin if not one.is_number]
     strict = [poly for poly, is_strict in atoms(setting.system.space) if is_strict]
-    more = [f"{written(one)} > 0" for one in origin if one not in strict]
+    more = [f"{written(one)} > 0" for one in origin if one not in strict and not one.is_number]
     on = conjunction(setting.system.space, *more)
     changed = replace(setting, domain=domain, have=tuple(dict.fromkeys(have)))
     return changed.rule(name, Function(tuple(terms)), [("on", on), *lines])

@@ -142,6 +142,7 @@ class Setting:
     parameters: Arrays
     states: Samples
     outer: str = ""  # the space of the map, where that of `system` is a part of it
+    map: str = "map"  # the name of its statement
 
     @cached_property
     def count(self) -> int:
@@ -181,7 +182,7 @@ class Setting:
         return MapRule(
             name,
             (
-                ("map", name.rpartition("/")[0] + "/map"),
+                ("map", name.rpartition("/")[0] + f"/{self.map}"),
                 ("domain", self.domain),
                 *(("root", f"{root} = sqrt({under})") for root, under in self.point.roots),
                 *own["on"],

@@ -44,10 +44,26 @@ def test_competing_species_come_to_rest_holds() -> None:
     of = setting(COMPETITION, "0 < c and c < 1/2")
     proof = Proof()
     assert proof.add(of.system.rule("m/map")) == ""
-    chain = next(contracting_box_rules(of, "m"))
-    assert proof.add_all(chain, (1, 2), print)
+    chain, searches = next(contracting_box_rules(of, "m"))
+    assert proof.add_all(chain, (1, 2), print, None, searches)
     assert [rule.name for rule in chain[-2:]] == ["m/attracts-1", "m/attracts"]
     assert dict(chain[-1].rows)["descent"] == "m/descends"
+
+
+def test_like_species_come_to_rest_by_distances_holds() -> None:
+    """For all rates: a step beyond the capacity takes back by what it does there."""
+    rows = [("over", "b c"), ("domain", "b > 1 and 0 < c and c < 1"), ("state", "x y")]
+    piece = "b*x/(1 + x + c*y), b*y/(1 + y + c*x)"
+    rule = MapRule("m", (*rows, ("space", "x > 0 and y > 0"), ("piece", piece)))
+    system = with_licences(of_rule(rule))
+    (fixed,) = (one for one in fixed_points(system) if "0" not in one.point.terms)
+    proof = Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    chain, searches = next(contracting_box_rules(setting_of(system, fixed, system.domain), "m"))
+    assert proof.add_all(chain, (1, 2), print, None, searches)
+    (function,) = (rule for rule in chain if rule.name == "m/lyapunov")
+    values = [text for key, text in function.rows if key == "value"]
+    assert values == ["(x_gap)/(1)", "(y_gap)/(1)", "(-x_gap)/(1)", "(-y_gap)/(1)"]
 
 
 def test_a_box_fails_without_weak_competition() -> None:
@@ -58,6 +74,7 @@ def test_rejects_a_bound_that_orbits_do_not_enter() -> None:
     of = setting(COMPETITION, "0 < c and c < 1/2")
     proof = Proof()
     assert proof.add(of.system.rule("m/map")) == ""
-    (descent,) = (one for one in next(contracting_box_rules(of, "m")) if one.name == "m/descends")
+    chain, _ = next(contracting_box_rules(of, "m"))
+    (descent,) = (one for one in chain if one.name == "m/descends")
     rows = tuple((key, "x < 1/2" if key == "stage" else text) for key, text in descent.rows)
     assert "falls-1" in proof.add(MapRule(descent.name, rows), (1,), 100_000)

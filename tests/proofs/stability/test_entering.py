@@ -7,9 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from juggleproof.proofs.stability.entering import boxes_of
+from juggleproof.proofs.stability.entering import boxes_of, spaces_entered
+from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
+from juggleproof.proofs.stability.points import fixed_points
+from juggleproof.proofs.stability.samples import with_licences
 from juggleproof.proofs.stability.search import search_stability
+from juggleproof.proofs.stability.settings import setting_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CLIPPED = "max(-1, min(1, a*x + b*y))"
@@ -57,3 +61,35 @@ def test_a_filter_that_saturates_comes_to_rest_wherever_the_linear_one_does_hold
 def test_rejects_a_filter_beyond_the_triangle() -> None:
     outcome = search_stability(planar(f"{CLIPPED}, x", "1/4 < a and a < 1 and 1 - a < b and b < 1"))
     assert outcome.verdict == "refuted"
+
+
+def rational(images: str, state: str, space: str, domain: str) -> Map:
+    rows = [("over", "a"), ("domain", domain), ("state", state), ("space", space)]
+    return with_licences(read_rows("rational", [*rows, ("piece", images)]))
+
+
+def setting_at(system: Map) -> Setting:
+    return setting_of(system, fixed_points(system)[0], system.domain)
+
+
+def test_a_closed_space_is_left_for_its_inside_variable_by_variable_holds() -> None:
+    system = rational("x/2 + a/(2*(1 + y)), y/2 + x/2", "x y", "x >= 0 and y >= 0", "a > 0")
+    inside = ["x > 0 and y >= 0", "y > 0 and x > 0"]
+    assert spaces_entered(setting_at(system), False) == inside
+
+
+def test_an_end_that_images_attain_is_not_left_holds() -> None:
+    system = rational("a*x/(1 + y), y/2 + x/2", "x y", "x >= 0 and y >= 0", "0 < a and a < 1")
+    assert spaces_entered(setting_at(system), False) == []
+
+
+def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:
+    system = rational("a + y/x, x", "x y", "x > 0 and y > 0", "a > 1")
+    assert spaces_entered(setting_at(system), True)[-1] == "y > a and x > a and x > 0 and y > 0"
+
+
+def test_the_part_that_orbits_enter_carries_the_proof_holds() -> None:
+    """A. M. Amleh, E. A. Grove, G. Ladas and D. A. Georgiou (1999), in the whole range."""
+    found = search_stability(rational("a + y/x, x", "x y", "x > 0 and y > 0", "a > 1"))
+    assert found.sentence == "(a + 1, a + 1) is stable and attracts every state"
+    assert [one.name for one in found.proof.rules][-1] == "rational/attracts"

@@ -55,3 +55,16 @@ def test_rejects_a_loss_that_is_too_large() -> None:
     rows = tuple((key, "value/2" if key == "loss" else text) for key, text in candidate.rows)
     wrong = MapRule(candidate.name, rows)
     assert "no proof of the premise falls" in proof.add(wrong, (1,), 100_000, searches=searches)
+
+
+def test_a_point_whose_coordinates_are_quotients_of_each_other_is_stable_holds() -> None:
+    leslie = of_rule(rule("2*y/(1 + y), s*x", "s", "1/2 < s and s < 1"))
+    assert search_stability(leslie).sentence.endswith("is stable and attracts every state")
+
+
+def test_what_a_bound_of_an_eliminated_parameter_says_of_the_point_is_known_holds() -> None:
+    stages = rule("b*y/(1 + y), x + s*y", "b s", "0 < s and s < 1 and b > 1 - s")
+    system = with_licences(of_rule(stages))
+    fixed = next(one for one in fixed_points(system) if "0" not in one.point.terms)
+    candidate, _ = next(ratio_rules(setting_of(system, fixed, system.domain), "m/lyapunov"))
+    assert ("have", "-x_point + y_point > 0") in candidate.rows
