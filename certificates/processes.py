@@ -33,7 +33,7 @@ def spread(
     Raises what the work on the first item in order raised, when the others are finished.
     """
     results: dict[int, Result] = {}
-    problems: dict[int, ClaimError] = {}
+    problems: dict[int, Exception] = {}
     futures = (
         {executor.submit(work, item): index for index, item in enumerate(items)} if executor else {}
     )
@@ -42,7 +42,7 @@ def spread(
             try:
                 results[futures[future]] = future.result()
                 done(futures[future], results[futures[future]])
-            except ClaimError as problem:
+            except Exception as problem:
                 problems[futures[future]] = problem
         for index, item in enumerate(items if executor is None else ()):
             results[index] = work(item)

@@ -4,6 +4,7 @@ main              what each command takes, and one line for what goes wrong
 outputs           files that commands write, and progress
 certify           `certify`: claims
 problems          `certify`: problems of SMT-LIB
+sine              `certify sine`: a rectangle of parameters
 check             `check`
 show              `list`, `errata` and `export`
 explain           `explain ID`
@@ -16,4 +17,5 @@ simulate          `simulate juggler`
 orbit_tables      the tables that it prints
 pictures          the pictures that it draws
 simulate_part     `simulate part`
+simulate_table    `simulate table`
 """

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.sine.stored import LOST as sine_lost
+from juggleproof.certificates.sine.stored import sine_line
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.reports.tree import LOST, theorem_line
@@ -35,4 +37,7 @@ def check(folder: Path | None) -> int:
     line = theorem_line(Store(where), {name: outcome for name, outcome, _ in results})
     if line:
         print(line)
-    return max(code, int(line.startswith(LOST)))
+    sine = "" if folder else sine_line()
+    if sine:
+        print(sine)
+    return max(code, int(line.startswith(LOST)), int(sine.startswith(sine_lost)))

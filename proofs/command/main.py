@@ -29,6 +29,13 @@ MODULES = {
     "simulate": "juggleproof.proofs.command.simulate",
     "bench": "juggleproof.proofs.command.bound",
 }
+SINE = "juggleproof.proofs.command.sine"  # what `certify sine` is
+SINE_OPTIONS = {
+    "alpha": "restitution",
+    "gamma": "peak acceleration of the table, in g",
+    "frequency": "of the table in Hz, with --amplitude instead of --gamma",
+    "amplitude": "of the table in mm, from its middle",
+}
 PROBLEMS = "juggleproof.proofs.command.problems"  # what `certify` is for scripts of SMT-LIB
 SUFFIX = ".smt2"
 FORMATS = "html, latex, pdf, markdown, json, badge or figures"
@@ -85,7 +92,8 @@ def build_parser() -> argparse.ArgumentParser:
         nargs="*",
         type=Path,
         metavar="FILE",
-        help="claims of your own (.py) or problems in SMT-LIB (.smt2) instead of the paper's",
+        help="claims of your own (.py) or problems in SMT-LIB (.smt2) instead of the paper's; or"
+        " the word sine: the table that moves as a sine, over --alpha and --gamma",
     )
     certify.add_argument(
         "--only", action="append", metavar="ID", help="only this claim (may be given several times)"
@@ -151,6 +159,14 @@ def build_parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="where reports go (default: juggleproof-report)",
     )
+
+    for option, what in SINE_OPTIONS.items():
+        certify.add_argument(f"--{option}", metavar="FROM:TO", help=f"for sine: {what}")
+    certify.add_argument(
+        "--executor", metavar="ADDRESS", help="for sine: a Dask cluster that shares the boxes"
+    )
+
+    certify.add_argument("--picture", type=Path, metavar="F", help="for sine: the boxes, as F.svg")
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
     check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
@@ -361,6 +377,11 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command in ("bound", "stability"):
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if parsed.command == "certify" and [str(path) for path in parsed.files] == ["sine"]:
+        return int(import_module(SINE).command(parsed))
+    for option in (*SINE_OPTIONS, "executor", "picture") if parsed.command == "certify" else ():
+        if getattr(parsed, option) is not None:
+            raise ClaimError(f"--{option}: for `certify sine` only; leave it out")
     if parsed.command == "certify" and are_scripts(parsed.files):
         return int(import_module(PROBLEMS).command(parsed))
     if parsed.command == "certify":  # to load what makes reports takes a second

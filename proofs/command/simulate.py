@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from importlib import import_module
 from pathlib import Path
 from typing import BinaryIO
 
@@ -82,22 +83,17 @@ def command(parsed: argparse.Namespace) -> int:
     cannot be carried out.
     """
     try:
-        return (
-            juggler(JugglerOptions(**vars(parsed))) if parsed.scene == "juggler" else _part(parsed)
-        )
+        if parsed.scene == "juggler":
+            return juggler(JugglerOptions(**vars(parsed)))
+        # what one scene needs, the other does not load
+        scene_of = import_module(f"juggleproof.proofs.command.simulate_{parsed.scene}")
+        return int(scene_of.command(parsed))
     except SceneError as problem:
         raise ClaimError(str(problem)) from None
     except KeyboardInterrupt:
         clear()
         print("juggleproof: interrupted; no file was written", file=sys.stderr)
         return 130
-
-
-def _part(parsed: argparse.Namespace) -> int:
-    # what one scene needs, the other does not load
-    from juggleproof.proofs.command.simulate_part import PartOptions, part
-
-    return part(PartOptions(**vars(parsed)))
 
 
 def juggler(options: JugglerOptions) -> int:

@@ -21,6 +21,38 @@ def add_simulate(commands: Commands) -> None:
     ).add_subparsers(dest="scene", required=True, metavar="SCENE")
     _add_juggler(scenes)
     add_part(scenes)
+    _add_table(scenes)
+
+
+def _add_table(scenes: Commands) -> None:
+    table = scenes.add_parser(
+        "table", help="a ball on a table that moves as a sine, or another wave (simulated)"
+    )
+    table.add_argument("--alpha", required=True, metavar="A", help="the restitution, below 1")
+    table.add_argument(
+        "--gamma", required=True, metavar="G", help="peak acceleration of the table, in gravity"
+    )
+    table.add_argument(
+        "--wave",
+        default="sine",
+        metavar="W",
+        help="sine, or weights of the harmonics such as 1,0,0.2 (default: sine)",
+    )
+    table.add_argument(
+        "--state",
+        action="append",
+        metavar="S",
+        help="phase=..,speed=.. of the impact that an orbit starts with (default: 0 and 0)",
+    )
+    table.add_argument(
+        "--periods", type=whole, default=12, metavar="N", help="of the table (default: 12)"
+    )
+    table.add_argument(
+        "--picture",
+        metavar="P",
+        help="orbit (ball and table over time) or basin (flights to the bounce, and ranks)",
+    )
+    table.add_argument("-o", "--output", type=Path, metavar="F", help="with --picture F.svg")
 
 
 def _add_juggler(scenes: Commands) -> None:

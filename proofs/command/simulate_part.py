@@ -71,6 +71,11 @@ class PartOptions(argparse.Namespace):
     output: Path | None
 
 
+def command(parsed: argparse.Namespace) -> int:
+    """Runs the scene of the part; returns the exit code."""
+    return part(PartOptions(**vars(parsed)))
+
+
 def part(options: PartOptions) -> int:
     """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
     interrupted.

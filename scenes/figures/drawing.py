@@ -19,6 +19,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, Transform, TransformedBbox
+from numpy.typing import NDArray
 
 from juggleproof.scenes.figures.arcs import Arc, Point
 from juggleproof.scenes.figures.look import INK, STYLE, Look
@@ -381,6 +382,21 @@ def polylines(lines: Sequence[Sequence[Point]]) -> Path:
     """Several lines as one path, each apart from the others."""
     codes = [code for line in lines for code in [Path.MOVETO, *[Path.LINETO] * (len(line) - 1)]]
     return Path([point for line in lines for point in line], codes)
+
+
+def raster(plane: Plane, colours: NDArray[np.uint8]) -> None:
+    """Fills the plane with an image, shape (rows from below, columns, 3 or 4)."""
+    width, height = (72 * float(side) for side in plane.figure.get_size_inches())
+    axes = plane.figure.add_axes(
+        (
+            plane.left / width,
+            plane.bottom / height,
+            plane.width / width,
+            plane.height / height,
+        )
+    )
+    axes.set_axis_off()
+    axes.imshow(colours, origin="lower", aspect="auto", interpolation="none", gid="raster")
 
 
 def ticks(values: Iterable[float]) -> dict[float, str]:

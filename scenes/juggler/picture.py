@@ -12,11 +12,10 @@ from math import ceil, floor, inf, log10
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.arcs import straight
-from juggleproof.scenes.figures.drawing import Plane, Sides, blank, style, svg, ticks
+from juggleproof.scenes.figures.drawing import Plane, Sides, blank, raster, style, svg, ticks
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
 from juggleproof.scenes.juggler.given import brief, formulas
@@ -97,21 +96,6 @@ def _legend(plane: Plane, entries: Sequence[tuple[str, str]]) -> None:
         y = top - LINE * (line + 0.5)
         own.dots([((right + 14) / own.width, y / own.height)], f"key-{line}", 8, "s", colour=colour)
         own.words((right + 24, y), text, ha="left", va="center_baseline", fontsize=9)
-
-
-def _raster(plane: Plane, colours: NDArray[np.uint8]) -> None:
-    """Fills the plane with an image, shape (rows from below, columns, 3 or 4)."""
-    width, height = (72 * float(side) for side in plane.figure.get_size_inches())
-    axes = plane.figure.add_axes(
-        (
-            plane.left / width,
-            plane.bottom / height,
-            plane.width / width,
-            plane.height / height,
-        )
-    )
-    axes.set_axis_off()
-    axes.imshow(colours, origin="lower", aspect="auto", interpolation="none", gid="raster")
 
 
 def name(word: Word) -> str:
@@ -254,7 +238,7 @@ def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
         [[255 - 0.75 * (255 - 255 * part) for part in to_rgb(one)] for one in colours]
     )
     tinted[UNDECIDED] = 0
-    _raster(plane, tinted.round().astype(np.uint8)[image])
+    raster(plane, tinted.round().astype(np.uint8)[image])
     plane.frame(ticks(spaced(*across)), ticks(spaced(*up)), *LABELS[units], 28)
     at = Fraction(scene.alpha)
     for word in found.words:
@@ -380,14 +364,14 @@ def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
         line = straight((third, up[0]), (third, up[1]))
         plane.line([line], "third", linewidth=0.7, linestyle=(0, (4, 3)))
         plane.text((third, up[1]), r"$\alpha = 1/3$", (-3, -7), ha="right", fontsize=9)
-    _raster(plane, image)
+    raster(plane, image)
     width, height = (72 * float(side) for side in plane.figure.get_size_inches())
     box = (plane.left / width, BOTTOM / height, plane.width / width, SHARES / height)
     below = Plane(plane.figure, box, across, (0, 1))
     order = {colour: place for place, (colour, _) in enumerate(keys)}
     ranks = np.array([order.get(colour, 0) for colour in colours])
     looks = np.array([_opaque(colour) for colour, _ in keys], np.uint8)
-    _raster(below, looks[np.sort(ranks[found.which], axis=1).T])
+    raster(below, looks[np.sort(ranks[found.which], axis=1).T])
     below.frame(numbers, {0: "0", 1: "1"}, r"$\alpha$", "share", 28)
     _legend(plane, [(colour, key.rpartition("  ")[0]) for colour, key in keys])
     return plane.figure

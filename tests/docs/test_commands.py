@@ -182,7 +182,8 @@ def arguments(command: str, page: Path, folder: Path) -> list[str]:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(block.text, encoding="utf-8")
     first, *rest = shlex.split(command)
-    paper = rest[:1] == ["certify"] and not (len(rest) > 1 and "." in rest[1])
+    own = len(rest) > 1 and ("." in rest[1] or rest[1] == "sine")
+    paper = rest[:1] == ["certify"] and not own
     if paper:  # what is judged here must not write into the store
         shutil.copytree(DEFAULT, folder / "store")
         rest += ["--store", "store"]

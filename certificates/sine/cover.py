@@ -1,0 +1,310 @@
+"""Covers a rectangle of parameters by boxes, each with a certificate; not believed.
+
+The rectangle, in alpha and Gamma, is cut into boxes in alpha and g, each of which is tried on a
+grid; where a box fails it is cut across its longer side, until it is too narrow.  The boxes of one
+round are independent: any executor may share them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor
+from fractions import Fraction
+from itertools import accumulate
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+from juggleproof.certificates.checker import Rejected, load
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.processes import spread
+from juggleproof.certificates.store import write_file
+
+from .checker import (
+    CERTIFICATES,
+    STATEMENTS,
+    Box,
+    Certificate,
+    Counterexample,
+    Rectangle,
+    check_line,
+    g_at,
+    meets,
+    outcome,
+    read_line,
+)
+from .flights import Interval
+from .search import find_certificate, line_of
+
+START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
+GRIDS = ((256, 16), (512, 32), (1024, 64), (2048, 64))  # columns, and rows of a unit of speed
+# which of them are tried, one after the other, for a box that is wider; then it is cut in halves
+TRIALS = (
+    (Fraction(1, 100), (1,)),
+    (Fraction(3, 1000), (0, 1)),
+    (Fraction(1, 1000), (2,)),
+    (Fraction(1, 4000), (3,)),
+)
+LAST = (0, 1, 2, 3)  # for narrower boxes, which are not cut
+SADDLE = 2048, 128  # the grid on which a saddle is looked for
+BUDGET = 20_000_000  # cells
+
+Proved = Certificate | Counterexample
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+
+class Piece(NamedTuple):
+    """A box of (alpha, g), and the grids on which it is still to be tried."""
+
+    box: Box
+    grids: tuple[int, ...]
+
+
+class Tried(NamedTuple):
+    """piece; line: its certificate, as the checker took it, or "" where there is none; cells: how
+    many the search looked at.
+    """
+
+    piece: Piece
+    line: str
+    cells: int
+
+
+class Covered(NamedTuple):
+    """outcome: certified, refuted or unknown; boxes: those with a certificate; left: those without
+    one; cells: how many the search looked at; rejected: lines of the folder that the checker
+    did not take, with the reason; counterexample: for refuted.
+    """
+
+    outcome: str
+    boxes: list[Box]
+    left: list[Box]
+    cells: int
+    rejected: list[str]
+    counterexample: Counterexample | None
+
+
+def cover(
+    rectangle: Rectangle,
+    folder: Path,
+    executor: Executor | None = None,
+    budget: int = BUDGET,
+    progress: Callable[[int, int], None] = lambda done, known: None,
+) -> Covered:
+    """Certifies the theorem on the rectangle as far as it can, or refutes it; keeps each box in the
+    folder as soon as it is certified, and goes on from those that are there.
+
+    budget: cells that the search may look at; progress: is told how many boxes are done, of how
+    many that are known.  Raises ClaimError, one line, where the folder cannot be used or the
+    executor fails.
+    """
+    proved, rejected = kept(folder, executor)
+    counterexample = find_counterexample(rectangle, list(proved.values()))
+    if counterexample is not None:
+        proved[line_of(counterexample)] = counterexample
+        write(folder, rectangle, proved)
+        return Covered("refuted", [], [], 0, rejected, counterexample)
+    pieces = [first_piece(box) for box in first_boxes(rectangle)]
+    left: list[Box] = []
+    cells = known = done = 0
+
+    def take(_: int, one: Tried) -> None:
+        nonlocal done
+        done += 1
+        progress(done, known)
+        if one.line:
+            proved[one.line] = read_line(one.line)
+            write(folder, rectangle, proved)
+
+    while pieces and outcome(rectangle, list(proved.values()))[0] != "certified":
+        pieces = [piece for piece in pieces if not within(piece.box, proved.values())]
+        affordable = [grid_cells(piece.grids[0]) for piece in pieces]
+        fits = sum(cells + total <= budget for total in accumulate(affordable))
+        left += [piece.box for piece in pieces[fits:]]
+        known += fits
+        tried = shared(try_piece, pieces[:fits], executor, take)
+        cells += sum(one.cells for one in tried)
+        failed = [one.piece for one in tried if not one.line]
+        pieces = []
+        for piece in failed:
+            then = next_pieces(rectangle, piece)
+            pieces += then
+            left += [] if then else [piece.box]
+    write(folder, rectangle, proved)
+    word, _ = outcome(rectangle, list(proved.values()))
+    boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
+    return Covered(word, boxes, sorted(left), cells, rejected, None)
+
+
+def shared(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    executor: Executor | None,
+    done: Callable[[int, Result], None] = lambda place, result: None,
+) -> list[Result]:
+    """The results of the work on the items, by the executor; ClaimError where that fails."""
+    try:
+        return spread(work, items, executor, done)
+    except ClaimError:
+        raise
+    except Exception as error:
+        if executor is None:
+            raise
+        why = f"{type(error).__name__}: {error}"[:100].partition("\n")[0]
+        raise ClaimError(
+            f"the executor failed ({why}); certified boxes are kept: run it again"
+        ) from None
+
+
+# ------------------------------------------------------------ files
+
+
+def kept(folder: Path, executor: Executor | None) -> tuple[dict[str, Proved], list[str]]:
+    """({line: what it proves}, what is wrong with others) of the certificates in a folder."""
+    path = folder / CERTIFICATES
+    if not path.exists():
+        return {}, []
+    try:
+        lines = load(str(path)).splitlines()
+    except Rejected as reason:
+        raise ClaimError(f"{path}: {reason}; name another --store") from None
+    checked = shared(check_line, lines, executor)
+    return (
+        {line: one for line, (one, _) in zip(lines, checked) if one is not None},
+        [
+            f"{path}, line {number}: {reason}"
+            for number, (one, reason) in enumerate(checked, 1)
+            if one is None
+        ],
+    )
+
+
+def write(folder: Path, rectangle: Rectangle, proved: dict[str, Proved]) -> None:
+    """Writes the certificates, by parameters, and the statement beside those that are there."""
+    path = folder / STATEMENTS
+    statements = {rectangle.text}
+    if path.exists():
+        statements.update(path.read_text(encoding="ascii").splitlines())
+    write_file(path, "".join(f"{line}\n" for line in sorted(statements)).encode())
+    lines = sorted(proved, key=lambda line: (box_of(proved[line]), line))
+    write_file(folder / CERTIFICATES, "".join(f"{line}\n" for line in lines).encode())
+
+
+def box_of(one: Proved) -> Box:
+    """The box of (alpha, g) of a certificate, or of a counterexample."""
+    if isinstance(one, Certificate):
+        return one.grid.alpha, one.grid.g
+    return (one.alpha, one.alpha), one.g
+
+
+# ------------------------------------------------------------ boxes
+
+
+def within(box: Box, proved: Iterable[Proved]) -> bool:
+    """Whether boxes that have a certificate cover a box."""
+    near = [
+        one for one in proved if all(a <= d and c <= b for (a, b), (c, d) in zip(box_of(one), box))
+    ]
+    return outcome(Rectangle("", box[0], "g", box[1]), near)[0] == "certified"
+
+
+def grid_cells(grid: int) -> int:
+    """About how many cells a grid has."""
+    columns, per_unit = GRIDS[grid]
+    return columns * per_unit * 4 // 3
+
+
+def first_piece(box: Box) -> Piece:
+    """The box, with all grids on which it is tried."""
+    return Piece(box, next((grids for least, grids in TRIALS if width_of(box) > least), LAST))
+
+
+def width_of(box: Box) -> Fraction:
+    """The longer side."""
+    return max(end - start for start, end in box)
+
+
+def try_piece(piece: Piece) -> Tried:
+    """Looks for a certificate of the theorem for a box, and has the checker read it."""
+    found = find_certificate(*piece.box, *GRIDS[piece.grids[0]])
+    line = line_of(found.certificate) if found.certificate else ""
+    return Tried(piece, line if line and check_line(line)[0] else "", found.cells)
+
+
+def next_pieces(rectangle: Rectangle, piece: Piece) -> list[Piece]:
+    """What is tried after a piece: its next grid, or its halves, or nothing where it is narrow."""
+    if len(piece.grids) > 1:
+        return [Piece(piece.box, piece.grids[1:])]
+    if width_of(piece.box) > TRIALS[-1][0]:
+        return [first_piece(half) for half in halves(rectangle, piece.box)]
+    return []
+
+
+def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:
+    """Bounds of g for an interval of alpha within the rectangle."""
+    low, high = rectangle.values
+    if rectangle.drive == "g":
+        return low, high
+    ends = g_at(alpha[0], low, up=False), g_at(alpha[1], high, up=True)
+    return (
+        Fraction(int(ends[0] * 10**6), 10**6), -(-ends[1] * 10**6 // 1) / Fraction(10**6)
+    )  # fmt: skip
+
+
+def cut(interval: Interval, width: Fraction) -> list[Interval]:
+    """The interval in the fewest equal parts no wider than this."""
+    low, high = interval
+    parts = max(1, -int(-(high - low) / width // 1))
+    ends = [low + (high - low) * n / parts for n in range(parts + 1)]
+    return list(zip(ends, ends[1:]))
+
+
+def first_boxes(rectangle: Rectangle) -> list[Box]:
+    """Boxes that cover the rectangle."""
+    return [
+        (alpha, g)
+        for alpha in cut(rectangle.alpha, START[0])
+        for g in cut(g_between(rectangle, alpha), START[1])
+    ]
+
+
+def halves(rectangle: Rectangle, box: Box) -> Iterator[Box]:
+    """A box cut across its longer side, but for what is outside the rectangle."""
+    alpha, g = box
+    if alpha[1] - alpha[0] > g[1] - g[0]:
+        parts = [(half, g) for half in cut(alpha, (alpha[1] - alpha[0]) / 2)]
+    else:
+        parts = [(alpha, half) for half in cut(g, (g[1] - g[0]) / 2)]
+    for one_alpha, one_g in parts:
+        low, high = g_between(rectangle, one_alpha)
+        low, high = max(low, one_g[0]), min(high, one_g[1])
+        if low < high:
+            yield one_alpha, (low, high)
+
+
+# ------------------------------------------------------------ refutations
+
+
+def find_counterexample(rectangle: Rectangle, proved: Sequence[Proved]) -> Counterexample | None:
+    """A pair of the rectangle where the checker refutes the theorem: one that is known, or one of
+    the corners.
+    """
+    known = [one for one in proved if isinstance(one, Counterexample)]
+    corners = [
+        Counterexample(why, alpha, g, *SADDLE)
+        for alpha in rectangle.alpha
+        for g in corner_values(rectangle, alpha)
+        for why in ("multiplier", "saddle")
+    ]
+    for one in known + corners:
+        if meets(one, rectangle) and check_line(line_of(one))[0]:
+            return one
+    return None
+
+
+def corner_values(rectangle: Rectangle, alpha: Fraction) -> list[Interval]:
+    """The least and the greatest g of the rectangle at this alpha, each between bounds."""
+    low, high = rectangle.values
+    if rectangle.drive == "g":
+        return [(low, low), (high, high)]
+    return [g_between(rectangle._replace(values=(end, end)), (alpha, alpha)) for end in (low, high)]

@@ -1,0 +1,125 @@
+"""`juggleproof simulate table`: a ball on a table that moves as a sine, as events or a picture."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from fractions import Fraction
+from itertools import takewhile
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.sine.flights import Interval
+from juggleproof.certificates.sine.search import find_certificate
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.extras import needed
+from juggleproof.proofs.reports.tables import draw
+from juggleproof.scenes.table.curves import birth, g_of
+from juggleproof.scenes.table.motion import Table, events
+
+NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,15})?|-?\d{1,9}/[1-9]\d{0,8}")
+MOST_EVENTS = 200  # shown
+GRID = 256, 16  # of the certificate beside a basin
+TOP = 21 / 16  # closing speeds of a basin without one
+CLOSE = Fraction(1, 10**6)  # half the width in g of the certificate
+
+
+class TableOptions(argparse.Namespace):
+    """What `juggleproof simulate table` takes."""
+
+    alpha: str
+    gamma: str
+    wave: str
+    state: list[str] | None
+    periods: int
+    picture: str | None
+    output: Path | None
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Follows the orbits, or draws them; returns the exit code."""
+    return table(TableOptions(**vars(parsed)))
+
+
+def table(options: TableOptions) -> int:
+    """Prints the events of each orbit, or draws a picture; 0.  Raises ClaimError or SceneError, one
+    line, for what cannot be carried out.
+    """
+    wave = (1.0,) if options.wave == "sine" else tuple(map(number, options.wave.split(",")))
+    under = Table(number(options.alpha), number(options.gamma), wave)
+    starts = [state(text) for text in options.state or ["phase=0,speed=0"]]
+    if options.picture is not None:
+        return _picture(options, under, starts)
+    if options.output is not None:
+        raise ClaimError("-o: is for --picture; leave it out")
+    for phase, speed in starts:
+        own = float(under.derivative(np.array(phase), 1))
+        seen = takewhile(
+            lambda one: one.time <= options.periods, events(under, phase, own + under.alpha * speed)
+        )
+        rows = [
+            (one.kind, f"{one.time:.6f}", f"{one.time % 1:.6f}", f"{one.speed:.6f}")
+            for one, _ in zip(seen, range(MOST_EVENTS))
+        ]
+        print(f"simulated, from an impact at phase {phase:g} with closing speed {speed:g}:")
+        draw(("event", "time", "phase", "closing speed"), rows, Console(highlight=False))
+    return 0
+
+
+def number(text: str) -> float:
+    """A finite number, as 0.05 or 1/20."""
+    if not NUMBER.fullmatch(text.strip()):
+        raise ClaimError(f"{text[:40]!r} is no number; write it as 0.05 or 1/20")
+    return float(Fraction(text.strip()))
+
+
+def state(text: str) -> tuple[float, float]:
+    """Phase and closing speed of an impact that is written phase=..,speed=.."""
+    match = re.fullmatch(r"phase=([^,]*),speed=([^,]*)", text)
+    if not match:
+        raise ClaimError(f"--state {text[:40]}: write it as phase=0.1,speed=0.5")
+    phase, speed = number(match[1]) % 1.0, number(match[2])
+    if speed < 0:
+        raise ClaimError(f"--state {text[:40]}: a closing speed is not below 0")
+    return phase, speed
+
+
+def _picture(options: TableOptions, under: Table, starts: list[tuple[float, float]]) -> int:
+    if options.picture not in ("orbit", "basin"):
+        raise ClaimError(f"--picture {options.picture}: draw orbit or basin")
+    if options.output is None:
+        raise ClaimError("--picture: needs -o F.svg")
+    if fault := fault_of(options.output):
+        raise ClaimError(f"-o {options.output}: {fault}; name another file")
+    pictures = needed("juggleproof.scenes.table.pictures", "picture")
+    if options.picture == "orbit":
+        write_file(options.output, pictures.orbit(under, starts, options.periods))
+    elif under.wave != (1.0,):
+        raise ClaimError("--picture basin: is for --wave sine")
+    else:
+        ranks = ranks_for(under)
+        top = TOP if ranks is None else len(ranks) / GRID[1]
+        write_file(options.output, pictures.basin(under, top, ranks))
+    print(f"wrote {options.output}")
+    return 0
+
+
+def ranks_for(under: Table) -> np.ndarray | None:
+    """The ranks of a certificate for the parameters, shape (rows, columns), or None where none is
+    found on a coarse grid, which says nothing.
+    """
+    if not under.gamma > birth(under.alpha) or not math.isfinite(under.gamma):
+        return None
+    alpha, g = Fraction(str(under.alpha)), g_of(under.alpha, under.gamma)
+    middle = Fraction(round(g * 10**9), 10**9)
+    between: Interval = (middle - CLOSE, middle + CLOSE)
+    found = find_certificate((alpha, alpha), between, *GRID).certificate
+    if found is None:
+        return None
+    cells = np.frombuffer(found.ranks, np.uint8).astype(np.int64)
+    return cells.reshape(GRID[0], found.grid.rows).T

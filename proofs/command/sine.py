@@ -1,0 +1,245 @@
+"""`juggleproof certify sine`: the table that moves as a sine, over a rectangle of parameters."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from fractions import Fraction
+from importlib import import_module
+from pathlib import Path
+from time import monotonic
+
+from juggleproof.certificates.checker import Work
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.processes import own_pool
+from juggleproof.certificates.sine.checker import (
+    Box,
+    Counterexample,
+    Rectangle,
+    check_saddle,
+    g_at,
+    read_statement,
+)
+from juggleproof.certificates.sine.cover import BUDGET, Covered, cover
+from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.extras import needed
+
+NAME = "sine"
+STORE = Path("sine.certificates")
+PAUSE = 3.0  # seconds between two lines of progress
+GRAVITY = Fraction("9.80665")
+SHOWN = 10  # boxes that are left
+NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
+
+
+class SineOptions(argparse.Namespace):
+    """What `juggleproof certify sine` takes; 0 and None are for the default."""
+
+    alpha: str | None
+    gamma: str | None
+    frequency: str | None
+    amplitude: str | None
+    jobs: int
+    budget: int
+    executor: str | None
+    store: Path | None
+    picture: Path | None
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Certifies or refutes the theorem on a rectangle; returns the exit code."""
+    return certify(SineOptions(**vars(parsed)))
+
+
+NOT_FOR_SINE = (
+    "only",
+    "accept",
+    "json",
+    "junit",
+    "markdown",
+    "timings",
+    "report",
+    "output",
+    "fresh",
+)
+
+
+def certify(options: SineOptions) -> int:
+    """Covers the rectangle by boxes and prints what is proved; 0 where all of it is certified, 1
+    where it is refuted or boxes are left.  Raises ClaimError, one line, for unusable input.
+    """
+    for option in NOT_FOR_SINE:
+        if getattr(options, option):
+            raise ClaimError(f"--{option}: not for sine; leave it out")
+    if options.picture is not None:
+        needed("matplotlib", "picture")
+        if fault := fault_of(options.picture):
+            raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
+    rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
+    low = rectangle.values[0]
+    if not g_at(rectangle.alpha[0], low, up=False):
+        raise ClaimError(
+            f"Gamma = {low}: below pi (1 - alpha)/(1 + alpha) at alpha = {rectangle.alpha[0]} no"
+            " bounce of one period exists; begin higher"
+        )
+    folder = options.store or STORE
+    with _executor(options) as executor:
+        covered = cover(rectangle, folder, executor, options.budget or BUDGET, _progress())
+    for line in covered.rejected:
+        print(f"rejected by the checker: {line}")
+    print(f"{covered.outcome}: {rectangle.text}")
+    if options.frequency:
+        print(
+            f"which holds all tables of {options.frequency} Hz with an amplitude of"
+            f" {options.amplitude} mm, under 9.80665 m/s^2"
+        )
+    for line in explained(covered):
+        print(line)
+    print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
+    if options.picture is not None:
+        drawn = picture_of(rectangle, covered)
+        write_file(options.picture, drawn)
+        print(f"wrote {options.picture}")
+    return int(covered.outcome != "certified")
+
+
+def drive_of(options: SineOptions) -> str | None:
+    """Gamma as FROM:TO, from --gamma, or from frequency and amplitude: 4 pi^2 f^2 A/g with
+    g = 9.80665 m/s^2, rounded outward to 1/10000.
+    """
+    pair = options.frequency, options.amplitude
+    if None not in pair and options.gamma is None:
+        hertz, metres = interval(str(pair[0]), "--frequency"), interval(str(pair[1]), "--amplitude")
+        turns = Fraction(PI2, ONE), Fraction(PI2 + 1, ONE)
+        low, high = (
+            (turn * f) ** 2 * a / 1000 / GRAVITY for turn, f, a in zip(turns, hertz, metres)
+        )
+        return f"{int(low * 10**4)}/10000:{-int(-high * 10**4 // 1)}/10000"
+    if pair != (None, None):
+        raise ClaimError("certify sine: --frequency and --amplitude go together, without --gamma")
+    return options.gamma
+
+
+def statement_of(alpha: str | None, gamma: str | None) -> str:
+    """The statement for alpha and Gamma between ends that are written A0:A1, or A.
+
+    >>> statement_of("0.04:0.06", "3.1")[-57:]
+    'for all alpha in [1/25, 3/50] and Gamma in [31/10, 31/10]'
+    """
+    if alpha is None or gamma is None:
+        raise ClaimError(
+            "certify sine: needs --alpha A0:A1, and --gamma G0:G1 or --frequency and --amplitude"
+        )
+    (a_low, a_high), (low, high) = interval(alpha, "--alpha"), interval(gamma, "--gamma")
+    if a_high >= 1:
+        raise ClaimError(f"--alpha {alpha}: restitution is at least 0 and below 1")
+    if not low:
+        raise ClaimError(f"--gamma {gamma}: a table at rest drives nothing; begin above 0")
+    return (
+        "the period-one bounce is stable and every motion tends to it for all"
+        f" alpha in [{a_low}, {a_high}] and Gamma in [{low}, {high}]"
+    )
+
+
+def interval(text: str, option: str) -> Interval:
+    """The ends of an interval, exactly."""
+    ends = text.split(":")
+    if len(ends) > 2 or not all(NUMBER.fullmatch(end) for end in ends):
+        raise ClaimError(f"{option} {text[:40]}: no interval; write it as 0.04:0.06, or 1/20")
+    low, high = Fraction(ends[0]), Fraction(ends[-1])
+    if low > high:
+        raise ClaimError(f"{option} {text}: begins above its end; write {ends[-1]}:{ends[0]}")
+    return low, high
+
+
+def picture_of(rectangle: Rectangle, covered: Covered) -> bytes:
+    """The boxes, with the curves between which the theorem may hold, as SVG."""
+    picture = needed("juggleproof.scenes.table.cover", "picture")
+    alpha, gamma = in_floats(rectangle.alpha), in_floats(rectangle.values)
+    certified, left = (
+        [(in_floats(one), in_floats(g)) for one, g in boxes]
+        for boxes in (covered.boxes, covered.left)
+    )
+    drawn: bytes = picture.cover(alpha, gamma, certified, left)
+    return drawn
+
+
+def in_floats(ends: Interval) -> tuple[float, float]:
+    """An interval, to be shown."""
+    return float(ends[0]), float(ends[1])
+
+
+def explained(covered: Covered) -> Iterator[str]:
+    """What there is beside the verdict, line by line."""
+    if covered.counterexample is not None:
+        yield why_refuted(covered.counterexample)
+        return
+    yield f"{covered.cells:,} cells were looked at; boxes with a certificate: {len(covered.boxes)}"
+    if covered.left:
+        yield f"boxes that are left: {len(covered.left)}"
+    for one in covered.left[:SHOWN]:
+        yield "  " + in_words(one)
+    if len(covered.left) > SHOWN:
+        yield f"  and {len(covered.left) - SHOWN} more"
+
+
+def in_words(box: Box) -> str:
+    """A box of alpha and g, in decimals."""
+    alpha, g = map(in_floats, box)
+    return f"alpha {alpha[0]:.6f} to {alpha[1]:.6f}, g {g[0]:.6f} to {g[1]:.6f}"
+
+
+def why_refuted(one: Counterexample) -> str:
+    """Why the theorem fails at a pair of parameters."""
+    at = f"at alpha = {one.alpha}, g = {float(one.g[0]):.6f}"
+    if one.refutes == "multiplier":
+        return f"{at} the bounce is unstable: one of its multipliers is below -1"
+    column, row = check_saddle(one, Work(MAX_STEPS))
+    return (
+        f"{at} a second orbit of period one exists: from a phase between {column}/{one.columns}"
+        f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands"
+        " there again one period later; the phase of the bounce is 0"
+    )
+
+
+def _progress() -> Callable[[int, int], None]:
+    due = monotonic() + PAUSE
+
+    def step(done: int, known: int) -> None:
+        nonlocal due
+        if monotonic() >= due:
+            due = monotonic() + PAUSE
+            print(f"{done} of {known} boxes tried", file=sys.stderr, flush=True)
+
+    return step
+
+
+@contextmanager
+def _executor(options: SineOptions) -> Iterator[Executor | None]:
+    """The executor that is asked for: a Dask cluster, processes of our own, or none for one job."""
+    if options.executor:
+        try:
+            distributed = import_module("distributed")
+        except ImportError:
+            raise ClaimError("--executor: needs the extra `peers`, for Dask") from None
+        try:
+            with distributed.Client(options.executor, timeout=10) as client:
+                yield client.get_executor()
+        except (OSError, ValueError, TypeError) as error:
+            raise ClaimError(
+                f"--executor {options.executor}: no Dask cluster answers ({type(error).__name__})"
+            ) from None
+        return
+    jobs = options.jobs or os.cpu_count() or 1
+    if jobs == 1:
+        yield None
+        return
+    with own_pool(jobs) as pool:
+        yield pool

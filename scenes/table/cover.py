@@ -1,0 +1,75 @@
+"""Which boxes of parameters are certified, in the plane of restitution and drive."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from juggleproof.scenes.figures.arcs import Arc
+from juggleproof.scenes.figures.drawing import Plane, Sides, style, svg
+from juggleproof.scenes.figures.look import KEPT, PLAIN, Look, R
+from juggleproof.scenes.table.curves import birth, doubling, gamma_of, grazing
+from juggleproof.scenes.table.plane import LETTERS, axes, joined, spaced
+
+Box = tuple[tuple[float, float], tuple[float, float]]  # of alpha, of g
+SIZE, RIGHT = (600.0, 340.0), 120.0  # points
+POINTS = 60  # of a curve
+CERTIFIED = Look(R.colour, "", tint=0.35)
+OPEN = Look(KEPT.colour, "", tint=0.6)
+CURVES: tuple[tuple[str, str, Callable[[float], float], tuple[float, ...]], ...] = (
+    ("birth", "birth of the bounce", birth, ()),
+    ("grazing", "a second orbit below", grazing, (6, 2)),
+    ("doubling", "the bounce unstable above", doubling, (1, 1.5)),
+)
+
+
+def cover(alpha: Sides, gamma: Sides, certified: Sequence[Box], left: Sequence[Box]) -> bytes:
+    """The rectangle that is asked for, the boxes that are certified and those that are left, and
+    the curves between which the theorem may hold, as SVG.
+    """
+    with style():
+        plane = _plane(alpha, gamma, len(certified), len(left))
+        for name, boxes, look in ("certified", certified, CERTIFIED), ("left", left, OPEN):
+            for number, box in enumerate(boxes):
+                outline = _outline(box)
+                plane.area(outline, f"{name}-{number}", look)
+                plane.line(outline, f"{name}-{number}-edge", look, linewidth=0.5)
+        for name, label, curve, dashes in CURVES:
+            _draw_curve(plane, name, label, curve, Look(PLAIN.colour, "", dashes))
+        (a, b), (c, d) = alpha, gamma
+        plane.line(joined([(a, c), (b, c), (b, d), (a, d), (a, c)]), "asked", linewidth=1.2)
+    plane.figure.set_facecolor("white")
+    return svg(plane.figure, "cover")
+
+
+def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
+    """The rectangle with a margin, which reaches the curves where they are not far."""
+    margin = max(0.01, 0.3 * (alpha[1] - alpha[0]))
+    across = max(0.0, alpha[0] - margin), min(0.999, alpha[1] + margin)
+    ends = [curve(end) for _, _, curve, _ in CURVES for end in alpha]
+    up = min(gamma[0], *ends) - 0.05, max(gamma[1], *ends) + 0.05
+    counts = f"{certified} boxes where every motion tends to the bounce of one period, certified"
+    counts += f"; {left} left" if left else ""
+    plane = axes(SIZE, RIGHT, across, up, ("A table that moves as a sine", counts))
+    plane.frame(spaced(across), spaced(up), r"restitution $\alpha$", r"drive $\Gamma$", 30)
+    return plane
+
+
+def _outline(box: Box) -> list[Arc]:
+    """The box in (alpha, g), drawn in (alpha, Gamma)."""
+    (low, high), g = box
+    along = [low + (high - low) * k / 4 for k in range(5)]
+    points = [(x, gamma_of(x, g[0])) for x in along]
+    points += [(x, gamma_of(x, g[1])) for x in reversed(along)]
+    return joined([*points, points[0]])
+
+
+def _draw_curve(
+    plane: Plane, name: str, label: str, curve: Callable[[float], float], look: Look
+) -> None:
+    """One of the curves, where it is within the plane, with its name at its end."""
+    low, high = plane.across
+    along = [low + (high - low) * k / POINTS for k in range(POINTS + 1)]
+    points = [(x, y) for x in along if plane.up[0] <= (y := curve(x)) <= plane.up[1]]
+    plane.line(joined(points), name, look, linewidth=1.0)
+    if points:
+        plane.text(points[-1], label, (5, 0), ha="left", va="center", fontsize=LETTERS)

@@ -1,0 +1,164 @@
+"""Pictures of a ball on a table that moves as a sine: over time; how long states take to the
+bounce of one period.  Simulated, but for the ranks of a certificate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan, pi
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.figures.drawing import Plane, raster, style, svg
+from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
+from juggleproof.scenes.table.curves import birth, g_of
+from juggleproof.scenes.table.motion import (
+    Floats,
+    Table,
+    bounce_phase,
+    events,
+    flights_to_bounce,
+)
+from juggleproof.scenes.table.plane import LETTERS, axes, joined, spaced
+
+BALLS = tuple(look.colour for look in (B1, KEPT, R, BAND))
+A_PERIOD = 64  # points of a curve in one period
+COLUMNS, ROWS = 160, 120  # of a raster
+NEAR, MOST = 0.01, 200  # what counts as at the bounce; flights, after which nothing is said
+DARK, LIGHT = np.array([8, 48, 107]), np.array([222, 235, 247])  # few flights, many
+NEVER = np.array([230, 159, 0])
+Start = tuple[float, float]  # phase, closing speed at the impact it begins with
+
+
+def orbit(table: Table, starts: Sequence[Start], periods: int) -> bytes:
+    """Table and balls over so many periods, as SVG; dots are impacts, and squares launches after a
+    rest.
+    """
+    if not 1 <= periods <= 60 or not 1 <= len(starts) <= len(BALLS):
+        raise SceneError(f"give from 1 to 60 periods, and from 1 to {len(BALLS)} starts")
+    times = np.arange(periods * A_PERIOD + 1) / A_PERIOD
+    heights = table.derivative(times, 0)
+    paths = [_path(table, start, periods) for start in starts]
+    top = 1.05 * max(float(heights.max()), *(float(path[:, 1].max()) for path, _ in paths))
+    low = 1.3 * float(heights.min())
+    with style():
+        title = f"Ball and table over {periods} periods: {_named(table)}"
+        note = "simulated; dots: impacts, squares: launches from rest; height in $gT^2$"
+        plane = axes((600, 280), 14, (0, float(periods)), (low, top), (title, note))
+        plane.frame(spaced((0, periods)), spaced((low, top)), r"$t\,/\,T$", "height", 30)
+        plane.line(joined([(float(t), float(h)) for t, h in zip(times, heights)]), "table")
+        for number, (path, marks) in enumerate(paths):
+            colour = BALLS[number]
+            points = [(float(t), float(h)) for t, h in path]
+            plane.line(joined(points), f"ball-{number}", edgecolor=colour, linewidth=1.0)
+            for kind, marker in ("impact", "o"), ("launch", "s"):
+                dots = [
+                    (at, float(table.derivative(np.array(at), 0)))
+                    for which, at in marks
+                    if which == kind
+                ]
+                if dots:
+                    plane.dots(dots, f"{kind}-{number}", 3.0, marker, colour=colour)
+    return _on_white(plane.figure, "orbit")
+
+
+def _path(
+    table: Table, start: Start, periods: int
+) -> tuple[NDArray[np.float64], list[tuple[str, float]]]:
+    """The heights of one ball, shape (n, 2), and what happens to it at which times."""
+    phase, speed = start
+    time, up = phase, float(table.derivative(np.array(phase), 1)) + table.alpha * speed
+    pieces: list[Floats] = []
+    marks: list[tuple[str, float]] = [("impact", phase)]
+    resting = False
+    for event in events(table, time, up):
+        stop = min(event.time, float(periods))
+        grid = np.linspace(time, stop, max(2, int((stop - time) * A_PERIOD) + 2))
+        ball = table.derivative(np.full_like(grid, time), 0) + up * (grid - time)
+        ball -= (grid - time) ** 2 / 2
+        if resting:
+            ball = table.derivative(grid, 0)
+        pieces.append(np.column_stack((grid, ball)))
+        if event.time >= periods or len(marks) > 5000:
+            break
+        marks.append((event.kind, event.time))
+        time, resting = event.time, event.kind == "rest"
+        up = float(table.derivative(np.array(time), 1)) + table.alpha * event.speed
+    return np.concatenate(pieces), marks
+
+
+def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
+    """After how many flights states come to the bounce, by phase and closing speed up to `top`;
+    beside it the ranks of a certificate, shape (rows, columns), if there are any.
+    """
+    phase, speed = np.meshgrid(
+        (np.arange(COLUMNS) + 0.5) / COLUMNS, (np.arange(ROWS) + 0.5) / ROWS * top
+    )
+    counts = flights_to_bounce(table, phase.ravel(), speed.ravel(), NEAR, MOST)
+    there = (counts >= 0) & (counts <= MOST)
+    longest = int(counts[there].max()) if there.any() else 1
+    bounce = bounce_phase(table.alpha, table.gamma)
+    saddle = bounce - atan(g_of(table.alpha, table.gamma) * 2 * pi / birth(table.alpha)) / pi
+    marked = (bounce, "o"), (saddle % 1.0, "x")
+    size = (640.0, 320.0) if ranks is not None else (400.0, 320.0)
+    with style():
+        shares = (
+            f"{there.mean():.1%} of {counts.size:,} states come to it, in {longest} flights at most"
+        )
+        title = f"Flights to the bounce of one period: {_named(table)}"
+        right = 350.0 if ranks is not None else 14.0
+        plane = axes(size, right, (0, 1), (0, top), (title, f"simulated; dark: few; {shares}"))
+        plane.frame(spaced((0, 1)), spaced((0, top)), "phase", "closing speed", 30)
+        raster(plane, _shaded(counts.reshape(ROWS, COLUMNS), there.reshape(ROWS, COLUMNS)))
+        planes = [plane]
+        if ranks is not None:
+            planes.append(_ranks(plane, ranks, top, bounce))
+        for one in planes:
+            for place, marker in marked:
+                one.dots(
+                    [(place, 1 / (1 + table.alpha))], f"orbit-{marker}-{id_of(one, planes)}", 5,
+                    marker, colour=KEPT.colour,
+                )  # fmt: skip
+    return _on_white(plane.figure, "basin")
+
+
+def id_of(plane: Plane, planes: Sequence[Plane]) -> int:
+    """The place of a plane among those of the figure."""
+    return next(number for number, one in enumerate(planes) if one is plane)
+
+
+def _ranks(beside: Plane, ranks: NDArray[np.int64], top: float, bounce: float) -> Plane:
+    """The ranks of a certificate in a plane of their own, moved to the phase of the wave."""
+    figure = beside.figure
+    width, height = (72 * float(side) for side in figure.get_size_inches())
+    left = beside.left + beside.width + 60
+    box = (left / width, beside.bottom / height, beside.width / width, beside.height / height)
+    plane = Plane(figure, box, (0, 1), (0, top))
+    plane.frame(spaced((0, 1)), spaced((0, top)), "phase", "", 30)
+    rows, columns = ranks.shape
+    moved = np.roll(ranks, round(bounce * columns), axis=1)
+    raster(plane, _shaded(moved, moved < 255))
+    words = f"certified: ranks of {rows * columns:,} cells, {int(ranks.max())} at most"
+    plane.words((left, height - 26), words, ha="left", fontsize=LETTERS)
+    return plane
+
+
+def _shaded(counts: NDArray[np.int64], there: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """Dark for few, light for many, another colour for what does not arrive."""
+    most = max(1, int(counts[there].max())) if there.any() else 1
+    part = np.clip(counts / most, 0, 1)[..., None]
+    colours = np.where(there[..., None], DARK + (LIGHT - DARK) * part, NEVER)
+    return colours.astype(np.uint8)
+
+
+def _named(table: Table) -> str:
+    harmonics = "" if table.wave == (1.0,) else ", wave " + ",".join(f"{w:g}" for w in table.wave)
+    return rf"$\alpha = ${table.alpha:g}, $\Gamma = ${table.gamma:g}{harmonics}"
+
+
+def _on_white(figure: Figure, slug: str) -> bytes:
+    figure.set_facecolor("white")
+    return svg(figure, slug)

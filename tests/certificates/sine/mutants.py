@@ -1,0 +1,160 @@
+"""Mutants of the second checker, from `mutants.txt`: one formula or guard changed in its text; and
+what notices them.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from flint import arb
+
+from juggleproof.certificates.checker import Work
+from juggleproof.certificates.sine import checker, flights
+from tests.certificates.sine import bounds, states, worlds
+from tests.certificates.sine.lines import ACCEPTED, REJECTED
+from tests.certificates.sine.states import STEPS, Code, box
+
+FILES = {"flights": flights, "checker": checker}
+TEXTS = {name: Path(str(one.__file__)).read_text() for name, one in FILES.items()}
+SHARED = {  # what the checker imports from the flights
+    name
+    for name, value in vars(flights).items()
+    if name.isidentifier() and name[0] != "_" and vars(checker).get(name) is value
+}
+
+
+class Mutant(NamedTuple):
+    """`new` in place of the one `old` in the text of a file."""
+
+    file: str
+    name: str
+    old: str
+    new: str
+
+
+def read() -> tuple[list[Mutant], list[Mutant]]:
+    """The mutants that matter, and those of terms that are redundant."""
+    found: tuple[list[Mutant], list[Mutant]] = ([], [])
+    redundant = False
+    for block in Path(__file__).with_suffix(".txt").read_text().rstrip("\n").split("\n\n"):
+        if block.startswith("# "):
+            redundant = "redundant" in block.lower()
+            continue
+        head, old, new = block.split("\n")
+        file, name = head.split(": ")
+        change = [one[2:].replace("\\n", "\n") for one in (old, new)]
+        found[redundant].append(Mutant(file, name, *change))
+    return found
+
+
+def compiled(file: str, text: str) -> dict[str, Any]:
+    other = types.ModuleType(FILES[file].__name__)
+    other.__package__ = FILES[file].__package__
+    exec(compile(text, f"{file}.py", "exec"), vars(other))
+    return vars(other)
+
+
+def mutated(mutant: Mutant) -> Code:
+    """The second checker with a mutant in it; the one that is imported stays as it is."""
+    times = TEXTS[mutant.file].count(mutant.old)
+    if times != 1:
+        raise ValueError(f"{mutant.name}: {mutant.old!r} stands {times} times")
+    texts = TEXTS | {mutant.file: TEXTS[mutant.file].replace(mutant.old, mutant.new)}
+    below, above = compiled("flights", texts["flights"]), compiled("checker", texts["checker"])
+    above.update({name: below[name] for name in SHARED})
+    return Code(types.SimpleNamespace(**below), types.SimpleNamespace(**above))
+
+
+# ------------------------------------------------------------ what notices a mutant
+
+Test = Callable[[Code], object]  # true where the code is right
+
+
+def rejects(make: Callable[[], str], why: str) -> Test:
+    def test(code: Code) -> bool:
+        proves, reason = code.checker.check_line(make())
+        return proves is None and reason.startswith(why)
+
+    return test
+
+
+def accepts(make: Callable[[], str]) -> Test:
+    return lambda code: code.checker.check_line(make())[0]
+
+
+NO_STATEMENTS = (
+    "alpha in [1/20, 1/21] and g in [1/5, 1/5]",
+    "alpha in [1/20, 1] and g in [1/5, 1/5]",
+    "alpha in [1/20, 1/20] and g in [1/5, 1/6]",
+    "alpha in [1/20, 1/20] and g in [0, 1/5]",
+    "alpha in [1/20, 1/20] and drive in [1, 2]",
+    "alpha in [0.05, 0.05] and Gamma in [3, 3]",
+    "alpha in [-1/20, 1/20] and Gamma in [3, 3]",
+    "alpha in [1/20, 1/20] and Gamma in [3, 3] or so",
+)
+
+
+def in_order(code: Code) -> bool:
+    """Small things of their own: what a test of its own name says beside this file."""
+    why = worlds.reason
+    statements = [f"{worlds.BEGINS} {one}" for one in NO_STATEMENTS]
+    read = [why(code, code.checker.read_statement, one) for one in statements]
+    long = code.flights.Flights(box("1/2", "1/5", 16, 1, 64), Work(STEPS))
+    short = code.flights.Flights(box("1/2", "1/5", 64, 1024, 8), Work(STEPS))
+    poor = code.flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(10))
+    columns = [why(code, list, short.column(i)) for i in range(64)]
+    square = code.flights.sines(64)
+    low = code.checker.Rectangle("", *worlds.BELOW_BIRTH)
+    birth = why(code, code.checker.check_cover, low, [], Work(STEPS))
+    return (
+        all(read)
+        and why(code, code.flights.Walk(long, 0).landings, 63, 0) == "a flight without an end"
+        and "a cell without a landing" in columns
+        and bool(why(code, list, poor.column(0)))
+        and all(abs((arb(2 * j) / 64).sin_pi() * states.UNIT - square[j]) < 1 for j in range(64))
+        and bool(arb(code.flights.PI2) < 2 * arb.pi() * states.UNIT)
+        and code.flights.SLACK >= 200
+        and birth.startswith("Gamma is below the birth of the bounce")
+    )
+
+
+def tests_of_rules() -> Iterator[Test]:
+    for _, make, why in REJECTED:
+        yield rejects(make, why)
+    for world in worlds.WORLDS:
+        yield lambda code, world=world: worlds.seen(code, world) == world.reason
+    for _, rectangle, rows, why in worlds.COVERS:
+        yield lambda code, all=(rectangle, rows, why): worlds.covered(code, *all[:2]) == all[2]
+    for _, text, expected in worlds.MEETS:
+        yield lambda code, both=(text, expected): worlds.refuted(code, both[0]) == both[1]
+    yield lambda code: not worlds.wrong_strips(code)
+    yield lambda code: not worlds.wrong_drives(code, 30, seed=1)
+    yield lambda code: not worlds.wrong_traps(code, 20, seed=1)[1]
+    yield in_order
+    for _, make in ACCEPTED:
+        yield accepts(make)
+
+
+def tests_of_flights() -> Iterator[Test]:
+    for grid in bounds.GRIDS:
+        yield lambda code, grid=grid: not bounds.broken_bounds(code, grid, 40, seed=3)
+    yield lambda code: not bounds.missed_zeros(code, 300, seed=3)[1]
+    for grid in states.GRIDS:
+        yield lambda code, grid=grid: not states.escapes(code, grid, 60, seed=6)[1]
+
+
+def noticed(mutant: Mutant) -> bool:
+    """Whether any test says that the mutant is wrong, or it ends in an error."""
+    tests = [*tests_of_rules()]
+    if mutant.file == "flights":
+        tests = [*tests_of_flights(), *tests]
+    try:
+        code = mutated(mutant)
+        return not all(test(code) for test in tests)
+    except Exception as error:
+        if isinstance(error, ValueError) and "stands" in str(error):
+            raise
+        return True

@@ -1,0 +1,218 @@
+"""Covering a rectangle by boxes, and the command `certify sine`."""
+
+from __future__ import annotations
+
+from concurrent.futures import BrokenExecutor, Executor, Future
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.sine import cover as covering
+from juggleproof.certificates.sine.checker import (
+    Certificate,
+    Rectangle,
+    check_folder,
+    check_line,
+    outcome,
+    read_line,
+    read_statement,
+)
+from juggleproof.certificates.sine.cover import cover, first_boxes, halves, kept
+from juggleproof.certificates.sine.search import find_certificate, line_of
+from juggleproof.certificates.sine.stored import STORE, sine_line
+from juggleproof.proofs.command.main import run
+
+WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
+
+
+def rectangle(alpha: str, gamma: str) -> Rectangle:
+    """alpha and Gamma between ends that are written A, B."""
+    return read_statement(f"{WORDS} [{alpha}] and Gamma in [{gamma}]")
+
+
+def at(alpha: str, gamma: str) -> Rectangle:
+    return rectangle(f"{alpha}, {alpha}", f"{gamma}, {gamma}")
+
+
+def test_the_stored_certificate_holds_and_is_what_the_search_finds(tmp_path: Path) -> None:
+    assert sine_line() == (
+        f"sine: certified by the second checker: {WORDS}"
+        " [49/1000, 51/1000] and Gamma in [619/200, 621/200]"
+    )
+    cover(rectangle("49/1000, 51/1000", "619/200, 621/200"), tmp_path)
+    for name in ("statements.txt", "certificates.jsonl"):
+        assert (tmp_path / name).read_bytes() == (STORE / name).read_bytes()
+
+
+def test_a_point_is_certified_and_found_again_in_the_folder(tmp_path: Path) -> None:
+    found = cover(at("1/20", "31/10"), tmp_path)
+    assert (found.outcome, len(found.boxes), found.left, found.cells) == ("certified", 1, [], 5376)
+    again = cover(at("1/20", "31/10"), tmp_path)
+    assert (again.outcome, again.cells) == ("certified", 0)
+    assert [word for _, word, _ in check_folder(str(tmp_path))] == ["certified"]
+
+
+@pytest.mark.parametrize(
+    ("alpha", "gamma", "why"),
+    [
+        ("1/20", "14381/5000", "saddle"),
+        ("1/20", "57/20", "saddle"),
+        ("1/5", "49/20", "saddle"),
+        ("3/10", "3757/2000", "saddle"),
+        ("1/20", "7/2", "multiplier"),
+        ("1/4", "28/10", "multiplier"),
+    ],
+)
+def test_where_the_theorem_fails_it_is_refuted(
+    alpha: str, gamma: str, why: str, tmp_path: Path
+) -> None:
+    found = cover(at(alpha, gamma), tmp_path)
+    assert found.outcome == "refuted" and found.counterexample is not None
+    assert found.counterexample.refutes == why
+    assert [word for _, word, _ in check_folder(str(tmp_path))] == ["refuted"]
+    # nor does a larger rectangle with this pair in it become certified by it
+    (proved,) = kept(tmp_path, None)[0].values()
+    assert outcome(rectangle("0, 1/2", "11/10, 4"), [proved])[0] == "refuted"
+    assert outcome(at("1/20", "31/10"), [proved])[0] == "unknown"
+
+
+@pytest.mark.parametrize("g", ["7/100", "39/500", "11/40"])
+def test_no_certificate_is_found_where_the_theorem_fails(g: str) -> None:
+    pair = (Fraction(1, 20), Fraction(1, 20)), (Fraction(g), Fraction(g))
+    assert find_certificate(*pair, 256, 16).certificate is None
+
+
+def test_boxes_cover_and_their_halves_do(tmp_path: Path) -> None:
+    whole = rectangle("1/25, 3/50", "149/50, 79/25")
+    boxes = first_boxes(whole)
+    names = [name_of(box) for box in boxes]
+    assert outcome(whole, names)[0] == "certified"
+    assert outcome(whole, names[1:])[0] == outcome(whole, names[:-1])[0] == "unknown"
+    for box in boxes:
+        others = [name_of(one) for one in boxes if one != box]
+        assert outcome(whole, others)[0] == "unknown"
+        assert outcome(whole, others + [name_of(one) for one in halves(whole, box)])[0] == (
+            "certified"
+        )
+
+
+def name_of(box: covering.Box) -> Certificate:
+    """A certificate of which only the box counts: that it proves the box is not asked here."""
+    stored = read_line((STORE / "certificates.jsonl").read_text().rstrip("\n"))
+    assert isinstance(stored, Certificate)
+    return stored._replace(grid=stored.grid._replace(alpha=box[0], g=box[1]))
+
+
+def test_a_budget_leaves_boxes_and_a_second_run_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = rectangle("499/10000, 501/10000", "309/100, 311/100")
+    monkeypatch.setattr(covering, "START", (Fraction(1, 200), Fraction(1, 200)))
+    assert len(first_boxes(whole)) == 2
+    part = cover(whole, tmp_path, budget=8_000)
+    assert (part.outcome, len(part.boxes), len(part.left)) == ("unknown", 1, 1)
+    rest = cover(whole, tmp_path, budget=8_000)
+    assert (rest.outcome, len(rest.boxes), rest.left) == ("certified", 2, [])
+
+
+class Dying(Executor):
+    """An executor whose processes die at the second box."""
+
+    def __init__(self) -> None:
+        self.asked = 0
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        self.asked += 1
+        future: Future[Any] = Future()
+        if self.asked == 2:
+            future.set_exception(BrokenExecutor("gone"))
+        else:
+            future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def test_boxes_are_kept_where_an_executor_dies(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = rectangle("499/10000, 501/10000", "309/100, 311/100")
+    monkeypatch.setattr(covering, "START", (Fraction(1, 200), Fraction(1, 200)))
+    with pytest.raises(ClaimError, match=r"^the executor failed \(BrokenExecutor: gone\)"):
+        cover(whole, tmp_path, Dying())
+    assert len(kept(tmp_path, None)[0]) == 1
+
+
+def test_rejects_a_line_of_the_folder_that_proves_nothing(tmp_path: Path) -> None:
+    found = find_certificate(
+        (Fraction(1, 20), Fraction(1, 20)), (Fraction(197, 1000), Fraction(197, 1000)), 256, 16
+    )
+    assert found.certificate is not None
+    wider = found.certificate.grid._replace(alpha=(Fraction(1, 25), Fraction(3, 50)))
+    forged = line_of(found.certificate._replace(grid=wider))
+    assert check_line(forged)[0] is None and read_line(forged)
+    (tmp_path / "certificates.jsonl").write_text(f"{forged}\n")
+    done = cover(at("1/20", "31/10"), tmp_path)
+    assert done.outcome == "certified" and len(done.rejected) == 1
+    assert forged not in (tmp_path / "certificates.jsonl").read_text()
+
+
+# -------------------------------------------------------------------------------------------------
+# The command
+
+
+def test_the_command_says_what_is_proved(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = ["--alpha", "0.05", "--gamma", "3.1", "--jobs", "1", "--store", str(tmp_path)]
+    assert run(["certify", "sine", *options]) == 0
+    assert capsys.readouterr().out.splitlines()[:2] == [
+        f"certified: {WORDS} [1/20, 1/20] and Gamma in [31/10, 31/10]",
+        "5,376 cells were looked at; boxes with a certificate: 1",
+    ]
+    options[3] = "3.5"
+    assert run(["certify", "sine", *options]) == 1
+    assert capsys.readouterr().out.splitlines()[:2] == [
+        f"refuted: {WORDS} [1/20, 1/20] and Gamma in [7/2, 7/2]",
+        "at alpha = 1/20, g = 0.325034 the bounce is unstable: one of its multipliers is below -1",
+    ]
+
+
+def test_frequency_and_amplitude_give_the_drive(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = ["--alpha", "0.05", "--jobs", "1", "--store", str(tmp_path)]
+    # 4 pi^2 25^2 0.001232/9.80665 = 3.09977..
+    assert run(["certify", "sine", *options, "--frequency", "25", "--amplitude", "1.232"]) == 0
+    assert capsys.readouterr().out.splitlines()[:2] == [
+        f"certified: {WORDS} [1/20, 1/20] and Gamma in [30997/10000, 15499/5000]",
+        "which holds all tables of 25 Hz with an amplitude of 1.232 mm, under 9.80665 m/s^2",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ([], "needs --alpha A0:A1, and --gamma G0:G1"),
+        (["--alpha", "0.05"], "needs --alpha A0:A1, and --gamma G0:G1"),
+        (["--alpha", "0.05", "--frequency", "30"], "--frequency and --amplitude go together"),
+        (["--alpha", "0.05", "--amplitude", "1", "--gamma", "3"], "go together, without --gamma"),
+        (["--alpha", "1", "--gamma", "3"], "--alpha 1: restitution is at least 0 and below 1"),
+        (["--alpha", "-1/10", "--gamma", "3"], "--alpha -1/10: no interval"),
+        (["--alpha", "0.06:0.04", "--gamma", "3"], "begins above its end; write 0.04:0.06"),
+        (["--alpha", "0.05", "--gamma", "3.2:3.1"], "begins above its end; write 3.1:3.2"),
+        (["--alpha", "0.05", "--gamma", "2.8"], "Gamma = 14/5: below pi (1 - alpha)/(1 + alpha)"),
+        (["--alpha", "0.05", "--gamma", "0"], "--gamma 0: a table at rest drives nothing"),
+        (["--alpha", "nan", "--gamma", "3"], "--alpha nan: no interval"),
+        (["--alpha", "1:2:3", "--gamma", "3"], "--alpha 1:2:3: no interval"),
+        (["--alpha", "0.05", "--gamma", "3.1", "--only", "eq-6"], "--only: not for sine"),
+        (["mine.py", "--alpha", "0.05"], "--alpha: for `certify sine` only"),
+    ],
+)
+def test_rejects_what_is_no_rectangle(
+    options: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["certify", "sine", *options]) == 2
+    error = capsys.readouterr().err
+    assert message in error and error.count("\n") == 1
