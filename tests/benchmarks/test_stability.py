@@ -27,7 +27,7 @@ COMPILED = ("lozi", "skew-tent") if ALL else ("skew-tent",)
 def test_the_page_has_every_example_and_most_are_proved_holds() -> None:
     assert [path.stem for path in EXAMPLES] == list(OUTCOMES) and len(EXAMPLES) >= 12
     heads = [outcome.partition(":")[0] for outcome in OUTCOMES.values()]
-    assert set(heads) == {"proved", "refuted", "unknown"}
+    assert {"proved", "refuted"} <= set(heads) <= {"proved", "refuted", "unknown"}
     assert heads.count("proved") > len(heads) // 2
 
 
