@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import ast
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+
+import pytest
 
 from tests.house.graph import PACKAGES, ROOT, tree_of
 
@@ -50,3 +53,14 @@ def test_tests_import_each_other_by_their_names_holds() -> None:
                 assert place.with_suffix(".py").is_file() or place.is_dir(), (
                     f"{path}: {node.module}"
                 )
+
+
+def test_no_other_folder_is_committed_at_the_root() -> None:
+    listed = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if listed.returncode:
+        pytest.skip("no repository")
+    folders = {line.split("/")[0] for line in listed.stdout.splitlines() if "/" in line}
+    others = {"juggleproof", "src", "tests", "docs", "examples", ".ci", ".github"}
+    assert folders == {*PACKAGES, *others}

@@ -9,9 +9,9 @@ In reading order, each importing those before it only:
 - `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `envelopes`: functions of one variable, by fractional linear involutions.
-- `two_sided`: functions of one variable, a distance on each side of the point.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `ratios`: greatest weighted ratios, with weights that depend on the parameters.
+- `two_sided`: functions of one variable, a distance on each side of the point.
 - `contracting_boxes`: boxes that the map takes into smaller ones, and how orbits enter them.
 - `chetaev`: functions that grow, quadratic or linear in a cone.
 """
