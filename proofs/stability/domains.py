@@ -104,7 +104,9 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
         term = without_root(term, parameters)
         if term is None or not term.free_symbols:
             continue
-        above, below = sympy.fraction(sympy.together(term))
+        above, below = sympy.fraction(sympy.cancel(sympy.together(term)))
+        if above == 0:
+            continue  # it fails for all parameters, and narrows nothing
         sign = 1
         parts: list[Expr] = []
         for poly, power in [*sympy.factor_list(above)[1], *sympy.factor_list(below)[1]]:

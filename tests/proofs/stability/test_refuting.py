@@ -39,6 +39,11 @@ SETTLED = {  # name: (text, first line)
         BALL.format("t + v"),
         "refuted  line: (0, 0) does not attract (0, 1/2), which is a fixed point",
     ),
+    "plane-of-two-rates": (  # a multiplier is 1 for all parameters
+        "over a b\ndomain 0 < a and a < 1 and 0 < b and b < 1\nstate x y\n"
+        "piece (1 - a)*x + a*y, (1 - b)*y + b*x",
+        "refuted  plane-of-two-rates: (0, 0) does not attract (1/2, 1/2), which is a fixed point",
+    ),
     "no-line": (BALL.format("t/2 + v"), f"proved   no-line: (0, 0) {STABLE}"),
     "rotation": (
         "state x y\npiece 1 - y + abs(x), x",
