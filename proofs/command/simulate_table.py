@@ -13,8 +13,9 @@ import numpy as np
 from rich.console import Console
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.sine.checker import check_line
 from juggleproof.certificates.sine.flights import Interval
-from juggleproof.certificates.sine.search import find_certificate
+from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of
 from juggleproof.proofs.extras import needed
@@ -119,7 +120,7 @@ def ranks_for(under: Table) -> np.ndarray | None:
     middle = Fraction(round(g * 10**9), 10**9)
     between: Interval = (middle - CLOSE, middle + CLOSE)
     found = find_certificate((alpha, alpha), between, *GRID).certificate
-    if found is None:
-        return None
+    if found is None or check_line(line_of(found))[0] is None:
+        return None  # only what the checker takes is called certified
     cells = np.frombuffer(found.ranks, np.uint8).astype(np.int64)
     return cells.reshape(GRID[0], found.grid.rows).T

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.proofs.command import simulate_table
 from juggleproof.proofs.command.main import run
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.table.motion import (
@@ -103,6 +104,16 @@ def test_the_command_tells_events_and_draws_the_same_twice(
             assert run([*given_, "--picture", kind, "-o", str(picture)]) == 0
         one, other = (picture.read_bytes() for picture in pictures)
         assert one == other and one.startswith(b"<?xml") and len(one) < 100_000
+
+
+def test_ranks_that_the_checker_does_not_take_are_not_shown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shown = simulate_table.ranks_for(Table(0.05, 3.1))
+    assert shown is not None and shown.shape == (21, 256) and shown.min() == 0
+    monkeypatch.setattr(simulate_table, "check_line", lambda line: (None, "refused"))
+    assert simulate_table.ranks_for(Table(0.05, 3.1)) is None
+    assert simulate_table.ranks_for(Table(0.05, 2.5)) is None  # below the birth
 
 
 @pytest.mark.parametrize(
