@@ -187,7 +187,8 @@ def arguments(command: str, page: Path, folder: Path) -> list[str]:
     if paper:  # what is judged here must not write into the store
         shutil.copytree(DEFAULT, folder / "store")
         rest += ["--store", "store"]
-    return [first, *rest]
+    # what is written goes to the folder of the test, wherever the command runs
+    return [first, *(str(folder / word) if word == "DIR" else word for word in rest)]
 
 
 @pytest.mark.parametrize(
