@@ -147,6 +147,13 @@ def facts_kept(
     return kept
 
 
+def with_facts(state: State, kept: Sequence[int]) -> State:
+    """The state with these facts only."""
+    few = State(state.context)
+    few.facts = [state.facts[k] for k in kept]
+    return few
+
+
 def is_end(problem: Problem, number: int, ring: Ring) -> bool:
     """Whether a fact bounds one variable of the state by terms in the parameters, of which products
     with V alone are used.
@@ -183,9 +190,7 @@ def leaf(
     most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers."""
-    few = State(state.context)
-    few.facts = [state.facts[k] for k in kept]
-    problem = Problem(few, ring, True)
+    problem = Problem(with_facts(state, kept), ring, True)
     roots = [problem.source.scaling.lower(ring.read(state.context.polynomial(s))) for s in squares]
     roots = [problem.reduction.reduce(root)[1] for root in roots]
     if problem.contradiction is not None:

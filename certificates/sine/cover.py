@@ -245,10 +245,8 @@ def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:
     low, high = rectangle.values
     if rectangle.drive == "g":
         return low, high
-    ends = g_at(alpha[0], low, up=False), g_at(alpha[1], high, up=True)
-    return (
-        Fraction(int(ends[0] * 10**6), 10**6), -(-ends[1] * 10**6 // 1) / Fraction(10**6)
-    )  # fmt: skip
+    low, high = g_at(alpha[0], low, up=False), g_at(alpha[1], high, up=True)
+    return Fraction(int(low * 10**6), 10**6), Fraction(-int(-high * 10**6 // 1), 10**6)
 
 
 def cut(interval: Interval, width: Fraction) -> list[Interval]:

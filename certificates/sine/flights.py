@@ -190,6 +190,12 @@ class Flights:
             self.S_low.append(middle - radius - SLACK)
             self.S_high.append(middle + radius + SLACK)
 
+    def times_k(self, middle: int, radius: int) -> tuple[int, int]:
+        """The ends of k times what is within this radius of the middle."""
+        low, high = middle - radius, middle + radius
+        low = low * (self.k_low if low >= 0 else self.k_high) >> BITS
+        return low, (high * (self.k_high if high >= 0 else self.k_low) >> BITS) + 1
+
     def column(self, i: int) -> Iterator[list[Landing]]:
         """The landings of each row of column i, from row 0."""
         first = i
@@ -251,9 +257,7 @@ class Walk:
         lag_high = (self.lag_high * (high if self.lag_high >= 0 else low) >> BITS) + 1
         moves = (flights.turn * high >> BITS) + SLACK
         by_c = (sin[j] - sin[q]) * ONE // PI2 + (cos[j] * n >> shift)
-        c_low, c_high = by_c - moves, by_c + moves
-        c_low = c_low * (flights.k_low if c_low >= 0 else flights.k_high) >> BITS
-        c_high = (c_high * (flights.k_high if c_high >= 0 else flights.k_low) >> BITS) + 1
+        c_low, c_high = flights.times_k(by_c, moves)
         by_g = abs((cos[j] - cos[q]) * ONE // PI2 - (sin[j] * n >> shift)) + moves
         speed = ONE // (2 * flights.per_unit)
         radius = (flights.alpha_high * high >> BITS) * speed + by_g * flights.g_half
@@ -271,9 +275,7 @@ class Walk:
         value = (p - j) * flights.half + flights.velocity[q] - flights.velocity[j]
         moves = flights.turn * (2 if p & 1 else 1) + SLACK
         by_c = flights.cos[j] - flights.cos[q]
-        c_low, c_high = by_c - moves, by_c + moves
-        c_low = c_low * (flights.k_low if c_low >= 0 else flights.k_high) >> BITS
-        c_high = (c_high * (flights.k_high if c_high >= 0 else flights.k_low) >> BITS) + 1
+        c_low, c_high = flights.times_k(by_c, moves)
         by_g = abs(flights.sin[j] - flights.sin[q]) + moves
         radius = self.lag * flights.half + by_g * flights.g_half
         radius += flights.alpha_high * (ONE // (2 * flights.per_unit))

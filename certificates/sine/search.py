@@ -27,13 +27,10 @@ from .flights import (
 )
 
 WEIGHTS = [Fraction(n, 16) for n in range(8, 65)]
-GRIDS = ((256, 16), (512, 32), (1024, 32), (2048, 64), (4096, 128))
 
 
 class Found(NamedTuple):
-    """certificate: None where none was found, for the reason; cells: how many were looked at;
-    steps: the longest way to the trap, in flights.
-    """
+    """certificate: None where none was found, for the reason; cells: how many were looked at."""
 
     certificate: Certificate | None
     reason: str
@@ -63,14 +60,16 @@ def find_certificate(alpha: Interval, g: Interval, columns: int, per_unit: int) 
 
 def find_strip(alpha: Interval, g: Interval, columns: int, per_unit: int) -> tuple[Grid, Flights]:
     """The fewest rows whose top is that of an absorbing strip, and the flights below it."""
+    grid = Grid(alpha, g, columns, per_unit, per_unit)
+    trial = Flights(grid, Work(MAX_STEPS))
     for rows in range(per_unit, 3 * per_unit):
-        grid = Grid(alpha, g, columns, per_unit, rows)
-        flights = Flights(grid, Work(MAX_STEPS))
+        trial.rows = rows  # of which its tables know nothing
         try:
-            absorbing_strip(flights)
+            absorbing_strip(trial)
         except Refused:
             continue
-        return grid, flights
+        grid = grid._replace(rows=rows)
+        return grid, Flights(grid, Work(MAX_STEPS))
     raise Refused("no absorbing strip")
 
 

@@ -15,8 +15,8 @@ def sine_line() -> str:
 
     Raises Refused or Rejected, one line, where the store cannot be read.
     """
-    for name, word, why in check_folder(str(STORE)):
+    results = check_folder(str(STORE))
+    for name, word, why in results:
         if word != "certified":
             return f"{LOST}; {name}: {word}" + (f": {why}" if why else "")
-    texts = (STORE / "statements.txt").read_text(encoding="ascii").splitlines()
-    return f"sine: certified by the second checker: {'; '.join(texts)}"
+    return f"sine: certified by the second checker: {'; '.join(name for name, *_ in results)}"

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
-from time import monotonic
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
@@ -17,7 +16,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.sine.stored import LOST, sine_line
 from juggleproof.certificates.store import DEFAULT, write_file
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command.outputs import asked_of, refuse_unwritable
+from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
@@ -149,18 +148,11 @@ def _progress(console: Console, total: int) -> Iterator[Progress]:
         yield step
 
 
-PAUSE = 3.0  # seconds between two lines of progress
-
-
 def _lines_of_progress(total: int) -> Progress:
-    judged, due = 0, monotonic() + PAUSE
+    judged, tell = count(1), now_and_then()
 
     def step(claim: Claim, judgement: Judgement) -> None:
-        nonlocal judged, due
-        judged += 1
-        if monotonic() >= due:
-            due = monotonic() + PAUSE
-            print(f"{judged} of {total} claims judged", file=sys.stderr, flush=True)
+        tell(f"{next(judged)} of {total} claims judged")
 
     return step
 

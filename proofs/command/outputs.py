@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from time import monotonic
 from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
@@ -114,6 +115,22 @@ def progress() -> Callable[[int, int], None] | None:
             print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
 
     return show
+
+
+PAUSE = 3.0  # seconds between two lines of progress
+
+
+def now_and_then() -> Callable[[str], None]:
+    """Writes a line of progress to standard error, unless one was written a moment ago."""
+    due = monotonic() + PAUSE
+
+    def tell(line: str) -> None:
+        nonlocal due
+        if monotonic() >= due:
+            due = monotonic() + PAUSE
+            print(line, file=sys.stderr, flush=True)
+
+    return tell
 
 
 @contextmanager

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import re
 from fractions import Fraction
 from itertools import takewhile
 from pathlib import Path
@@ -19,11 +18,11 @@ from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of
 from juggleproof.proofs.extras import needed
-from juggleproof.proofs.reports.tables import draw
+from juggleproof.proofs.reports.tables import components, draw, exact
 from juggleproof.scenes.table.curves import birth, g_of
 from juggleproof.scenes.table.motion import Table, events
 
-NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,15})?|-?\d{1,9}/[1-9]\d{0,8}")
+LARGE = 10**9
 MOST_EVENTS = 200  # shown
 GRID = 256, 16  # of the certificate beside a basin
 TOP = 21 / 16  # closing speeds of a basin without one
@@ -51,8 +50,12 @@ def table(options: TableOptions) -> int:
     """Prints the events of each orbit, or draws a picture; 0.  Raises ClaimError or SceneError, one
     line, for what cannot be carried out.
     """
-    wave = (1.0,) if options.wave == "sine" else tuple(map(number, options.wave.split(",")))
-    under = Table(number(options.alpha), number(options.gamma), wave)
+    wave = (
+        (1.0,)
+        if options.wave == "sine"
+        else tuple(number(one, "--wave") for one in options.wave.split(","))
+    )
+    under = Table(number(options.alpha, "--alpha"), number(options.gamma, "--gamma"), wave)
     starts = [state(text) for text in options.state or ["phase=0,speed=0"]]
     if options.picture is not None:
         return _picture(options, under, starts)
@@ -72,22 +75,26 @@ def table(options: TableOptions) -> int:
     return 0
 
 
-def number(text: str) -> float:
-    """A finite number, as 0.05 or 1/20."""
-    if not NUMBER.fullmatch(text.strip()):
-        raise ClaimError(f"{text[:40]!r} is no number; write it as 0.05 or 1/20")
-    return float(Fraction(text.strip()))
+def number(text: str, name: str) -> float:
+    """A number as it is written, such as 0.05 or 1/20, to be simulated with."""
+    return in_floats(exact(text, name), name)
+
+
+def in_floats(exactly: Fraction, name: str) -> float:
+    """The number, to be simulated with."""
+    if abs(exactly) >= LARGE:
+        raise ClaimError(f"{name} is too large to be simulated; give less than {LARGE}")
+    return float(exactly)
 
 
 def state(text: str) -> tuple[float, float]:
     """Phase and closing speed of an impact that is written phase=..,speed=.."""
-    match = re.fullmatch(r"phase=([^,]*),speed=([^,]*)", text)
-    if not match:
+    given = components(text, ("phase", "speed"), "phase=..,speed=..")
+    if len(given) < 2:
         raise ClaimError(f"--state {text[:40]}: write it as phase=0.1,speed=0.5")
-    phase, speed = number(match[1]) % 1.0, number(match[2])
-    if speed < 0:
+    if given["speed"] < 0:
         raise ClaimError(f"--state {text[:40]}: a closing speed is not below 0")
-    return phase, speed
+    return float(given["phase"] % 1), in_floats(given["speed"], "speed")
 
 
 def _picture(options: TableOptions, under: Table, starts: list[tuple[float, float]]) -> int:

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
-from time import monotonic
 
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
@@ -26,17 +23,16 @@ from juggleproof.certificates.sine.checker import (
     read_statement,
 )
 from juggleproof.certificates.sine.cover import BUDGET, Covered, cover
-from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval
+from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval, Refused
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.command.outputs import fault_of, now_and_then
 from juggleproof.proofs.extras import needed
+from juggleproof.proofs.reports.tables import exact
 
 NAME = "sine"
 STORE = Path("sine.certificates")
-PAUSE = 3.0  # seconds between two lines of progress
 GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
-NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
 
 
 class SineOptions(argparse.Namespace):
@@ -82,16 +78,25 @@ def certify(options: SineOptions) -> int:
         needed("matplotlib", "picture")
         if fault := fault_of(options.picture):
             raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
-    rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
+    try:
+        rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
+    except Refused as reason:  # numbers longer than a statement takes
+        raise ClaimError(f"certify sine: {reason}; choose shorter numbers") from None
     low = rectangle.values[0]
     if not g_at(rectangle.alpha[0], low, up=False):
         raise ClaimError(
             f"Gamma = {low}: below pi (1 - alpha)/(1 + alpha) at alpha = {rectangle.alpha[0]} no"
             " bounce of one period exists; begin higher"
         )
-    folder = options.store or STORE
+    folder, tell = options.store or STORE, now_and_then()
     with _executor(options) as executor:
-        covered = cover(rectangle, folder, executor, options.budget or BUDGET, _progress())
+        covered = cover(
+            rectangle,
+            folder,
+            executor,
+            options.budget or BUDGET,
+            lambda done, known: tell(f"{done} of {known} boxes tried"),
+        )
     for line in covered.rejected:
         print(f"rejected by the checker: {line}")
     print(f"{covered.outcome}: {rectangle.text}")
@@ -150,12 +155,17 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
 
 def interval(text: str, option: str) -> Interval:
     """The ends of an interval, exactly."""
-    ends = text.split(":")
-    if len(ends) > 2 or not all(NUMBER.fullmatch(end) for end in ends):
+    try:
+        ends = [exact(end, option) for end in text.split(":")]
+    except ClaimError:
+        ends = []
+    if not 0 < len(ends) < 3 or min(ends) < 0:
         raise ClaimError(f"{option} {text[:40]}: no interval; write it as 0.04:0.06, or 1/20")
-    low, high = Fraction(ends[0]), Fraction(ends[-1])
+    low, high = ends[0], ends[-1]
     if low > high:
-        raise ClaimError(f"{option} {text}: begins above its end; write {ends[-1]}:{ends[0]}")
+        raise ClaimError(
+            f"{option} {text}: begins above its end; write {':'.join(text.split(':')[::-1])}"
+        )
     return low, high
 
 
@@ -207,18 +217,6 @@ def why_refuted(one: Counterexample) -> str:
         f" and {column + 1}/{one.columns}, with the closing speed 1/(1 + alpha), the ball lands"
         " there again one period later; the phase of the bounce is 0"
     )
-
-
-def _progress() -> Callable[[int, int], None]:
-    due = monotonic() + PAUSE
-
-    def step(done: int, known: int) -> None:
-        nonlocal due
-        if monotonic() >= due:
-            due = monotonic() + PAUSE
-            print(f"{done} of {known} boxes tried", file=sys.stderr, flush=True)
-
-    return step
 
 
 @contextmanager

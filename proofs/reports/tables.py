@@ -87,9 +87,11 @@ def whole(text: str) -> int:
     return int(text)
 
 
-def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
+def components(
+    text: str, names: Sequence[str], form: str = "x=..,w=.. or beta=..,v=.."
+) -> dict[str, Fraction]:
     """The numbers of a text such as x=1000,w=-41, each of these names at most once; raises
-    ClaimError for another name, or one that stands twice.
+    ClaimError, which says of which form it is to be, for another name, or one that stands twice.
 
     >>> components("x=1/2,w=-3", ("x", "w", "r"))
     {'x': Fraction(1, 2), 'w': Fraction(-3, 1)}
@@ -100,8 +102,7 @@ def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
         if not equals or name not in names:
             units = ",r=..,g=.." if "r" in names else ""
             raise ClaimError(
-                f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or"
-                f" beta=..,v=..{units}"
+                f"{part.strip()[:40]!r} is no component of a state; write {form}{units}"
             )
         if name in given:
             raise ClaimError(f"{name} is given twice; give each component of the state once")

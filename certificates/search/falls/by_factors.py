@@ -20,7 +20,12 @@ from juggleproof.certificates.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.certificates.nodes import Node, Proof
-from juggleproof.certificates.search.by_products import facts_kept, independent, renumbered
+from juggleproof.certificates.search.by_products import (
+    facts_kept,
+    independent,
+    renumbered,
+    with_facts,
+)
 from juggleproof.certificates.search.closing import sign_node
 from juggleproof.certificates.search.psatz.facts import Factors
 from juggleproof.certificates.search.psatz.lifting import lift, powers_of
@@ -78,13 +83,6 @@ def proof_by_factors(
     node = sign_node(sign, nodes)
     proof: Proof | None = None if node is None else ("proof", [], node)
     return proof if proof is not None and proves(premise, proof, known) else None
-
-
-def with_facts(state: State, kept: Sequence[int]) -> State:
-    """The state with these facts only."""
-    few = State(state.context)
-    few.facts = [state.facts[k] for k in kept]
-    return few
 
 
 @dataclass(frozen=True)
