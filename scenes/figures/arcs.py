@@ -224,6 +224,11 @@ def straight(start: Place, stop: Place) -> Arc:
     return Arc((float(a), float(c - a), 0.0), (float(b), float(d - b), 0.0), 0.0, 1.0)
 
 
+def joined(points: Sequence[Place]) -> list[Arc]:
+    """The segments from each point to the next."""
+    return [straight(a, b) for a, b in zip(points, points[1:])]
+
+
 @cache
 def _affine(strikes: bool) -> tuple[Quadratic, Quadratic]:
     """f1 or f2 at the setting: for each entry its coefficient of the height, that of the speed, and

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
-from math import atan2, cos, degrees, hypot, pi, sin
+from math import atan2, ceil, cos, degrees, floor, hypot, log10, pi, sin
 from typing import Any, ParamSpec, TypeAlias
 
 import numpy as np
@@ -397,6 +397,23 @@ def raster(plane: Plane, colours: NDArray[np.uint8]) -> None:
     )
     axes.set_axis_off()
     axes.imshow(colours, origin="lower", aspect="auto", interpolation="none", gid="raster")
+
+
+def spaced(low: float, high: float) -> list[float]:
+    """Round numbers within these ends, three to eight of them.
+
+    >>> spaced(0, 40), spaced(-0.2, 0.9)
+    ([0.0, 10.0, 20.0, 30.0, 40.0], [-0.2, 0.0, 0.2, 0.4, 0.6, 0.8])
+    """
+    power = floor(log10(high - low)) - 1
+    step = (
+        next(part for part in (1, 2, 5, 10, 20) if (high - low) / (part * 10.0**power) <= 7)
+        * 10.0**power
+    )
+    return [
+        round(k * step, max(0, -power))
+        for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)
+    ]
 
 
 def ticks(values: Iterable[float]) -> dict[float, str]:

@@ -7,15 +7,24 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import ceil, floor, inf, log10
+from math import inf
 
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.arcs import straight
-from juggleproof.scenes.figures.drawing import Plane, Sides, blank, raster, style, svg, ticks
+from juggleproof.scenes.figures.arcs import joined, straight
+from juggleproof.scenes.figures.drawing import (
+    Plane,
+    Sides,
+    blank,
+    raster,
+    spaced,
+    style,
+    svg,
+    ticks,
+)
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
 from juggleproof.scenes.juggler.given import brief, formulas
@@ -34,23 +43,6 @@ OF_FLIGHT = tuple(look.colour for look in (B1, B2, R, BAND, LOSS, KEPT))
 BEYOND, UNEQUAL = GAIN.colour, ("#7A4FA3", "#8C6239", "#B8B8FF")
 OTHERS, NOT_KNOWN = "#9A9A9A", "#000000"
 TOP, LEFT, BOTTOM, LINE = 40.0, 44.0, 40.0, 15.0  # in points
-
-
-def spaced(low: float, high: float) -> list[float]:
-    """Round numbers within these ends, three to eight of them.
-
-    >>> spaced(0, 40), spaced(-0.2, 0.9)
-    ([0.0, 10.0, 20.0, 30.0, 40.0], [-0.2, 0.0, 0.2, 0.4, 0.6, 0.8])
-    """
-    power = floor(log10(high - low)) - 1
-    step = (
-        next(part for part in (1, 2, 5, 10, 20) if (high - low) / (part * 10.0**power) <= 7)
-        * 10.0**power
-    )
-    return [
-        round(k * step, max(0, -power))
-        for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)
-    ]
 
 
 def _plane(
@@ -180,7 +172,7 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
             (float(time) * unit[0], float(value) * unit[1]) for time, value in zip(times, values)
         ]
         plane.line(
-            [straight(a, b) for a, b in zip(points, points[1:])],
+            joined(points),
             slug,
             edgecolor=colour,
             linewidth=1.2,

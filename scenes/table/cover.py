@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from juggleproof.scenes.figures.arcs import Arc
-from juggleproof.scenes.figures.drawing import Plane, Sides, style, svg
+from juggleproof.scenes.figures.arcs import Arc, joined
+from juggleproof.scenes.figures.drawing import Plane, Sides, spaced, style, ticks
 from juggleproof.scenes.figures.look import KEPT, PLAIN, Look, R
 from juggleproof.scenes.table.curves import birth, doubling, gamma_of, grazing
-from juggleproof.scenes.table.plane import LETTERS, axes, joined, spaced
+from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 
 Box = tuple[tuple[float, float], tuple[float, float]]  # of alpha, of g
 SIZE, RIGHT = (600.0, 340.0), 120.0  # points
@@ -37,8 +37,7 @@ def cover(alpha: Sides, gamma: Sides, certified: Sequence[Box], left: Sequence[B
             _draw_curve(plane, name, label, curve, Look(PLAIN.colour, "", dashes))
         (a, b), (c, d) = alpha, gamma
         plane.line(joined([(a, c), (b, c), (b, d), (a, d), (a, c)]), "asked", linewidth=1.2)
-    plane.figure.set_facecolor("white")
-    return svg(plane.figure, "cover")
+    return on_white(plane.figure, "cover")
 
 
 def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
@@ -50,7 +49,9 @@ def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
     counts = f"{certified} boxes where every motion tends to the bounce of one period, certified"
     counts += f"; {left} left" if left else ""
     plane = axes(SIZE, RIGHT, across, up, ("A table that moves as a sine", counts))
-    plane.frame(spaced(across), spaced(up), r"restitution $\alpha$", r"drive $\Gamma$", 30)
+    plane.frame(
+        ticks(spaced(*across)), ticks(spaced(*up)), r"restitution $\alpha$", r"drive $\Gamma$", 30
+    )
     return plane
 
 
@@ -72,4 +73,6 @@ def _draw_curve(
     points = [(x, y) for x in along if plane.up[0] <= (y := curve(x)) <= plane.up[1]]
     plane.line(joined(points), name, look, linewidth=1.0)
     if points:
-        plane.text(points[-1], label, (5, 0), ha="left", va="center", fontsize=LETTERS)
+        leaves = points[-1][0] < high  # by the lower side, where the axis is
+        side = "bottom" if leaves else "center"
+        plane.text(points[-1], label, (5, 0), ha="left", va=side, fontsize=LETTERS)

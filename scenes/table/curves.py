@@ -46,12 +46,19 @@ def gamma_of(alpha: float, g: float) -> float:
     return sqrt(birth(alpha) ** 2 + (2 * pi * g) ** 2)
 
 
+def second_orbit(alpha: float, gamma: float) -> float:
+    """The phase, from that of the bounce on, of the second solution of the equations of a bounce of
+    one period.
+    """
+    return 1 - atan(2 * pi * g_of(alpha, gamma) / birth(alpha)) / pi
+
+
 def clearance(alpha: float, gamma: float) -> float:
     """The least height above the table of a ball in flight that starts as the second solution of
     the equations of a bounce of one period: below 0 where the table is in its way.
     """
     c, g = birth(alpha) / (2 * pi), g_of(alpha, gamma)
-    start = 1 - atan(g / c) / pi
+    start = second_orbit(alpha, gamma)
     time = np.arange(1, STEPS) / STEPS
 
     def height(x: np.ndarray) -> np.ndarray:

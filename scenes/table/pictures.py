@@ -5,16 +5,15 @@ bounce of one period.  Simulated, but for the ranks of a certificate.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan, pi
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import Plane, raster, style, svg
+from juggleproof.scenes.figures.arcs import joined
+from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, ticks
 from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
-from juggleproof.scenes.table.curves import birth, g_of
+from juggleproof.scenes.table.curves import second_orbit
 from juggleproof.scenes.table.motion import (
     Floats,
     Table,
@@ -22,7 +21,7 @@ from juggleproof.scenes.table.motion import (
     events,
     flights_to_bounce,
 )
-from juggleproof.scenes.table.plane import LETTERS, axes, joined, spaced
+from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 
 BALLS = tuple(look.colour for look in (B1, KEPT, R, BAND))
 A_PERIOD = 64  # points of a curve in one period
@@ -48,7 +47,7 @@ def orbit(table: Table, starts: Sequence[Start], periods: int) -> bytes:
         title = f"Ball and table over {periods} periods: {_named(table)}"
         note = "simulated; dots: impacts, squares: launches from rest; height in $gT^2$"
         plane = axes((600, 280), 14, (0, float(periods)), (low, top), (title, note))
-        plane.frame(spaced((0, periods)), spaced((low, top)), r"$t\,/\,T$", "height", 30)
+        plane.frame(ticks(spaced(0, periods)), ticks(spaced(low, top)), r"$t\,/\,T$", "height", 30)
         plane.line(joined([(float(t), float(h)) for t, h in zip(times, heights)]), "table")
         for number, (path, marks) in enumerate(paths):
             colour = BALLS[number]
@@ -62,7 +61,7 @@ def orbit(table: Table, starts: Sequence[Start], periods: int) -> bytes:
                 ]
                 if dots:
                     plane.dots(dots, f"{kind}-{number}", 3.0, marker, colour=colour)
-    return _on_white(plane.figure, "orbit")
+    return on_white(plane.figure, "orbit")
 
 
 def _path(
@@ -101,8 +100,7 @@ def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
     there = (counts >= 0) & (counts <= MOST)
     longest = int(counts[there].max()) if there.any() else 1
     bounce = bounce_phase(table.alpha, table.gamma)
-    saddle = bounce - atan(g_of(table.alpha, table.gamma) * 2 * pi / birth(table.alpha)) / pi
-    marked = (bounce, "o"), (saddle % 1.0, "x")
+    marked = (bounce, "o"), ((bounce + second_orbit(table.alpha, table.gamma)) % 1.0, "x")
     size = (640.0, 320.0) if ranks is not None else (400.0, 320.0)
     with style():
         shares = (
@@ -111,23 +109,16 @@ def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
         title = f"Flights to the bounce of one period: {_named(table)}"
         right = 350.0 if ranks is not None else 14.0
         plane = axes(size, right, (0, 1), (0, top), (title, f"simulated; dark: few; {shares}"))
-        plane.frame(spaced((0, 1)), spaced((0, top)), "phase", "closing speed", 30)
+        plane.frame(ticks(spaced(0, 1)), ticks(spaced(0, top)), "phase", "closing speed", 30)
         raster(plane, _shaded(counts.reshape(ROWS, COLUMNS), there.reshape(ROWS, COLUMNS)))
         planes = [plane]
         if ranks is not None:
             planes.append(_ranks(plane, ranks, top, bounce))
-        for one in planes:
+        for number, one in enumerate(planes):
             for place, marker in marked:
-                one.dots(
-                    [(place, 1 / (1 + table.alpha))], f"orbit-{marker}-{id_of(one, planes)}", 5,
-                    marker, colour=KEPT.colour,
-                )  # fmt: skip
-    return _on_white(plane.figure, "basin")
-
-
-def id_of(plane: Plane, planes: Sequence[Plane]) -> int:
-    """The place of a plane among those of the figure."""
-    return next(number for number, one in enumerate(planes) if one is plane)
+                at = place, 1 / (1 + table.alpha)
+                one.dots([at], f"orbit-{marker}-{number}", 5, marker, colour=KEPT.colour)
+    return on_white(plane.figure, "basin")
 
 
 def _ranks(beside: Plane, ranks: NDArray[np.int64], top: float, bounce: float) -> Plane:
@@ -137,7 +128,7 @@ def _ranks(beside: Plane, ranks: NDArray[np.int64], top: float, bounce: float) -
     left = beside.left + beside.width + 60
     box = (left / width, beside.bottom / height, beside.width / width, beside.height / height)
     plane = Plane(figure, box, (0, 1), (0, top))
-    plane.frame(spaced((0, 1)), spaced((0, top)), "phase", "", 30)
+    plane.frame(ticks(spaced(0, 1)), ticks(spaced(0, top)), "phase", "", 30)
     rows, columns = ranks.shape
     moved = np.roll(ranks, round(bounce * columns), axis=1)
     raster(plane, _shaded(moved, moved < 255))
@@ -157,8 +148,3 @@ def _shaded(counts: NDArray[np.int64], there: NDArray[np.bool_]) -> NDArray[np.u
 def _named(table: Table) -> str:
     harmonics = "" if table.wave == (1.0,) else ", wave " + ",".join(f"{w:g}" for w in table.wave)
     return rf"$\alpha = ${table.alpha:g}, $\Gamma = ${table.gamma:g}{harmonics}"
-
-
-def _on_white(figure: Figure, slug: str) -> bytes:
-    figure.set_facecolor("white")
-    return svg(figure, slug)

@@ -1,11 +1,10 @@
-"""What the pictures of the table have in common: a plane with axes and a title, ticks, lines."""
+"""What the pictures of the table have in common: a plane with a title, and white behind it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from matplotlib.figure import Figure
 
-from juggleproof.scenes.figures.arcs import Arc, Point, straight
-from juggleproof.scenes.figures.drawing import Plane, Sides, blank, ticks
+from juggleproof.scenes.figures.drawing import Plane, Sides, blank, svg
 
 LEFT, BOTTOM, TOP = 48.0, 44.0, 48.0  # points
 LETTERS = 8.0
@@ -28,19 +27,7 @@ def axes(
     return plane
 
 
-def spaced(sides: Sides) -> dict[float, str]:
-    """Three to seven round numbers within these ends, as ticks."""
-    low, high = sides
-    step = next(
-        part * 10.0**power
-        for power in range(-6, 4)
-        for part in (1, 2, 5)
-        if (high - low) / (part * 10.0**power) <= 7
-    )
-    first = -int(-low / step) if low < 0 else int(low / step) + (low > 0)
-    return ticks(round(k * step, 9) for k in range(first, int(high / step + 1e-9) + 1))
-
-
-def joined(points: Sequence[Point]) -> list[Arc]:
-    """The segments between points."""
-    return [straight(a, b) for a, b in zip(points, points[1:])]
+def on_white(figure: Figure, slug: str) -> bytes:
+    """The figure as SVG, on white, so that it can be read on a dark page."""
+    figure.set_facecolor("white")
+    return svg(figure, slug)

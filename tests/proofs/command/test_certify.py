@@ -176,7 +176,7 @@ def test_progress_without_a_terminal_is_lines_on_standard_error_holds(
 ) -> None:
     path = claim_file(tmp_path, "always(x < x + 1)")
     assert certify(path).stderr == ""
-    monkeypatch.setattr("juggleproof.proofs.command.certify.PAUSE", 0.0)
+    monkeypatch.setattr("juggleproof.proofs.command.outputs.PAUSE", 0.0)
     done = certify(path)
     assert done.stderr == "1 of 1 claims judged\n" and "judged" not in done.stdout
 
