@@ -15,6 +15,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.judgement import Finding
+from juggleproof.proofs.ledger.ledger import UNPRINTED
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.ledger.remarks import remarks
 from juggleproof.proofs.paper import paper_claims
@@ -29,12 +30,15 @@ END = "<!-- end of what is generated -->"
 
 
 def summary() -> str:
-    """How many claims have each verdict, and how many statements each outcome: two lines."""
+    """How many claims have each verdict, how many of them the paper does not print, and how many
+    statements have each outcome: two lines.
+    """
     register, store = load_register(), Store(DEFAULT)
     verdicts = Counter(entry["verdict"] for entry in register.values())
     outcomes = Counter(word for own in _outcomes(store).values() for word in own.values())
     return (
-        f"{len(register)} claims: "
+        f"{len(register)} claims, {len(register.keys() & UNPRINTED)} of which the paper does not"
+        " print: "
         + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
         + f".\n{outcomes.total()} statements: {outcomes['certified']} certified,"
         f" {outcomes['refuted']} refuted, {outcomes['unknown']} open."
