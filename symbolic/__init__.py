@@ -71,10 +71,10 @@ NAMES = {
         "tangential_impulse velocity_after_contact"
     ),
     ".sine_table": (
-        "C C_t G Gamma S S_t bounce bounce_characteristic bounce_closing_speed "
-        "bounce_determinant bounce_jacobian bounce_trace birth_drive change_over_a_period "
-        "closing doubling_fall half_turn impact_closing_speed landing multiplier "
-        "other_bounce_gap other_bounce_jacobian phase squared_drive table_height theta"
+        "G Gamma birth_drive bounce bounce_characteristic bounce_closing_speed "
+        "bounce_determinant bounce_jacobian bounce_trace change_over_a_period cosine cosine_t "
+        "doubling_fall half_turn impact_closing_speed multiplier other_bounce_gap "
+        "other_bounce_jacobian sine sine_t squared_drive strike"
     ),
 }
 __all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

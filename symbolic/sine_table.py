@@ -3,8 +3,8 @@ which a bounce of one period can attract every motion.
 
 Units: time in periods of the table, heights in g times the square of a period; Gamma is the peak
 acceleration of the table in units of gravity.  Time is counted from an impact, at which the sine
-has the angle theta; C and S are the cosine and the sine of theta, and G = Gamma S is the
-acceleration at which the table falls there.
+has the angle theta; cosine and sine are those of theta, and G = Gamma sine is the acceleration at
+which the table falls there.
 """
 
 from __future__ import annotations
@@ -23,29 +23,30 @@ from juggleproof.symbolic.algebra import (
     state,
     t,
     u,
-    v,
 )
 from juggleproof.symbolic.mechanics import collide, fly
 
 Gamma = Symbol("Gamma")  # peak acceleration of the table
 theta = Symbol("theta")  # angle of the sine at the impact
-C = Symbol("C")  # its cosine
-S = Symbol("S")  # its sine
+cosine = Symbol("cosine")  # of that angle
+sine = Symbol("sine")
 G = Symbol("G")  # acceleration at which the table falls at the impact
 half_turn = Symbol("pi")  # as a number in statements, which need of pi only that it is positive
 phase = Symbol("phase")  # of an impact
 closing = Symbol("s")  # closing speed of an impact
 landing = Symbol("landing")  # phase of the next impact
 multiplier = Symbol("m")
-C_t = Symbol("C_t")  # cosine of the angle 2 pi t by which the sine has turned at time t
-S_t = Symbol("S_t")  # its sine
+cosine_t = Symbol("cosine_t")  # of the angle 2 pi t by which the sine has turned at time t
+sine_t = Symbol("sine_t")
+strike = Symbol("V")  # velocity of the ball as it strikes
 
 
 def _named(expression: Expr) -> Expr:
     """The same in lowest terms, where symbols stand for cosines, sines and pi."""
     turned = Symbol("turned")
     parted = expand_trig(expression.xreplace({2 * pi * t: turned}))
-    names = {cos(theta): C, sin(theta): S, cos(turned): C_t, sin(turned): S_t, pi: half_turn}
+    names = {cos(theta): cosine, sin(theta): sine, pi: half_turn}
+    names |= {cos(turned): cosine_t, sin(turned): sine_t}
     return lowest_terms(parted.xreplace(names))
 
 
@@ -80,36 +81,36 @@ def _flown(ball_speed: Expr, duration: Expr) -> State:
 
 @cache
 def change_over_a_period() -> State:
-    """What a ball that strikes at the speed v gains by impact and flight over one period: height
+    """What a ball that strikes at the velocity V gains by impact and flight over one period: height
     above the table, and speed.
 
-    >>> change_over_a_period().xreplace({C: 0}).applyfunc(lowest_terms).T
-    Matrix([[-alpha*v - 1/2, -alpha*v - v - 1]])
+    >>> change_over_a_period().xreplace({cosine: 0}).applyfunc(lowest_terms).T
+    Matrix([[-V*alpha - 1/2, -V*alpha - V - 1]])
     """
-    flown, start, end = _flown(v, 1), _table_at(0), _table_at(1)
-    gained = (flown[0].xreplace(start) - end[rho], flown[1].xreplace(start) - v)
+    flown, start, end = _flown(strike, 1), _table_at(0), _table_at(1)
+    gained = (flown[0].xreplace(start) - end[rho], flown[1].xreplace(start) - strike)
     return ImmutableMatrix([_named(one) for one in gained])
 
 
 @cache
 def bounce() -> tuple[Expr, ...]:
-    """The only bounces of one period: speed v at which the ball strikes, and cosine C of the angle;
-    the two angles with this cosine give the two bounces.
+    """The only bounces of one period: the velocity V at which the ball strikes, and the cosine of
+    the angle; the two angles with this cosine give the two bounces.
 
     >>> bounce()
     (-1/2, (-alpha*pi + pi)/(Gamma*alpha + Gamma))
     """
-    return solution_of([*change_over_a_period()], [v, C])
+    return solution_of([*change_over_a_period()], [strike, cosine])
 
 
 @cache
 def impact_closing_speed() -> Expr:
-    """The closing speed of a ball that strikes at the speed v: that of the table less v.
+    """The closing speed of a ball that strikes: the velocity of the table less V.
 
     >>> impact_closing_speed()
-    (C*Gamma - 2*pi*v)/(2*pi)
+    (Gamma*cosine - 2*V*pi)/(2*pi)
     """
-    return lowest_terms(_named(_table_at(0)[u]) - v)
+    return lowest_terms(_named(_table_at(0)[u]) - strike)
 
 
 @cache
@@ -119,14 +120,14 @@ def bounce_closing_speed() -> Expr:
     >>> bounce_closing_speed()
     1/(alpha + 1)
     """
-    speed, cosine = bounce()
-    return lowest_terms(impact_closing_speed().xreplace({v: speed, C: cosine}))
+    velocity, at_angle = bounce()
+    return lowest_terms(impact_closing_speed().xreplace({strike: velocity, cosine: at_angle}))
 
 
 @cache
 def birth_drive() -> Expr:
-    """The drive at which the bounces of one period are born, Gamma C there: pi (1 - alpha)/(1 +
-    alpha).
+    """The drive at which the bounces of one period are born, Gamma times their cosine:
+    pi (1 - alpha)/(1 + alpha).
 
     >>> birth_drive()
     (-alpha*pi + pi)/(alpha + 1)
@@ -137,7 +138,7 @@ def birth_drive() -> Expr:
 @cache
 def squared_drive() -> Expr:
     """The square of the drive for which the table falls at G in one bounce, and at -G in the other:
-    Gamma^2 = (Gamma C)^2 + (Gamma S)^2.
+    Gamma^2 = (Gamma cosine)^2 + G^2.
 
     >>> from juggleproof.symbolic.algebra import alpha
     >>> squared_drive().xreplace({alpha: 0})
@@ -170,7 +171,7 @@ def bounce_jacobian() -> ImmutableMatrix:
         lands = -diff(height, one) / by_landing
         rows.append([lands, diff(arrival, one) + diff(arrival, landing) * lands])
     at = {phase: 0, landing: 1, closing: bounce_closing_speed()}
-    known = {C: bounce()[1], S: G / Gamma}
+    known = {cosine: bounce()[1], sine: G / Gamma}
     matrix = ImmutableMatrix(rows).T
     return matrix.applyfunc(lambda one: lowest_terms(_named(one.subs(at)).xreplace(known)))
 
@@ -235,13 +236,13 @@ def other_bounce_gap() -> State:
     """The ball's height above the table and its rate at time t, on the flight of the other bounce:
     that flight grazes the table where both vanish at one t.
 
-    >>> other_bounce_gap().xreplace({t: 1, C_t: 1, S_t: 0}).applyfunc(lowest_terms).T
+    >>> other_bounce_gap().xreplace({t: 1, cosine_t: 1, sine_t: 0}).applyfunc(lowest_terms).T
     Matrix([[0, -1/(alpha + 1)]])
     """
-    speed, cosine = bounce()
+    velocity, at_angle = bounce()
     start, end = _table_at(0), _table_at(t)
-    flown = _flown(speed, t).xreplace(start)
+    flown = _flown(velocity, t).xreplace(start)
     gap = (flown[0] - end[rho], flown[1] - end[u])
     return ImmutableMatrix(
-        [lowest_terms(_named(one).xreplace({C: cosine, S: -G / Gamma})) for one in gap]
+        [lowest_terms(_named(one).xreplace({cosine: at_angle, sine: -G / Gamma})) for one in gap]
     )

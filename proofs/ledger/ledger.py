@@ -77,6 +77,7 @@ UNPRINTED = {
     "sine-multipliers": "the multipliers of the bounce, from flight and impact",
     "sine-stable": "where the bounce is stable",
     "sine-other": "that the other bounce is a saddle",
+    "sine": "drives and restitutions for which every motion tends to one bounce",
 }
 
 

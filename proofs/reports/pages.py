@@ -13,7 +13,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
-from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.claims import VERDICTS, CheckedApart, Claim
 from juggleproof.proofs.judgement import Finding
 from juggleproof.proofs.ledger.ledger import UNPRINTED
 from juggleproof.proofs.ledger.places import place_of
@@ -59,8 +59,10 @@ def results() -> str:
         entry = register.get(claim.id)
         if entry is None:
             continue
-        rules = [f"rule {name}" for name in getattr(claim.body(), "rests_on", ())]
-        settled = ", ".join([*counted(outcomes.get(claim.id, {})), *rules]) or "no statement"
+        body = claim.body()
+        others = [f"rule {name}" for name in getattr(body, "rests_on", ())]
+        others += [body.checker] if isinstance(body, CheckedApart) else []
+        settled = ", ".join([*counted(outcomes.get(claim.id, {})), *others]) or "no statement"
         verdict = entry["verdict"]
         if errata.group_of(claim, register, findings):
             verdict = f"[{verdict}](errata.md#{claim.id})"

@@ -1,9 +1,8 @@
 """The table that moves as a sine, which the paper leaves open: its bounces of one period, when they
 are stable, and where every motion tends to one.
 
-In units of `symbolic.sine_table`.  Of pi it is used only that it is positive; C and S are cosine
-and sine of the angle at the impact, and G is the acceleration at which the table falls there, in
-units of gravity: G in one bounce, -G in the other.
+In the units and names of `symbolic.sine_table`.  Of pi it is used only that it is positive; the
+table falls at G, in units of gravity, in one bounce, and at -G in the other.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ from juggleproof.proofs import claims, forms
 from juggleproof.proofs.forms import Vocabulary
 from juggleproof.proofs.paper.derivations import derived, derived_matrix, derived_vector
 
-alpha, pi, Gamma, G, C, S, v, m, k, p, q = reals("alpha pi Gamma G C S v m k p q")
-t, C_t, S_t = reals("t C_t S_t")
+alpha, pi, Gamma, G, cosine, sine, V = reals("alpha pi Gamma G cosine sine V")
+m, k, p, q = reals("m k p q")
 
 IN_RANGE = (alpha >= 0, alpha < 1)
 TABLE = Vocabulary(
-    order=("alpha", "pi", "Gamma", "G", "C", "S", "v", "m", "k", "p", "q"),
+    order=("alpha", "pi", "Gamma", "G", "cosine", "sine", "V", "m", "k", "p", "q"),
     ranges={"alpha": IN_RANGE},
     givens={"pi": (pi > 0,), "Gamma": (Gamma > 0,)},
     domains={"alpha": IN_RANGE},
@@ -40,7 +39,7 @@ TABLE = Vocabulary(
 claim = partial(claims.claim, vocabulary=TABLE, parameters=())
 always = partial(forms.always, vocabulary=TABLE)
 
-ON_CIRCLE = equal(C**2 + S**2, 1)
+ON_CIRCLE = equal(cosine**2 + sine**2, 1)
 BIRTH, DRIVE_SQUARED = derived("birth_drive"), derived("squared_drive")
 TRACE, DETERMINANT = derived("bounce_trace"), derived("bounce_determinant")
 DOUBLING = derived("doubling_fall")
@@ -67,7 +66,10 @@ def bounces_of_one_period_strike_at_half_the_speed_of_a_period() -> list[Stateme
 
     Whether the ball meets the table before is not said here.
     """
-    closing, bounce = derived("impact_closing_speed"), equal(2 * v, -1) & equal(Gamma * C, BIRTH)
+    closing, bounce = (
+        derived("impact_closing_speed"),
+        equal(2 * V, -1) & equal(Gamma * cosine, BIRTH),
+    )
     return [
         always(iff(comes_back(), bounce), label="speed"),
         always(equal(closing, 1 / (1 + alpha)) & (closing > 0), given=[bounce], label="closing"),
@@ -81,10 +83,10 @@ def bounces_are_born_at_this_drive() -> list[Statement]:
 
     The angle of a bounce is the one of claim sine-bounces.
     """
-    drive, angle = equal(Gamma**2, DRIVE_SQUARED), equal(Gamma * C, BIRTH)
+    drive, angle = equal(Gamma**2, DRIVE_SQUARED), equal(Gamma * cosine, BIRTH)
 
     def at(fall: Term) -> Formula:
-        values = {"C": BIRTH / Gamma, "S": fall / Gamma, "v": term(Fraction(-1, 2))}
+        values = {"cosine": BIRTH / Gamma, "sine": fall / Gamma, "V": term(Fraction(-1, 2))}
         found: Formula = substitute(ON_CIRCLE & comes_back(), values)
         return found
 
@@ -92,7 +94,7 @@ def bounces_are_born_at_this_drive() -> list[Statement]:
         always(
             equal(DRIVE_SQUARED, (pi * (1 - alpha) / (1 + alpha)) ** 2 + G**2), label="in-words"
         ),
-        always(drive, given=[ON_CIRCLE, angle, equal(G, Gamma * S)], label="drive"),
+        always(drive, given=[ON_CIRCLE, angle, equal(G, Gamma * sine)], label="drive"),
         always(Gamma >= BIRTH, given=[drive], label="none-below"),
         always(at(G) & at(-G), given=[drive], label="two"),
     ]
@@ -160,7 +162,7 @@ def the_other_bounce_is_a_saddle() -> list[Statement]:
     (a, b), (c, d) = ((term(one) for one in row) for row in other.rows)
     trace, determinant = a + d, a * d - b * c
     gap, rate = (term(one) for one in derived_vector("other_bounce_gap").entries)
-    start, end = ({"t": term(one), "C_t": term(1), "S_t": term(0)} for one in (0, 1))
+    start, end = ({"t": term(one), "cosine_t": term(1), "sine_t": term(0)} for one in (0, 1))
     begins = substitute(equal(gap, 0) & equal(rate, alpha / (1 + alpha)), start)
     ends = substitute(equal(gap, 0) & equal(rate, -1 / (1 + alpha)), end)
     return [

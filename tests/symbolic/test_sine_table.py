@@ -101,7 +101,7 @@ def test_curves_are_those_that_the_scene_draws_holds(alpha: float) -> None:
 def test_gap_and_rate_of_the_other_bounce_vanish_where_the_scene_has_it_graze_holds(
     alpha: float,
 ) -> None:
-    names = (s.G, s.t, s.C_t, s.S_t)
+    names = (s.G, s.t, s.cosine_t, s.sine_t)
     gap_and_rate = lambdify(
         names, list(s.other_bounce_gap().subs({s.alpha: alpha, s.half_turn: pi}))
     )
