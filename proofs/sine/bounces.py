@@ -104,12 +104,19 @@ def bounces_are_born_at_this_drive() -> list[Statement]:
 # Their multipliers.
 
 
+def trace_and_determinant(jacobian: str) -> tuple[Term, Term]:
+    """Trace and determinant of a derived matrix, from its entries."""
+    (a, b), (c, d) = ((term(one) for one in row) for row in derived_matrix(jacobian).rows)
+    return a + d, a * d - b * c
+
+
 @claim("sine-multipliers", "sine", "multipliers")
 def multipliers_of_the_bounce() -> list[Statement]:
     """The multipliers of the bounce where the table falls at G have the product alpha^2 and the sum
     1 + alpha^2 - (1 + alpha)^2 G. Their characteristic polynomial is (1 + alpha)^2 G at 1; at -1
     it is 0 exactly for G = 2 (1 + alpha^2)/(1 + alpha)^2, where the other multiplier is -alpha^2.
     """
+    trace, determinant = trace_and_determinant("bounce_jacobian")
     characteristic = derived("bounce_characteristic")
 
     def characteristic_at(value: Number) -> Term:
@@ -117,9 +124,9 @@ def multipliers_of_the_bounce() -> list[Statement]:
         return found
 
     return [
-        always(equal(TRACE, 1 + alpha**2 - (1 + alpha) ** 2 * G), label="sum"),
-        always(equal(DETERMINANT, alpha**2), label="product"),
-        always(equal(characteristic, m**2 - TRACE * m + DETERMINANT), label="both"),
+        always(equal(trace, 1 + alpha**2 - (1 + alpha) ** 2 * G), label="sum"),
+        always(equal(determinant, alpha**2), label="product"),
+        always(equal(characteristic, m**2 - trace * m + determinant), label="both"),
         always(equal(characteristic_at(1), (1 + alpha) ** 2 * G), label="birth"),
         always(iff(equal(characteristic_at(-1), 0), equal(G, DOUBLING)), label="doubling"),
         always(equal(DOUBLING, 2 * (1 + alpha**2) / (1 + alpha) ** 2), label="doubling-in-words"),
@@ -158,9 +165,7 @@ def the_other_bounce_is_a_saddle() -> list[Statement]:
     Whether it meets the table in between is not said here: the height above the table has a cosine
     and a sine of the time.
     """
-    other = derived_matrix("other_bounce_jacobian")
-    (a, b), (c, d) = ((term(one) for one in row) for row in other.rows)
-    trace, determinant = a + d, a * d - b * c
+    trace, determinant = trace_and_determinant("other_bounce_jacobian")
     gap, rate = (term(one) for one in derived_vector("other_bounce_gap").entries)
     start, end = ({"t": term(one), "cosine_t": term(1), "sine_t": term(0)} for one in (0, 1))
     begins = substitute(equal(gap, 0) & equal(rate, alpha / (1 + alpha)), start)

@@ -13,10 +13,15 @@ from pathlib import Path
 
 import pytest
 
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.sine import stored
 from juggleproof.certificates.sine.stored import STATEMENT, STORE, stored_outcomes
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.work import Budget
 from juggleproof.proofs.claims import CheckedApart, claims_in
-from juggleproof.proofs.judgement import Judgement, Resources
+from juggleproof.proofs.forms import read
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement, Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.reports.results import results_of_run
 from juggleproof.proofs.sine import everywhere
@@ -35,6 +40,21 @@ def settled(*found: tuple[str, str, str]) -> tuple[str, str]:
     """Verdict and detail where the other checker says this of two sentences."""
     body = CheckedApart(("one", "two"), "the other", lambda: found, "nothing")
     return body.verdict().word, body.verdict().detail
+
+
+# (statement, what is changed in it, into what): each is false
+FALSE = {
+    "at-doubling": ("sine-stable/real", "and G < (", "and G <= ("),
+    "before-birth": ("sine-stable/real", "G > 0 and G <", "G <"),
+    "elastic": ("sine-stable/complex", "range alpha < 1", "range alpha <= 1"),
+    "without-the-drive": ("sine-birth/none-below", "show Gamma >=", "show Gamma >"),
+    "without-a-fall": ("sine-other/saddle", "given G > 0", "given G >= 0"),
+    "plastic": ("sine-other/saddle", "show m >= 0", "show m > 0"),
+    "without-order": ("sine-other/saddle", "given m <= k\n", ""),
+    "product": ("sine-multipliers/product", " = alpha^2", " = alpha"),
+    "upwards": ("sine-bounces/speed", "2*V = -1", "2*V = 1"),
+    "at-once": ("sine-bounces/closing", "/(2*pi) > 0", "/(2*pi) > 1"),
+}
 
 
 @pytest.fixture
@@ -87,6 +107,16 @@ def test_sentences_of_another_checker_fail_without_a_certificate(
     found: Sequence[tuple[str, str, str]], detail: str
 ) -> None:
     assert settled(*found) == ("unknown", f"not certified by the other: {detail}")
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_claims_on_bounces_fail_without_a_hypothesis(name: str) -> None:
+    statement, old, new = FALSE[name]
+    text = Store(DEFAULT).texts[statement]
+    assert text.count(old) == 1
+    changed = read(text.replace(old, new), statement)
+    found = search_certificate(changed, {}, Budget(DEFAULT_BUDGET))
+    assert checker.check_one(changed, found, {}, {})[0] == "refuted"
 
 
 TAMPERED = [

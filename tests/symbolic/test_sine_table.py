@@ -4,13 +4,15 @@ against the curves that the scene draws.
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from math import cos, hypot, pi, sin, sqrt
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import Expr, Rational, lambdify
+from sympy import Expr, Rational, lambdify, sympify
 
 import juggleproof.symbolic as s
 from juggleproof.scenes.table import curves
@@ -87,6 +89,20 @@ def test_curves_at_exact_points_hold() -> None:
         .equals(s.half_turn**2 / 4 + Rational(25, 16))
     )
     assert s.bounce_closing_speed().subs(at) == Rational(3, 4)
+
+
+def test_the_page_shows_what_is_derived_holds() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "sine.md").read_text(encoding="utf-8")
+    closed, gap = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
+    names = {name: getattr(s, name) for name in s.NAMES[".sine_table"].split() + ["alpha", "t"]}
+    names |= {"pi": s.half_turn, "birth_drive": s.birth_drive()}
+    shown = dict(line.split(" = ") for line in closed.splitlines())
+    derived = {name: getattr(s, name)() for name in shown}
+    pairs = list(zip(map(shown.get, derived), derived.values()))
+    pairs += zip(gap.splitlines(), s.other_bounce_gap(), strict=True)
+    assert len(pairs) == 8
+    for text, value in pairs:
+        assert s.lowest_terms(sympify(text, locals=names) - value) == 0, text
 
 
 @pytest.mark.parametrize("alpha", [0.02, 0.05, 0.098, 0.3])
