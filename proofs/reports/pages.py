@@ -30,18 +30,18 @@ END = "<!-- end of what is generated -->"
 
 
 def summary() -> str:
-    """How many claims have each verdict, how many of them the paper does not print, and how many
-    statements have each outcome: two lines.
+    """How many claims have each verdict, and how many statements each outcome: two lines; and how
+    many of the claims the paper does not print.
     """
     register, store = load_register(), Store(DEFAULT)
     verdicts = Counter(entry["verdict"] for entry in register.values())
     outcomes = Counter(word for own in _outcomes(store).values() for word in own.values())
     return (
-        f"{len(register)} claims, {len(register.keys() & UNPRINTED)} of which the paper does not"
-        " print: "
+        f"{len(register)} claims: "
         + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
         + f".\n{outcomes.total()} statements: {outcomes['certified']} certified,"
         f" {outcomes['refuted']} refuted, {outcomes['unknown']} open."
+        f" The paper does not print {len(register.keys() & UNPRINTED)} of the claims."
     )
 
 
