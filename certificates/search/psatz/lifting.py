@@ -26,6 +26,7 @@ from juggleproof.certificates.search.psatz.problem import Problem, Source
 
 MonomialCofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
 SWEEPS = 8
+LONG = 200  # bits of a number of an identity, from which on a shorter form is sought
 
 
 def powers_of(chosen: tuple[int, ...]) -> Factors:
@@ -224,11 +225,8 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
     """The node of an identity between lowered facts, every term brought to one weight by powers of
     the scales.
     """
-    scaling, content = source.scaling, 0
-    for t in terms:
-        content = gcd(content, t.coefficient.numerator)
-    for c in owed.values():
-        content = gcd(content, int(c.content()))
+    scaling = source.scaling
+    content = shortest_divisor([int(t.coefficient) for t in terms], list(owed.values()))
     weights = [scaling.largest(poly) for poly in source.polys] if scaling.scales else []
     parts: list[tuple[Fraction, Factors, fmpz_mpoly, tuple[int, ...]]] = []
     for t in terms:
@@ -263,6 +261,46 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
         factor = Fraction(source.dens[k], content)
         equations.append((k, scaled_text(c, factor)))
     return "psatz", products, equations
+
+
+def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) -> int:
+    """What the whole numbers of an identity are divided by, so that it has the fewest digits: their
+    greatest common divisor, or where they are long one of them, which leaves short fractions of
+    what has been brought to one denominator.
+    """
+    contents = [int(c.content()) for c in cofactors]
+    shared = gcd(*weights, *contents)
+    if max(weights, default=0).bit_length() < LONG:
+        return shared
+    others = sorted(set(weights))
+    at_most = others[:: max(1, len(others) // MOST_DIVISORS)]
+
+    def digits(divisor: int) -> int:
+        lengths = [w.bit_length() + divisor.bit_length() - 2 * gcd(w, divisor).bit_length()
+                   for w in weights]
+        return 0
+    return min([shared, *at_most], key=digits)
+
+
+def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) -> int:
+    """By what an identity in whole numbers is divided, so that it has the fewest digits: what all
+    have in common; or where that leaves long numbers, which come of fractions with many
+    denominators, one of them, which leaves such fractions.
+
+    >>> shortest_divisor([4, 6], [])
+    2
+    """
+    shared = gcd(*weights, *(int(c.content()) for c in cofactors))
+    if max(weights, default=0).bit_length() - shared.bit_length() < LONG:
+        return shared
+    every = [*weights, *(int(c) for poly in cofactors for c in poly.coeffs())]
+
+    def digits(divisor: int) -> int:
+        parts = [gcd(number, divisor).bit_length() for number in every]
+        long = divisor.bit_length()
+        return sum(number.bit_length() + long - 2 * part for number, part in zip(every, parts))
+
+    return min(shared, *set(weights), key=lambda one: (digits(one), one))
 
 
 def scaled_text(poly: fmpz_mpoly, factor: Fraction) -> str:
