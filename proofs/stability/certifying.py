@@ -213,11 +213,11 @@ def where_open(given: str, domain: str, parameters: Sequence[str]) -> str:
     return f"at least where {where}, " if where else ""
 
 
-def is_certified(lines: Sequence[str]) -> bool:
+def is_certified(lines: Sequence[str], budget: int = BUDGET) -> bool:
     """Whether a certificate for the statement of these lines is found, and the checker takes it."""
     try:
         statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
-        found = search_certificate(statement, {}, Budget(BUDGET))
+        found = search_certificate(statement, {}, Budget(budget))
     except (checker.Rejected, Exhausted):  # it divides by what may be 0, or is too large
         return False
     return checker.check_one(statement, found, {}, {})[0] == "certified"
