@@ -264,25 +264,6 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
 
 
 def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) -> int:
-    """What the whole numbers of an identity are divided by, so that it has the fewest digits: their
-    greatest common divisor, or where they are long one of them, which leaves short fractions of
-    what has been brought to one denominator.
-    """
-    contents = [int(c.content()) for c in cofactors]
-    shared = gcd(*weights, *contents)
-    if max(weights, default=0).bit_length() < LONG:
-        return shared
-    others = sorted(set(weights))
-    at_most = others[:: max(1, len(others) // MOST_DIVISORS)]
-
-    def digits(divisor: int) -> int:
-        lengths = [w.bit_length() + divisor.bit_length() - 2 * gcd(w, divisor).bit_length()
-                   for w in weights]
-        return 0
-    return min([shared, *at_most], key=digits)
-
-
-def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) -> int:
     """By what an identity in whole numbers is divided, so that it has the fewest digits: what all
     have in common; or where that leaves long numbers, which come of fractions with many
     denominators, one of them, which leaves such fractions.

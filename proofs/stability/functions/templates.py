@@ -19,7 +19,6 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     bounds,
-    conjunction,
     expression,
     holds,
     value,
@@ -128,7 +127,9 @@ class Sides:
         return [""] * (len(self.forms) * len(self.factors) * (1 if self.even else 2))
 
     def function(self, numbers: Sequence[Fraction]) -> Function:
-        """The sum, a linear form for each choice of signs."""
+        """The sum, as the greatest of a linear form for each choice of signs, which it is where no
+        weight is negative: premises then have no cases.
+        """
         size = len(self.factors)
         products = [
             expression(f"({c})*{f}") for c, f in zip(numbers, itertools.cycle(self.factors))
@@ -136,16 +137,14 @@ class Sides:
         weights = [sum(products[k : k + size]) for k in range(0, len(numbers), size)]
         if self.even:
             weights = [one for one in weights for _ in range(2)]
-        terms, guards = [], []
+        terms = []
         for signs in itertools.product((0, 1), repeat=len(self.forms)):
             total = sum(
                 (1 - 2 * sign) * weights[2 * k + sign] * expression(form)
                 for k, (form, sign) in enumerate(zip(self.forms, signs))
             )
             terms.append(written(total))
-            sides = zip(self.forms, signs)
-            guards.append(conjunction(*(f"{one} {'<' if s else '>='} 0" for one, s in sides)))
-        return Function(tuple(terms), tuple(guards))
+        return Function(tuple(terms))
 
 
 def squares_of(system: Map) -> list[str]:
