@@ -218,7 +218,35 @@ def finish(
     if total:
         return None
     terms = [Term(t.coefficient, merge(t.factors, extra), t.root) for t in terms]
-    return written(source, terms, {k: c for k, c in owed.items() if c})
+    owed = {k: c for k, c in owed.items() if c}
+    return written(source, *without_common_facts(source, terms, owed))
+
+
+def without_common_facts(
+    source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]
+) -> tuple[Sequence[Term], dict[int, fmpz_mpoly]]:
+    """The identity divided by the facts that all its terms have in common, as often as they divide
+    the cofactors.
+    """
+    for k, _ in terms[0].factors if terms else ():
+        if source.relations[k] == "!=":
+            continue  # even powers only have a sign
+        for _ in range(min(dict(t.factors).get(k, 0) for t in terms)):
+            parts = {at: divmod(cofactor, source.lowered[k]) for at, cofactor in owed.items()}
+            if any(rest for _, rest in parts.values()):
+                break
+            owed = {at: quotient for at, (quotient, _) in parts.items()}
+            terms = [Term(t.coefficient, lessened(t.factors, k), t.root) for t in terms]
+    return terms, owed
+
+
+def lessened(factors: Factors, fact: int) -> Factors:
+    """A product of facts divided by one of them.
+
+    >>> lessened(((0, 2), (3, 1)), 3)
+    ((0, 2),)
+    """
+    return tuple((k, e - (k == fact)) for k, e in factors if k != fact or e > 1)
 
 
 def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> Psatz:
