@@ -15,12 +15,12 @@ from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     as_factor,
+    column,
     conjunction,
     conjuncts,
     holds,
     renamed,
     symbols,
-    value,
     written,
 )
 from juggleproof.proofs.stability.points import PARAMETERS
@@ -101,10 +101,7 @@ def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
     if poly.degree() > MOST_DEGREE:
         return False
     size = len(next(iter(parameters.values())))
-    columns = [
-        np.broadcast_to(np.asarray(value(written(c), parameters), float), (size,))
-        for c in poly.all_coeffs()
-    ]
+    columns = [column(written(c), parameters, size) for c in poly.all_coeffs()]
     return size > 0 and all(
         zeros_inside(system, parameters, row, k, inside) == 1
         for k, row in enumerate(np.stack(columns, axis=1))

@@ -19,6 +19,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     bounds,
+    column,
     expression,
     holds,
     value,
@@ -41,7 +42,7 @@ class Function:
 
     def at(self, points: Arrays, count: int) -> Floats:
         """Its values at so many states."""
-        parts = [np.broadcast_to(np.asarray(value(t, points), float), (count,)) for t in self.terms]
+        parts = [column(t, points, count) for t in self.terms]
         if self.guards:
             inside = [np.broadcast_to(holds(g, points), (count,)) for g in self.guards]
             parts = [np.where(mask, v, -np.inf) for mask, v in zip(inside, parts)]
@@ -73,14 +74,13 @@ class Template:
     def columns(self, point: Arrays) -> Floats:
         """The terms at each state, shape (states, unknowns)."""
         size = len(next(iter(point.values())))
-        below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
+        below = column(self.divisor, point, size)
         blocks = []
         guards = self.parts or ("0 < 1",)
         for guard, basis in zip(guards, self.bases or (self.basis,) * len(guards)):
             inside = np.broadcast_to(holds(guard, point), (size,))
             for b in basis:
-                column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
-                blocks.append(np.where(inside, column / below, 0.0))
+                blocks.append(np.where(inside, column(b, point, size) / below, 0.0))
         return np.stack(blocks, axis=1)
 
     def every_term(self) -> list[str]:
@@ -227,9 +227,7 @@ def margins(
         rows = np.concatenate([here - there, here])
         length = np.linalg.norm(rows, axis=1)
         rows = rows / length[:, None]
-        rows[: len(here)] /= np.broadcast_to(np.asarray(value(scale, states), float), len(here))[
-            :, None
-        ]
+        rows[: len(here)] /= column(scale, states, len(here))[:, None]
     fits = np.isfinite(rows).all(axis=1) & (length > 1e-30)
     return rows[fits], np.tile(np.arange(len(here)), 2)[fits]
 
