@@ -28,7 +28,7 @@ from juggleproof.benchmarks.processes import (
 )
 from juggleproof.certificates import checker, coq
 from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
+from juggleproof.certificates.search.certificate import search_certificate, search_premises
 from juggleproof.certificates.search.sharp import search_sharp
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import Question, questions
@@ -109,7 +109,11 @@ def _found(statement: checker.Statement, earlier: Known) -> tuple[Certificate, K
     if statement.kind == "sharp":
         proof = search_sharp(statement, {}, earlier, Budget(UNITS))
         return ({"certified": proof} if proof else {"unknown": "no certificate was found"}), {}
-    return search_map_rule(statement, dict(earlier), UNITS), earlier
+    known = dict(earlier)
+    proofs = dict(search_premises(checker.premises_of(statement, known), known, UNITS))
+    if None in proofs.values():
+        return {"unknown": "a premise has no proof"}, earlier
+    return {"certified": proofs}, earlier
 
 
 def by_check() -> Callable[[Problem], Run]:

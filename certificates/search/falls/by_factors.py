@@ -20,13 +20,13 @@ from juggleproof.certificates.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.certificates.nodes import Node, Proof
-from juggleproof.certificates.search.by_products import (
+from juggleproof.certificates.search.closing import sign_node
+from juggleproof.certificates.search.falls.by_products import (
     facts_kept,
     independent,
     renumbered,
     with_facts,
 )
-from juggleproof.certificates.search.closing import sign_node
 from juggleproof.certificates.search.psatz.facts import Factors
 from juggleproof.certificates.search.psatz.lifting import lift, powers_of
 from juggleproof.certificates.search.psatz.linear import Products
