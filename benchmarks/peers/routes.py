@@ -110,8 +110,10 @@ def _found(statement: checker.Statement, earlier: Known) -> tuple[Certificate, K
         proof = search_sharp(statement, {}, earlier, Budget(UNITS))
         return ({"certified": proof} if proof else {"unknown": "no certificate was found"}), {}
     known = dict(earlier)
-    proofs = dict(search_premises(checker.premises_of(statement, known), known, UNITS))
-    if None in proofs.values():
+    premises = checker.premises_of(statement, known)
+    found = search_premises(premises, known, UNITS)
+    proofs = {name: proof for name, proof in found if proof is not None}
+    if proofs.keys() != premises.keys():
         return {"unknown": "a premise has no proof"}, earlier
     return {"certified": proofs}, earlier
 
