@@ -11,7 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.algebraic import by_its_point
+from juggleproof.proofs.stability.algebraic import by_its_point, has_one_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -115,8 +115,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     other = None if every else by_its_point(original)
     if other:
         outcome = outcome_of(other.system, report, budget)
-        more = f"; here {other.parameter} = {other.term}" if outcome.sentence else ""
-        return replace(outcome, sentence=outcome.sentence + more)
+        if outcome.sentence:
+            outcome.sentence += f"; here {other.parameter} = {other.term}"
+            if not has_one_point(original, other):
+                each = f"each {other.parameter} has one such {other.system.point[0]}"
+                outcome.sentence += f", where samples alone say that {each}"
+        return outcome
     if not every:
         if not system.point and not proof.add(without_fixed_point(system)):
             return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
