@@ -128,3 +128,14 @@ def test_pieces_that_samples_miss_are_kept_holds() -> None:
     pieces = [("piece", f"{guard} -> x/2") for guard in guards]
     system = read_rows("far", [("state", "x"), *pieces])
     assert without_empty_pieces(system) == system
+
+
+@pytest.mark.parametrize(("image", "known"), [("(x + a)/4", 0), ("(a*x + 1)/4", 1)])
+def test_a_point_without_parameters_in_divisors_needs_no_equations_holds(
+    image: str, known: int
+) -> None:
+    """a/3 is put in; of 1/(4 - a) premises have the equation."""
+    rows = [("over", "a"), ("domain", "0 < a and a < 2"), ("state", "x"), ("piece", image)]
+    system = read_rows("affine", rows)
+    (fixed,) = fixed_points(system)
+    assert len(setting_of(system, fixed, system.domain).have) == known
