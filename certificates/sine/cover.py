@@ -36,7 +36,8 @@ from .search import find_certificate, line_of
 
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
 LEAST = Fraction(1, 4000)  # a box no wider than this is not cut
-GRID = 256, 16  # columns, and rows of a unit of speed
+GRIDS = (256, 16), (512, 32)  # columns, and rows of a unit of speed
+NARROW = Fraction(1, 1000)  # boxes no wider than this are tried on all of them
 CELLS = 6_000  # about what a box takes
 SADDLE = 2048, 128  # the grid on which a saddle is looked for
 BUDGET = 20_000_000  # cells
@@ -198,9 +199,14 @@ def width_of(box: Box) -> Fraction:
 
 def try_box(box: Box) -> Tried:
     """Looks for a certificate of the theorem for a box, and has the checker read it."""
-    found = find_certificate(*box, *GRID)
-    line = line_of(found.certificate) if found.certificate else ""
-    return Tried(box, line if line and check_line(line)[0] else "", found.cells)
+    cells = 0
+    for grid in GRIDS if width_of(box) <= NARROW else GRIDS[:1]:
+        found = find_certificate(*box, *grid)
+        cells += found.cells
+        line = line_of(found.certificate) if found.certificate else ""
+        if line and check_line(line)[0]:
+            return Tried(box, line, cells)
+    return Tried(box, "", cells)
 
 
 def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:

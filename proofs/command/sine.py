@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
 
+from juggleproof.certificates import sine
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import (
+    STATEMENTS,
     Box,
     Counterexample,
     Rectangle,
@@ -31,6 +33,7 @@ from juggleproof.proofs.reports.tables import exact
 
 NAME = "sine"
 STORE = Path("sine.certificates")
+WIDE = Path(sine.__file__).with_name("wide")
 GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
 
@@ -78,6 +81,44 @@ def certify(options: SineOptions) -> int:
         needed("matplotlib", "picture")
         if fault := fault_of(options.picture):
             raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
+    rectangles = [rectangle_of(options)] if asked(options) else wide_rectangles()
+    folder, tell = options.store or STORE, now_and_then()
+    found = []
+    with _executor(options) as executor:
+        for rectangle in rectangles:
+            covered = cover(
+                rectangle,
+                folder,
+                executor,
+                options.budget or BUDGET,
+                lambda done, known: tell(f"{done} of {known} boxes tried"),
+            )
+            found.append(covered)
+            for line in covered.rejected:
+                print(f"rejected by the checker: {line}")
+            print(f"{covered.outcome}: {rectangle.text}")
+            if options.frequency:
+                print(
+                    f"which holds all tables of {options.frequency} Hz with an amplitude of"
+                    f" {options.amplitude} mm, under 9.80665 m/s^2"
+                )
+            for line in explained(covered):
+                print(line)
+    print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
+    if options.picture is not None:
+        write_file(options.picture, picture_of(rectangles, found))
+        print(f"wrote {options.picture}")
+    return int(any(covered.outcome != "certified" for covered in found))
+
+
+def asked(options: SineOptions) -> bool:
+    """Whether a rectangle is asked for; else it is those of the wide cover."""
+    given = options.alpha, options.gamma, options.frequency, options.amplitude
+    return any(one is not None for one in given)
+
+
+def rectangle_of(options: SineOptions) -> Rectangle:
+    """The rectangle that is asked for; ClaimError, one line, where it is none."""
     try:
         rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
     except Refused as reason:  # numbers longer than a statement takes
@@ -88,31 +129,12 @@ def certify(options: SineOptions) -> int:
             f"Gamma = {low}: below pi (1 - alpha)/(1 + alpha) at alpha = {rectangle.alpha[0]} no"
             " bounce of one period exists; begin higher"
         )
-    folder, tell = options.store or STORE, now_and_then()
-    with _executor(options) as executor:
-        covered = cover(
-            rectangle,
-            folder,
-            executor,
-            options.budget or BUDGET,
-            lambda done, known: tell(f"{done} of {known} boxes tried"),
-        )
-    for line in covered.rejected:
-        print(f"rejected by the checker: {line}")
-    print(f"{covered.outcome}: {rectangle.text}")
-    if options.frequency:
-        print(
-            f"which holds all tables of {options.frequency} Hz with an amplitude of"
-            f" {options.amplitude} mm, under 9.80665 m/s^2"
-        )
-    for line in explained(covered):
-        print(line)
-    print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
-    if options.picture is not None:
-        drawn = picture_of(rectangle, covered)
-        write_file(options.picture, drawn)
-        print(f"wrote {options.picture}")
-    return int(covered.outcome != "certified")
+    return rectangle
+
+
+def wide_rectangles() -> list[Rectangle]:
+    """The rectangles of the wide cover."""
+    return [read_statement(line) for line in WIDE.joinpath(STATEMENTS).read_text().splitlines()]
 
 
 def drive_of(options: SineOptions) -> str | None:
@@ -140,7 +162,8 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
     """
     if alpha is None or gamma is None:
         raise ClaimError(
-            "certify sine: needs --alpha A0:A1, and --gamma G0:G1 or --frequency and --amplitude"
+            "certify sine: needs --alpha A0:A1, and --gamma G0:G1 or --frequency and --amplitude;"
+            " or none of them, for the wide cover"
         )
     (a_low, a_high), (low, high) = interval(alpha, "--alpha"), interval(gamma, "--gamma")
     if a_high >= 1:
@@ -169,15 +192,15 @@ def interval(text: str, option: str) -> Interval:
     return low, high
 
 
-def picture_of(rectangle: Rectangle, covered: Covered) -> bytes:
+def picture_of(rectangles: Sequence[Rectangle], found: Sequence[Covered]) -> bytes:
     """The boxes, with the curves between which the theorem may hold, as SVG."""
     picture = needed("juggleproof.scenes.table.cover", "picture")
-    alpha, gamma = in_floats(rectangle.alpha), in_floats(rectangle.values)
+    asked_for = [(in_floats(one.alpha), one.drive, in_floats(one.values)) for one in rectangles]
     certified, left = (
-        [(in_floats(one), in_floats(g)) for one, g in boxes]
-        for boxes in (covered.boxes, covered.left)
+        sorted({(in_floats(alpha), in_floats(g)) for boxes in several for alpha, g in boxes})
+        for several in zip(*((covered.boxes, covered.left) for covered in found))
     )
-    drawn: bytes = picture.cover(alpha, gamma, certified, left)
+    drawn: bytes = picture.cover(asked_for, certified, left)
     return drawn
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from juggleproof.scenes.figures.arcs import Arc, joined
+from juggleproof.scenes.figures.arcs import Place, joined
 from juggleproof.scenes.figures.drawing import Plane, Sides, spaced, style, ticks
 from juggleproof.scenes.figures.look import KEPT, PLAIN, Look, R
 from juggleproof.scenes.table.curves import birth, doubling, gamma_of, grazing
 from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 
+Asked = tuple[Sides, str, Sides]  # alpha, and Gamma or g
 Box = tuple[tuple[float, float], tuple[float, float]]  # of alpha, of g
 SIZE, RIGHT = (600.0, 340.0), 120.0  # points
 POINTS = 60  # of a curve
@@ -22,26 +23,31 @@ CURVES: tuple[tuple[str, str, Callable[[float], float], tuple[float, ...]], ...]
 )
 
 
-def cover(alpha: Sides, gamma: Sides, certified: Sequence[Box], left: Sequence[Box]) -> bytes:
-    """The rectangle that is asked for, the boxes that are certified and those that are left, and
+def cover(asked: Sequence[Asked], certified: Sequence[Box], left: Sequence[Box]) -> bytes:
+    """The rectangles that are asked for, the boxes that are certified and those that are left, and
     the curves between which the theorem may hold, as SVG.
     """
+    outlines = [
+        _outline((alpha, ends)) if drive == "g" else _rectangle(alpha, ends)
+        for alpha, drive, ends in asked
+    ]
     with style():
-        plane = _plane(alpha, gamma, len(certified), len(left))
+        plane = _plane([point for one in outlines for point in one], len(certified), len(left))
         for name, boxes, look in ("certified", certified, CERTIFIED), ("left", left, OPEN):
             for number, box in enumerate(boxes):
-                outline = _outline(box)
+                outline = joined(_outline(box))
                 plane.area(outline, f"{name}-{number}", look)
                 plane.line(outline, f"{name}-{number}-edge", look, linewidth=0.5)
         for name, label, curve, dashes in CURVES:
             _draw_curve(plane, name, label, curve, Look(PLAIN.colour, "", dashes))
-        (a, b), (c, d) = alpha, gamma
-        plane.line(joined([(a, c), (b, c), (b, d), (a, d), (a, c)]), "asked", linewidth=1.2)
+        for number, one in enumerate(outlines):
+            plane.line(joined(one), f"asked-{number}", linewidth=1.2)
     return on_white(plane.figure, "cover")
 
 
-def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
-    """The rectangle with a margin, which reaches the curves where they are not far."""
+def _plane(points: Sequence[Place], certified: int, left: int) -> Plane:
+    """These points with a margin, which reaches the curves where they are not far."""
+    alpha, gamma = ((min(ends), max(ends)) for ends in zip(*points))
     margin = max(0.01, 0.3 * (alpha[1] - alpha[0]))
     across = max(0.0, alpha[0] - margin), min(0.999, alpha[1] + margin)
     ends = [curve(end) for _, _, curve, _ in CURVES for end in alpha]
@@ -55,13 +61,19 @@ def _plane(alpha: Sides, gamma: Sides, certified: int, left: int) -> Plane:
     return plane
 
 
-def _outline(box: Box) -> list[Arc]:
+def _rectangle(alpha: Sides, gamma: Sides) -> list[Place]:
+    """The corners of a rectangle."""
+    (a, b), (c, d) = alpha, gamma
+    return [(a, c), (b, c), (b, d), (a, d), (a, c)]
+
+
+def _outline(box: Box) -> list[Place]:
     """The box in (alpha, g), drawn in (alpha, Gamma)."""
     (low, high), g = box
     along = [low + (high - low) * k / 4 for k in range(5)]
     points = [(x, gamma_of(x, g[0])) for x in along]
     points += [(x, gamma_of(x, g[1])) for x in reversed(along)]
-    return joined([*points, points[0]])
+    return [*points, points[0]]
 
 
 def _draw_curve(

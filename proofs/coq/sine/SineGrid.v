@@ -158,9 +158,14 @@ Section Grid.
 
   Lemma grid_arc_short : start < finish < start + 1.
   Proof.
-    pose proof N_positive. assert (inverse : 0 < / N) by now apply Rinv_0_lt_compat. destruct (arc_range certified) as [_ [short long]].
+    pose proof N_positive. assert (inverse : 0 < / N) by now apply Rinv_0_lt_compat. destruct (arc_range certified) as (_ & [short long] & _).
     apply IZR_lt in short, long. rewrite plus_IZR in long. unfold start, finish. replace 1 with (N * / N) by (field; lra).
     split; unfold Rdiv; [|rewrite <- Rmult_plus_distr_r]; apply Rmult_lt_compat_r; lra.
+  Qed.
+
+  Lemma grid_depth : 0 <= depth.
+  Proof.
+    pose proof K_positive. destruct (arc_range certified) as (_ & _ & [deep_ _]). apply (IZR_lt 0) in deep_. now apply Rlt_le, Rdiv_lt_0_compat.
   Qed.
 
   Lemma grid_located z : 0 <= snd z <= top -> trapped trap z \/ (exists k, arc k z) \/ exists n, ranked n z.

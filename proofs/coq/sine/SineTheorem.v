@@ -164,7 +164,7 @@ Section Theorem_.
     Proof.
       apply (no_endless_rests alpha g (start columns first) (finish columns last) (depth per_unit deep) top at_rest
         (ranked columns per_unit rows width low high first last deep rank) trap); try (now apply grid_arc_short with (1 := cells_hold holds)).
-      - apply Rlt_le, Rdiv_lt_0_compat; [lra|apply ranges].
+      - exact (grid_depth _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact trap_place.
       - exact (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
@@ -181,7 +181,7 @@ Section Theorem_.
     Proof.
       intro unbounded. destruct (comes_to_the_trap alpha g (start columns first) (finish columns last) (depth per_unit deep) top at_rest
         (ranked columns per_unit rows width low high first last deep rank) trap) with (z := z) as (n & k & all).
-      - apply Rlt_le, Rdiv_lt_0_compat; [lra|apply ranges].
+      - exact (grid_depth _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact (grid_located _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).

@@ -106,6 +106,7 @@ LEFT_OUT = "the rest arc leaves out a phase where the ball may rest"
 CUTS, WHOLE = "the trap cuts a cell", "a cell of the rest arc is cut"
 CUT = {(5, 1): (1, 1, 1, 1)}
 HALF = Q(1, 2)
+HIGH = {(i, row): 3 for i in range(COLUMNS) for row in range(ROWS) if (i, row) != (0, 1)}
 ALONE = {  # an arc of one column, 3; what is elsewhere lands in the trap
     "arc": (3, 4),
     "low": frozenset({3}),
@@ -204,6 +205,12 @@ WORLDS = [
     World("a trap beside a part", cut={(0, 1): (0, 0, 0, 0), (1, 1): (1, 1, 1, 1)}),
     *(World(f"the trap ends in a wide cell, {sides}", CUTS, ranks={(0, 1): 1, (15, 1): 1}, cut=CUT,
             trap=sides) for sides in ((HALF, 1, 2), (1, HALF, 2), (1, 1, 3 * HALF))),
+    World("the trap ends in a wide cell, on its left alone", CUTS,
+          ranks=HIGH | {(i, 0): 4 for i in (13, 14, 15, 0, 1)}, cut={(0, 1): (0, 0, 1, 1)},
+          trap=(HALF, 1, 2)),
+    World("from a part to two wide cells, the upper of its rank", FALLS, ranks={(7, 1): 2},
+          cut={(5, 1): (2, 1, 1, 1)}, parts={(10, 2): [(14, 1, 2)]}),
+    World("parts of row 0", cut={(6, 0): (1, 1, 1, 1)}),
     World("a cell of the arc that is cut", WHOLE, cut={(14, 0): (2, 2, 2, 2)}),
     World("the first cell of the arc is cut", WHOLE, cut={(13, 0): (2, 2, 2, 2)}),
     World("the last cell of the arc is cut", WHOLE, cut={(1, 0): (2, 2, 2, 2)}),
