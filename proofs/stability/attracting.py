@@ -34,6 +34,10 @@ from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
 from juggleproof.proofs.stability.functions.ratios import ratio_rules
 from juggleproof.proofs.stability.functions.saturated import saturated_rules
+from juggleproof.proofs.stability.functions.second_iterate import (
+    licensed_space,
+    second_iterate_rules,
+)
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     lyapunov_functions,
@@ -126,11 +130,32 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if in_boxes(proof, setting, log):
         return True
+    if len(setting.system.state) == 1 and not setting.outer:
+        return by_second_iterate(proof, setting, log)
     for rule, searches in ratio_rules(setting, name):
         if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
             return True
     chains = contracting_box_rules(setting, setting.system.name)
     return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
+
+
+def by_second_iterate(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same for a map of one variable that decreases, on the space where its images divide by
+    nothing that is 0.
+    """
+    space, count = licensed_space(setting), len(proof.rules)
+    inside = space == setting.system.space
+    part = setting if inside else inner(setting, space)
+    name = f"{setting.system.name}/lyapunov"
+    rules = list(second_iterate_rules(part, space, name))
+    if not rules or not inside and proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
+        return False
+    for rule, searches in rules:
+        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+            if inside or proof.add_all(rules_into(setting, [space]), EFFORTS, log):
+                return True
+    proof.keep(count)
+    return False
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
