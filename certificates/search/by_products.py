@@ -47,15 +47,11 @@ def proof_by_products(
     then cases of these signs.
     """
     unfolding = unfolded(premise)
-    steps = []
     budget = Budget(BUDGET)
     try:
-        for count, negation in unfolding.obligations:
-            state = state_of(unfolding, count).assume(negation)
-            step = search_closing(state, known, budget, effort=1, confirm=False)
-            if step is None:
-                return None
-            steps.append(step)
+        steps = obligations_closed(unfolding, known, budget)
+        if steps is None:
+            return None
         state = state_of(unfolding).assume(unfolding.goal(False))
         ring = Ring(tuple(state.context.index))
         kept = facts_kept(state, ring, terms, unknowns)
@@ -145,6 +141,20 @@ def facts_kept(
         ):
             kept.append(k)
     return kept
+
+
+def obligations_closed(
+    unfolding: checker.Unfolding, known: dict[str, checker.Statement], budget: Budget
+) -> list[Node] | None:
+    """Nodes for what a premise needs to be read, as that a root exists; None where one is open."""
+    steps = []
+    for count, negation in unfolding.obligations:
+        state = state_of(unfolding, count).assume(negation)
+        step = search_closing(state, known, budget, effort=1, confirm=False)
+        if step is None:
+            return None
+        steps.append(step)
+    return steps
 
 
 def with_facts(state: State, kept: Sequence[int]) -> State:

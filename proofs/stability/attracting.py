@@ -130,7 +130,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if in_boxes(proof, setting, log):
         return True
-    if len(setting.system.state) == 1 and not setting.outer:
+    if len(setting.system.state) == 1:
         return by_second_iterate(proof, setting, log)
     for rule, searches in ratio_rules(setting, name):
         if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
@@ -145,6 +145,8 @@ def by_second_iterate(proof: Proof, setting: Setting, log: Report) -> bool:
     """
     space, count = licensed_space(setting), len(proof.rules)
     inside = space == setting.system.space
+    if setting.outer and not inside:
+        return False
     part = setting if inside else inner(setting, space)
     name = f"{setting.system.name}/lyapunov"
     rules = list(second_iterate_rules(part, space, name))

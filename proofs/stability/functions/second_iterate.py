@@ -18,6 +18,7 @@ from functools import partial
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search
@@ -25,6 +26,7 @@ from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.ratios import at_parameters, point_names
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.two_sided import (
+    FEW,
     MOST_POINTS,
     is_clear,
     products_of_shares,
@@ -45,6 +47,7 @@ from juggleproof.proofs.stability.samples import licence
 
 MEANS = ((0, 1), (1, 1), (3, 1))  # (p, q): 1/c = (p + q l)/(p + q), where -l is the slope at e
 TRIED = 3  # functions
+ROUNDING = 1e-10  # of the point, relative to it
 
 
 def licensed_space(setting: Setting) -> str:
@@ -68,7 +71,8 @@ def second_iterate_rules(
     slope = slope_of(setting, put)
     if not (at_parameters(setting, slope) > 0).all():
         return
-    setting = replace(setting, states=states_of(setting))
+    samples = states_of(setting)
+    setting = replace(setting, states=samples.where(is_exact(setting)[samples.which]))
     found = []
     for sign in (1, -1):
         for k, mean in enumerate(MEANS):
@@ -82,6 +86,18 @@ def second_iterate_rules(
 def _image(setting: Setting) -> Expr:
     (image,) = setting.system.images[setting.piece]
     return image
+
+
+def is_exact(setting: Setting) -> NDArray[np.bool_]:
+    """At which parameters the point is a fixed point up to rounding, close to which the weights of
+    V may be small; at all where these are few.
+    """
+    ((state,), known) = setting.system.state, setting.constants
+    point = known[f"{state}_point"]
+    with np.errstate(all="ignore"):
+        (image,) = setting.system.next(known | {state: point})
+    exact = np.asarray(np.abs(image - point) <= ROUNDING * np.abs(point))
+    return exact if exact.mean() > FEW else np.ones(setting.count, bool)
 
 
 def slope_of(setting: Setting, put: dict[Expr, Expr]) -> Expr:
