@@ -32,7 +32,10 @@ from juggleproof.proofs.stability.functions.contracting_boxes import contracting
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
-from juggleproof.proofs.stability.functions.ratios import ratio_rules
+from juggleproof.proofs.stability.functions.ratios import (
+    ratio_rules,
+    weighted_distance_rules,
+)
 from juggleproof.proofs.stability.functions.saturated import saturated_rules
 from juggleproof.proofs.stability.functions.second_iterate import (
     licensed_space,
@@ -132,7 +135,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         return True
     if len(setting.system.state) == 1:
         return by_second_iterate(proof, setting, log)
-    for rule, searches in ratio_rules(setting, name):
+    for rule, searches in (*ratio_rules(setting, name), *weighted_distance_rules(setting, name)):
         if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
             return True
     chains = contracting_box_rules(setting, setting.system.name)

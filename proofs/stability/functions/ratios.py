@@ -67,6 +67,17 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
     yield from next(filter(None, every), [])
 
 
+def weighted_distance_rules(
+    setting: Setting, name: str
+) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+    """The same for weighted distances of a map that contracts them in the whole space: by the
+    comparison matrix |A| of the derivative A at the point.
+    """
+    system = setting.system
+    if 1 < len(system.state) <= MOST_STATES and len(system.pieces) == 1:
+        yield from distance_rules(setting, name)
+
+
 def distance_rules(setting: Setting, name: str) -> list[tuple[MapRule, dict[str, Search]]]:
     """The same for weighted distances."""
     setting, put = with_equations(setting)
