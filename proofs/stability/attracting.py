@@ -4,7 +4,7 @@ first, until one is certified.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
@@ -136,7 +136,7 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
     if len(setting.system.state) == 1:
         return by_second_iterate(proof, setting, log)
     for rule, searches in (*ratio_rules(setting, name), *weighted_distance_rules(setting, name)):
-        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+        if certified_on(proof, setting, rule, searches, log):
             return True
     chains = contracting_box_rules(setting, setting.system.name)
     return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
@@ -146,18 +146,35 @@ def by_second_iterate(proof: Proof, setting: Setting, log: Report) -> bool:
     """The same for a map of one variable that decreases, on the space where its images divide by
     nothing that is 0.
     """
-    space, count = licensed_space(setting), len(proof.rules)
-    inside = space == setting.system.space
-    if setting.outer and not inside:
-        return False
-    part = setting if inside else inner(setting, space)
-    name = f"{setting.system.name}/lyapunov"
-    rules = list(second_iterate_rules(part, space, name))
-    if not rules or not inside and proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
-        return False
-    for rule, searches in rules:
-        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
-            if inside or proof.add_all(rules_into(setting, [space]), EFFORTS, log):
+    space, name = licensed_space(setting), f"{setting.system.name}/lyapunov"
+    part = setting if space == setting.system.space else inner(setting, space)
+    return any(
+        certified_on(proof, setting, rule, searches, log)
+        for rule, searches in second_iterate_rules(part, space, name)
+    )
+
+
+def certified_on(
+    proof: Proof,
+    setting: Setting,
+    rule: MapRule,
+    searches: Mapping[str, Search],
+    log: Report,
+) -> bool:
+    """Whether a statement is certified; where V divides by what only its set says to be positive,
+    for the map on this set, with the statements that this is the whole space.
+    """
+    whole = replace(rule, rows=(("map", f"{setting.system.name}/{setting.map}"), *rule.rows[1:]))
+    fault = tried(proof, whole, (1, 2), BOX_BUDGET, log, searches=searches)
+    if not fault.startswith(checker.Kind.DIVISION.value):
+        return not fault
+    space, count = dict(rule.rows)["on"], len(proof.rules)
+    part = inner(setting, space)
+    name = f"{setting.system.name}/{part.map}"
+    inside = replace(rule, rows=(("map", name), *rule.rows[1:]))
+    if not setting.outer and not proof.add(part.system.rule(name)):
+        if not tried(proof, inside, (1, 2), BOX_BUDGET, log, searches=searches):
+            if proof.add_all(rules_into(setting, [space]), EFFORTS, log):
                 return True
     proof.keep(count)
     return False
