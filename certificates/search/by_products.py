@@ -21,7 +21,11 @@ from juggleproof.certificates.nodes import Node, Proof
 from juggleproof.certificates.search.closing import search_closing, sign_node
 from juggleproof.certificates.search.psatz.lifting import lift, powers_of
 from juggleproof.certificates.search.psatz.linear import Products
-from juggleproof.certificates.search.psatz.linear_program import Program, solve
+from juggleproof.certificates.search.psatz.linear_program import (
+    MOST_ITERATIONS,
+    Program,
+    solve,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -30,6 +34,7 @@ MOVING = ("value", "level", "distance")
 MORE = (0, 1, 2, 3)  # degrees than those of the goal
 MOST_COLUMNS = 6000
 MOST_TERMS = 2_000_000  # of all products of so many facts
+ITERATED = 5_000_000  # columns in all iterations of a linear program
 BUDGET = 1_000_000  # of counted work for a premise
 
 
@@ -274,7 +279,8 @@ def leaf(
             if len(columns) > most:
                 return None
         budget.spend(3 * program.count)
-        found = solve(program, budget)
+        iterations = min(MOST_ITERATIONS, ITERATED // max(1, program.count))
+        found = solve(program, budget, iterations)
         if found is not None:
             used = [((powers_of(columns[k][0]), columns[k][1]), c) for k, c in found[0].items()]
             node = lift(problem, used, [], roots)
