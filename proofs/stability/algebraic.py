@@ -120,7 +120,7 @@ def without_positive_factors(part: str, positive: Set[Expr]) -> str:
         if len(signs) == 1 and names <= positive:
             sign *= 1 if True in signs else -1
         elif len(names) == 1 and sympy.Poly(factor, *names).count_roots() == 0:
-            sign *= sympy.sign(factor.subs({one: 0 for one in names}))
+            sign *= sympy.sign(factor.subs(dict.fromkeys(names, 0)))
         else:
             left.append((factor, power))
     if len(left) != 1 or left[0][1] > 1:

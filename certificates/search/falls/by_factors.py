@@ -234,11 +234,11 @@ class Case:
     def square_of_sign(self, poly: fmpz_mpoly) -> list[fmpz_mpoly]:
         """c_0 + c_1 g + c_2 g^2 + .. in the variable g of the cases as a sum: what multiplies it,
         4 c_2, then (2 c_2 g + c_1)^2, 4 c_0 c_2 - c_1^2, and 4 c_2 c_k g^k, which are to be >= 0;
-        nothing where it is of a degree below 2, or of one variable.
+        nothing where its degree is below 2.
         """
         gen = self.ring.gens[self.ring.names.index(self.sign)]
         parts = coefficients_in(poly, self.ring.names.index(self.sign), gen)
-        if len(parts) < 3 or not parts[2] or all(part.is_constant() for part in parts):
+        if len(parts) < 3 or not parts[2]:
             return []
         low, slope, bend, *more = parts
         found = [4 * bend, (2 * bend * gen + slope) ** 2, 4 * low * bend - slope**2]
@@ -332,9 +332,7 @@ def variables_of(poly: fmpz_mpoly) -> set[int]:
     return {v for v, power in enumerate(poly.degrees()) if power}
 
 
-def as_equation(
-    node: Node, number: int, positive: bool, texts: Mapping[int, str]
-) -> Node | None:
+def as_equation(node: Node, number: int, positive: bool, texts: Mapping[int, str]) -> Node | None:
     """The same node where the fact is that the polynomial is 0; None where others multiply it of
     which there is no text.
     """

@@ -83,9 +83,7 @@ class Program:
 Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 
 
-def solve(
-    program: Program, budget: Budget, iterations: int = MOST_ITERATIONS
-) -> Solution | None:
+def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used,
     exactly; None where none were found.
 
