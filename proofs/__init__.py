@@ -16,7 +16,7 @@ In reading order, each importing those before it only:
 - `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries
   of the optional extras.
 - `simulations`: what simulations show, as it is kept, and as the scenes compute it.
-- `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
+- `paper`, `theorem`, `part`, `sine`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
 - `reports`, `api`: what a run came to, in words, pages and data; the same from Python.
 - `command`, `pytest_plugin`, `pytest_items`: the command line; claims as test items.
 

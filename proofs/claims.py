@@ -37,7 +37,8 @@ Read = TypeVar("Read", bound=Callable[..., object])
 #
 # A claim is a function from its parsed print to statements.  What it returns is an assertion (all
 # its statements hold), readings (a sentence that can be read in several ways), an argument (steps
-# and a conclusion), what follows from map rules, what a simulation shows, or why nothing is stated.
+# and a conclusion), what follows from map rules, what a simulation shows, what another checker
+# certifies, or why nothing is stated.
 
 
 @dataclass(frozen=True)
@@ -119,8 +120,44 @@ class NotFormalised:
     why: str
 
 
+@dataclass(frozen=True)
+class CheckedApart:
+    """Sentences that another checker certifies from a store of its own; they are in its words, not
+    in those of statements.
+
+    `outcomes` asks it: (sentence or line of the store, outcome, reason) of all that is stored.
+    `believed` says what has to be believed for it, and what else stands behind it.
+    """
+
+    sentences: tuple[str, ...]
+    checker: str
+    outcomes: Callable[[], Sequence[tuple[str, str, str]]]
+    believed: str
+
+    def verdict(self) -> Verdict:
+        """holds where all sentences are certified and nothing stored is rejected, false where one
+        is refuted, else unknown.
+        """
+        found = {name: (outcome, reason) for name, outcome, reason in self.outcomes()}
+        lost = [name for name, (outcome, _) in found.items() if outcome == "rejected"]
+        for name in (*lost, *self.sentences):
+            outcome, reason = found.get(name, ("unknown", "it is not stored"))
+            if outcome == "refuted":
+                return Verdict("false", f"refuted by {self.checker}: {name}")
+            if outcome != "certified":
+                why = f"{outcome}: {reason}" if reason else outcome
+                return Verdict("unknown", f"not certified by {self.checker}: {name}: {why}")
+        return Verdict("holds", f"by {self.checker}")
+
+    def line(self, claim_id: str, verdict: Verdict) -> str:
+        """One line for the verdict: what is certified, or what is lost."""
+        if verdict.word != "holds":
+            return f"{claim_id}: NOT certified; {verdict.detail}"
+        return f"{claim_id}: certified by {self.checker}: {'; '.join(self.sentences)}"
+
+
 NOT_FORMALISED = "not formalised: "  # begins the detail of such a verdict
-Body = Union[Assertion, Readings, Argument, Following, Simulated, NotFormalised]
+Body = Union[Assertion, Readings, Argument, Following, Simulated, CheckedApart, NotFormalised]
 
 
 @dataclass(frozen=True)
@@ -249,7 +286,7 @@ def as_body(returned: object, claim_id: str) -> Body:
             return Assertion(tuple(parts))
     raise ClaimError(
         f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such,"
-        " Readings, Argument, Following, Simulated or NotFormalised"
+        " Readings, Argument, Following, Simulated, CheckedApart or NotFormalised"
     )
 
 
@@ -269,7 +306,7 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
         return [(f"{name}.", reading.assertion) for name, reading in body.of.items()]
     if isinstance(body, Following):
         return [("beside.", body.beside)] if body.beside else []
-    if isinstance(body, (Simulated, NotFormalised)):
+    if isinstance(body, (Simulated, CheckedApart, NotFormalised)):
         return []
     steps = [(f"{name}.", assertion) for name, assertion in body.steps.items()]
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
@@ -486,6 +523,8 @@ def verdict_of(
         )
     if isinstance(body, Simulated):
         return Verdict("simulated", body.figures)
+    if isinstance(body, CheckedApart):
+        return body.verdict()
     if isinstance(body, NotFormalised):
         return Verdict("unknown", NOT_FORMALISED + body.why)
     return _argument(body, word, by_rules(body.rests_on, outcomes))

@@ -175,6 +175,7 @@ class Judgement:
     by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))
     follows: bool = False
     is_conclusion: bool = False
+    checked_by: str = ""  # another checker, which settles what has no statements
     roles: Roles = NO_ROLES
 
     def finding(self) -> Finding:

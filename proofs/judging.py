@@ -35,6 +35,7 @@ from juggleproof.proofs.claims import (
     Argument,
     Assertion,
     Body,
+    CheckedApart,
     Claim,
     Following,
     Verdict,
@@ -200,7 +201,9 @@ class Judge:
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
         judgement.verdict = verdict_of(claim.id, body, judgement.outcomes)
-        if judgement.verdict.word == "false" and not isinstance(body, Following):
+        if isinstance(body, CheckedApart):
+            judgement.checked_by = body.checker
+        elif judgement.verdict.word == "false" and not isinstance(body, Following):
             self.correct(body)
             correction = judgement.correction
             judgement.verdict = verdict_of(

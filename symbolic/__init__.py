@@ -10,6 +10,7 @@ else is worked out on demand, and kept.  In reading order:
     energy         energy and its change; the normal form, in which only alpha is left
     bounds         E_max, Delta E_max, Delta E_sup; the region R and the times to enter it
     corner_impact  a corner that strikes a table with friction
+    sine_table     a table that moves as a sine: bounces of one period, multipliers, curves
     lazy           names that load their file when first used
 
 Importing this package loads nothing: a name loads the file that derives it when first used.
@@ -68,6 +69,12 @@ NAMES = {
         "energy_gained_in_contact mu newton_impulse normal_impulse sigma slides_back "
         "slides_through_compression slides_through_restitution stopping_impulse stopping_rate "
         "tangential_impulse velocity_after_contact"
+    ),
+    ".sine_table": (
+        "G Gamma birth_drive bounce bounce_characteristic bounce_closing_speed "
+        "bounce_determinant bounce_jacobian bounce_trace change_over_a_period cosine cosine_t "
+        "doubling_fall half_turn impact_closing_speed multiplier other_bounce_gap "
+        "other_bounce_jacobian sine sine_t squared_drive strike"
     ),
 }
 __all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

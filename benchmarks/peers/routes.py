@@ -28,7 +28,7 @@ from juggleproof.benchmarks.processes import (
 )
 from juggleproof.certificates import checker, coq
 from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
+from juggleproof.certificates.search.certificate import search_certificate, search_premises
 from juggleproof.certificates.search.sharp import search_sharp
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import Question, questions
@@ -109,7 +109,13 @@ def _found(statement: checker.Statement, earlier: Known) -> tuple[Certificate, K
     if statement.kind == "sharp":
         proof = search_sharp(statement, {}, earlier, Budget(UNITS))
         return ({"certified": proof} if proof else {"unknown": "no certificate was found"}), {}
-    return search_map_rule(statement, dict(earlier), UNITS), earlier
+    known = dict(earlier)
+    premises = checker.premises_of(statement, known)
+    found = search_premises(premises, known, UNITS)
+    proofs = {name: proof for name, proof in found if proof is not None}
+    if proofs.keys() != premises.keys():
+        return {"unknown": "a premise has no proof"}, earlier
+    return {"certified": proofs}, earlier
 
 
 def by_check() -> Callable[[Problem], Run]:

@@ -383,11 +383,11 @@ class LinearEquations:
         self, grams: list[Floats], denominator: int
     ) -> Iterator[tuple[dict[Entry, Fraction], list[Fraction]]]:
         """Exact entries near the floating ones that meet all equations, and multipliers of the
-        equations: at most two of them.
+        equations: at most three of them.
 
         The entries are rounded, and what is then missing is made up for: by the entries that stand
-        in one equation only, which keeps denominators short, and by the shortest vector in the
-        entries.
+        in one equation only, or by as few entries as there are equations, which keeps denominators
+        short, and by the shortest vector in the entries.
         """
         start = [
             Fraction(round(float(grams[k][i, j]) * denominator), denominator) / self.scales[k]
@@ -399,7 +399,7 @@ class LinearEquations:
             start[strict[0]] = self.total
         missing = [-c for c in self.combination(start)]
         missing[-1] += self.total
-        for correction in (self.spread, self.shortest) if any(missing) else ():
+        for correction in (self.spread, self.basic, self.shortest) if any(missing) else ():
             change = correction(missing)
             if change is not None:
                 exact = [a + b for a, b in zip(start, change)]
@@ -442,19 +442,53 @@ class LinearEquations:
                 columns.setdefault(row, []).append((k, c))
         return columns
 
+    def basic(self, missing: list[Fraction]) -> list[Fraction] | None:
+        """A vector whose combination of the columns is what is missing, and which is 0 but in as
+        many columns as there are independent equations: those that stand in few equations.
+        """
+        columns, square = self.basis
+        found = self._combined(square, missing)
+        if found is None:
+            return None
+        change = [Fraction(0)] * len(self.terms)
+        for column, value in zip(columns, found):
+            change[column] = value
+        return change if self.combination(change) == missing else None
+
     def shortest(self, missing: list[Fraction]) -> list[Fraction] | None:
         """The shortest vector whose combination of the columns is what is missing."""
-        pivots, kept, square = self.independent
+        _, kept, square = self.independent
+        found = self._combined(square, missing, kept)
+        return found if found is not None and self.combination(found) == missing else None
+
+    def _combined(
+        self, square: fmpz_mat, missing: list[Fraction], kept: fmpz_mat | None = None
+    ) -> list[Fraction] | None:
+        """x with square * x = missing in the independent equations, or kept^T x; None where there
+        is none.
+        """
         scale = lcm(*(m.denominator for m in missing))
+        right = fmpz_mat([[int(missing[row] * scale)] for row in self.independent[0]])
         try:
-            above, below = _solved(
-                square, fmpz_mat([[int(missing[row] * scale)] for row in pivots])
-            )
+            above, below = _solved(square, right)
         except ZeroDivisionError:
             return None
-        result = kept.transpose() * above
-        change = [Fraction(int(result[k, 0]), below * scale) for k in range(len(self.terms))]
-        return change if self.combination(change) == missing else None
+        found = above if kept is None else kept.transpose() * above
+        return [Fraction(int(found[k, 0]), below * scale) for k in range(found.nrows())]
+
+    @cached_property
+    def basis(self) -> tuple[list[int], fmpz_mat]:
+        """Columns that are independent, as many as there are independent equations, those with few
+        and small coefficients first, and the square matrix of both.
+        """
+        _, kept, _ = self.independent
+        order = sorted(
+            range(len(self.terms)), key=lambda k: (sum(map(abs, self.terms[k].values())), k)
+        )
+        table = kept.table()
+        pivots = _pivots(fmpz_mat([[row[k] for k in order] for row in table]))
+        columns = sorted(order[at] for at in pivots)
+        return columns, fmpz_mat([[row[k] for k in columns] for row in table])
 
     @cached_property
     def independent(self) -> tuple[list[int], fmpz_mat, fmpz_mat]:
@@ -465,14 +499,20 @@ class LinearEquations:
         for at, column in enumerate(self.terms):
             for row, c in column.items():
                 table[row][at] = c
-        reduced, rank = nmod_mat(fmpz_mat(table).transpose(), PRIME).rref()
-        pivots, at = list[int](), 0
-        for row in range(rank):
-            while not int(reduced[row, at]):
-                at += 1
-            pivots.append(at)
+        pivots = _pivots(fmpz_mat(table).transpose())
         kept = fmpz_mat([table[row] for row in pivots])
         return pivots, kept, kept * kept.transpose()
+
+
+def _pivots(matrix: fmpz_mat) -> list[int]:
+    """The columns that are no combination of those before them, modulo a large prime."""
+    reduced, rank = nmod_mat(matrix, PRIME).rref()
+    pivots, at = list[int](), 0
+    for row in range(rank):
+        while not int(reduced[row, at]):
+            at += 1
+        pivots.append(at)
+    return pivots
 
 
 def _solved(matrix: fmpz_mat, right: fmpz_mat) -> tuple[fmpz_mat, int]:

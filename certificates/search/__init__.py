@@ -11,8 +11,7 @@ The files and folders, each after those that it imports:
 - `by_variables`: forms that are no sums of squares, by cases of a variable; rules `sign`, `psatz`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
 - `at_number`: a state whose only variable is an algebraic number
-- `by_products`: a proof by few facts times many products of what is positive; rule `psatz`
-- `falls`: proofs that a function of a map falls, by factors; rules `sign`, `psatz`
+- `falls`: proofs that a function of a map falls; rules `sign`, `psatz`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns
 - `samples`: exact values for all variables of a condition

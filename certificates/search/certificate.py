@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.nodes import (
     Certificate,
     Counterexample,
@@ -360,34 +360,3 @@ def search_premises(
             except checker.Rejected as reason:
                 raise reason.within(f"premise {name}") from None
         yield name, proof
-
-
-def search_map_rule(
-    statement: checker.Statement,
-    known: dict[str, checker.Statement],
-    budget: int,
-    lemmas: Mapping[str, Sequence[str]] | None = None,
-) -> Certificate:
-    """{"certified": {premise: proof}}, or {"unknown": the first premise without a proof}.
-
-    >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
-    >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
-    >>> statement = checker.read_statements(text)["demo/halves"]
-    >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
-    ['covers', 'possible', 'stays-1']
-    """
-    for name in rests_on(statement):
-        if name not in known:
-            return {"unknown": f"it rests on {name}, which is not certified"}
-    proofs: dict[str, Proof] = {}
-    premises = checker.premises_of(statement, known)
-
-    def is_false(name: str) -> bool:
-        violation = Violation.of(premises[name], None, NO_ROLES)
-        return violation.absent_everywhere(Budget(budget)) is False
-
-    for name, proof in search_premises(premises, known, budget, lemmas, is_false):
-        if proof is None:
-            return {"unknown": f"no proof of the premise {name} was found"}
-        proofs[name] = proof
-    return {"certified": proofs}

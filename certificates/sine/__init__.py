@@ -2,10 +2,12 @@
 parameters.  In reading order:
 
 - `flights`: the enclosure of flights, for a box of parameters;
-- `checker`: the theorem, the rules that prove it from flights, statements and certificates.
+- `cells`: cells of states, their ranks, and the rules that prove the theorem from flights;
+- `checker`: the theorem, what refutes it, statements and certificates.
 
-These two are the second checker, which alone is believed: `python -I -S certificates/sine [DIR]`.
+These three are the second checker, which alone is believed: `python -I -S certificates/sine [DIR]`.
 
+- `cycles`: the strongly connected parts of a graph;
 - `search`: finds a certificate for a box;
 - `cover`: covers a rectangle by boxes, over any executor;
 - `stored`: what the stored certificate says.

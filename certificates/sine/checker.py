@@ -41,6 +41,7 @@ from math import isqrt
 from typing import Any, NamedTuple
 
 from ..checker import Rejected, Work, load
+from .cells import Certificate, check_box
 from .flights import (
     MAX_CELLS,
     MAX_STEPS,
@@ -52,160 +53,8 @@ from .flights import (
     Interval,
     Refused,
     Walk,
-    absorbing_strip,
     require,
 )
-
-
-class Certificate(NamedTuple):
-    """What a line that certifies says.
-
-    trap: the states |x| <= width/N, low/K <= s <= high/K; weight: of s in the norm
-    max(|x|, |s|/weight); arc: first column and the column after the last; ranks: one byte a cell,
-    column by column.
-    """
-
-    grid: Grid
-    width: int
-    low: int
-    high: int
-    weight: Fraction
-    arc: tuple[int, int]
-    ranks: bytes
-
-
-# ------------------------------------------------------------ rules on cells
-
-
-def times(first: Interval, second: Interval) -> Interval:
-    """All products of a number of one interval with a number of the other."""
-    ends = [one * other for one in first for other in second]
-    return min(ends), max(ends)
-
-
-def plus(first: Interval, second: Interval) -> Interval:
-    return first[0] + second[0], first[1] + second[1]
-
-
-def largest(interval: Interval) -> Fraction:
-    return max(abs(interval[0]), abs(interval[1]))
-
-
-def check_trap(certificate: Certificate, flights: Flights) -> None:
-    """The bounce is a stable fixed point in the trap, and all that starts in the trap tends to it.
-
-    The trap is a box |x| <= width/N, low/K <= s <= high/K with the bounce inside, for each alpha.
-    `check_cells` has seen that all its flights land in it, one period later, and so with s1 > 0:
-    without a touch before, so that the map from impact to impact is differentiable there.  By the
-    implicit function theorem on F = 0, with y = x1 - x,
-
-        dx1 = (F_x dx + alpha y ds)/s1,       F_x = y (1 - S(x)) - alpha s,
-        ds1 = -(1 - S(x)) dx - alpha ds + (1 - S(x1)) dx1.
-
-    Where the norm of this matrix in max(|dx|, |ds|/weight) is below 1 all over the trap, which is
-    convex, the map contracts it.  Its fixed point has a flight of exactly one period, so
-    s = 1/(1 + alpha) and c cos 2 pi x - g sin 2 pi x = c: x is 0, or else S(x) = -2 pi g < 0, which
-    S > 0 on the trap excludes.  With alpha = 0 the ball would rest where S <= 1: then S > 1 there.
-    """
-    width, low, high = certificate.width, certificate.low, certificate.high
-    grid = certificate.grid
-    columns, per_unit = grid.columns, grid.per_unit
-    require(0 < width <= columns // 8 and 0 < low < high, "the trap is empty or too large")
-    require(high <= grid.rows, "the trap is beyond the rows")
-    a_low, a_high = grid.alpha
-    speed = (Fraction(low, per_unit), Fraction(high, per_unit))
-    holds = speed[0] < 1 / (1 + a_high) and 1 / (1 + a_low) < speed[1]
-    require(holds, "the bounce is not inside the trap for each alpha")
-    S_low = min(flights.S_low[i] for i in range(-width, width))
-    S_high = max(flights.S_high[i] for i in range(-width, width))
-    require(S_low > (0 if a_low > 0 else ONE), "the table is too slow in the trap")
-    lag = (1 - Fraction(S_high, ONE), 1 - Fraction(S_low, ONE))
-    time = (1 - Fraction(2 * width, columns), 1 + Fraction(2 * width, columns))
-    inverse = (1 / speed[1], 1 / speed[0])
-    minus_alpha = (-a_high, -a_low)
-    x_by_x = times(plus(times(time, lag), times(minus_alpha, speed)), inverse)
-    x_by_s = times(times((a_low, a_high), time), inverse)
-    s_by_x = plus((-lag[1], -lag[0]), times(lag, x_by_x))
-    s_by_s = plus(minus_alpha, times(lag, x_by_s))
-    weight = certificate.weight
-    require(weight > 0, "the weight is not positive")
-    contracts = largest(x_by_x) + largest(x_by_s) * weight < 1
-    contracts = contracts and largest(s_by_x) + largest(s_by_s) * weight < weight
-    require(contracts, "the map does not contract the trap")
-
-
-def check_rest_arc(certificate: Certificate, flights: Flights) -> None:
-    """A motion that comes to R, the arc in row 0, leaves R after finitely many flights and at most
-    one rest.
-
-    The arc is shorter than a period and holds every column where S <= 1 is possible, so that in
-    each of its copies the phases with S <= 1 are one interval, which ends where S rises through 1,
-    at x_L say.  `check_cells` has seen that a flight from R that lands in R lands in the same copy.
-    Let impacts in R go on for ever: their phases increase in one copy, to a limit x'.  The flights'
-    durations t tend to 0, and with F = 0 at both ends and |F''| <= M, s <= M t tends to 0.  Were
-    S(x') > 1, then S >= 1 + e near x', where a flight of any u >= v stays above the table for as
-    long as it is near: so S(x') <= 1, and the ball rests, from x' to x_L, and leaves in the state
-    (x_L, 0), in R.  The rest of the copy has S > 1: no second limit is there.
-    """
-    start, end = certificate.arc
-    columns = certificate.grid.columns
-    fits = 0 <= start < columns and start < end < start + columns
-    require(fits, "the rest arc is empty or longer than a period")
-    outside = all(flights.S_low[i % columns] > ONE for i in range(end, start + columns))
-    require(outside, "the rest arc leaves out a phase where the ball may rest")
-
-
-def check_cells(certificate: Certificate, flights: Flights) -> None:
-    """Descent of a rank: every motion below the strip's top comes to the trap.
-
-    Each cell has a rank, those of R the same.  What starts in a cell outside R and the trap has its
-    next impact in a cell of smaller rank, or in the trap; what starts in R leaves it
-    (`check_rest_arc`) to a cell of smaller rank, or to the trap, in which all stays.  Ranks are
-    whole numbers >= 0: so the trap is reached.  With alpha = 0 the ball rests after an impact where
-    S <= 1 and leaves in R: such cells have ranks above that of R.
-    """
-    grid, ranks = certificate.grid, certificate.ranks
-    columns, rows = grid.columns, grid.rows
-    start, end = certificate.arc
-    width, low, high = certificate.width, certificate.low, certificate.high
-    require(len(ranks) == columns * rows, "not one rank for each cell")
-    at_rest = ranks[start * rows]
-    require(at_rest > 0, "R has rank 0")
-    for i in range(columns):
-        lifted = i if i >= start else i + columns
-        in_arc = lifted < end
-        x = i if i < columns // 2 else i - columns
-        near = -width <= x < width
-        may_stay = grid.alpha[0] == 0 and flights.S_low[i] <= ONE
-        for row, landings in enumerate(flights.column(i)):
-            rank = ranks[i * rows + row]
-            if near and low <= row < high:
-                require(rank == 0, "a cell of the trap has a rank")
-                for m, lowest, highest in landings:
-                    inside = -width <= m - i + x - columns < width
-                    inside = inside and low <= lowest and highest < high
-                    require(inside, "a flight leaves the trap")
-                continue
-            rests = in_arc and row == 0
-            require(rank == at_rest if rests else rank > 0, "a rank does not fit its cell")
-            if may_stay and not rests:
-                require(rank > at_rest, "a cell where the ball may rest has no higher rank than R")
-            for m, lowest, highest in landings:
-                place = m % columns * rows
-                if rests and lowest == 0:
-                    lowest += m - i + lifted < end  # in R, in the same copy
-                reached = ranks[place + lowest : place + highest + 1]
-                require(not reached or max(reached) < rank, "a rank does not fall")
-
-
-def check_box(certificate: Certificate, work: Work) -> None:
-    """The theorem for the box of a certificate; raises Refused where this does not prove it."""
-    flights = Flights(certificate.grid, work)
-    absorbing_strip(flights)
-    check_trap(certificate, flights)
-    check_rest_arc(certificate, flights)
-    check_cells(certificate, flights)
-
 
 # ------------------------------------------------------------ refutations
 
@@ -390,9 +239,9 @@ def read_line(line: str) -> Certificate | Counterexample:
     *sides, weight = listed(data["trap"])
     width, low, high = map(whole, sides)
     start, end = map(whole, listed(data["arc"]))
-    require(0 <= columns * rows <= MAX_CELLS, "too many cells")
     packed = b64decode(data["ranks"], validate=True)
-    ranks = zlib.decompressobj().decompress(packed, columns * rows + 1)
+    ranks = zlib.decompressobj().decompress(packed, MAX_CELLS + 1)
+    require(len(ranks) <= MAX_CELLS, "too many cells")
     grid = Grid((a_low, a_high), (g_low, g_high), columns, per_unit, rows)
     return Certificate(grid, width, low, high, rational(weight), (start, end), ranks)
 

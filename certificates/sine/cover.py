@@ -1,8 +1,8 @@
 """Covers a rectangle of parameters by boxes, each with a certificate; not believed.
 
-The rectangle, in alpha and Gamma, is cut into boxes in alpha and g, each of which is tried on a
-grid; where a box fails it is cut across its longer side, until it is too narrow.  The boxes of one
-round are independent: any executor may share them.
+The rectangle, in alpha and Gamma, is cut into boxes in alpha and g; where a box fails it is cut
+across its longer side, until it is too narrow.  The boxes of one round are independent: any
+executor may share them.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from fractions import Fraction
-from itertools import accumulate
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -19,11 +18,11 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import spread
 from juggleproof.certificates.store import write_file
 
+from .cells import Certificate
 from .checker import (
     CERTIFICATES,
     STATEMENTS,
     Box,
-    Certificate,
     Counterexample,
     Rectangle,
     check_line,
@@ -36,15 +35,9 @@ from .flights import Interval
 from .search import find_certificate, line_of
 
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
-GRIDS = ((256, 16), (512, 32), (1024, 64), (2048, 64))  # columns, and rows of a unit of speed
-# which of them are tried, one after the other, for a box that is wider; then it is cut in halves
-TRIALS = (
-    (Fraction(1, 100), (1,)),
-    (Fraction(3, 1000), (0, 1)),
-    (Fraction(1, 1000), (2,)),
-    (Fraction(1, 4000), (3,)),
-)
-LAST = (0, 1, 2, 3)  # for narrower boxes, which are not cut
+LEAST = Fraction(1, 4000)  # a box no wider than this is not cut
+GRID = 256, 16  # columns, and rows of a unit of speed
+CELLS = 6_000  # about what a box takes
 SADDLE = 2048, 128  # the grid on which a saddle is looked for
 BUDGET = 20_000_000  # cells
 
@@ -53,19 +46,12 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
-class Piece(NamedTuple):
-    """A box of (alpha, g), and the grids on which it is still to be tried."""
-
-    box: Box
-    grids: tuple[int, ...]
-
-
 class Tried(NamedTuple):
-    """piece; line: its certificate, as the checker took it, or "" where there is none; cells: how
+    """line: the certificate of a box, as the checker took it, or "" where there is none; cells: how
     many the search looked at.
     """
 
-    piece: Piece
+    box: Box
     line: str
     cells: int
 
@@ -104,7 +90,7 @@ def cover(
         proved[line_of(counterexample)] = counterexample
         write(folder, rectangle, proved)
         return Covered("refuted", [], [], 0, rejected, counterexample)
-    pieces = [first_piece(box) for box in first_boxes(rectangle)]
+    boxes = first_boxes(rectangle)
     left: list[Box] = []
     cells = known = done = 0
 
@@ -116,20 +102,17 @@ def cover(
             proved[one.line] = read_line(one.line)
             write(folder, rectangle, proved)
 
-    while pieces and outcome(rectangle, list(proved.values()))[0] != "certified":
-        pieces = [piece for piece in pieces if not within(piece.box, proved.values())]
-        affordable = [grid_cells(piece.grids[0]) for piece in pieces]
-        fits = sum(cells + total <= budget for total in accumulate(affordable))
-        left += [piece.box for piece in pieces[fits:]]
-        known += fits
-        tried = shared(try_piece, pieces[:fits], executor, take)
+    while boxes and outcome(rectangle, list(proved.values()))[0] != "certified":
+        boxes = [box for box in boxes if not within(box, proved.values())]
+        fits = max(0, budget - cells) // CELLS
+        left += boxes[fits:]
+        known += len(boxes[:fits])
+        tried = shared(try_box, boxes[:fits], executor, take)
         cells += sum(one.cells for one in tried)
-        failed = [one.piece for one in tried if not one.line]
-        pieces = []
-        for piece in failed:
-            then = next_pieces(rectangle, piece)
-            pieces += then
-            left += [] if then else [piece.box]
+        failed = [one.box for one in tried if not one.line]
+        left += [box for box in failed if width_of(box) <= LEAST]
+        wide = [box for box in failed if width_of(box) > LEAST]
+        boxes = [half for box in wide for half in halves(rectangle, box)]
     write(folder, rectangle, proved)
     word, _ = outcome(rectangle, list(proved.values()))
     boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
@@ -208,36 +191,16 @@ def within(box: Box, proved: Iterable[Proved]) -> bool:
     return outcome(Rectangle("", box[0], "g", box[1]), near)[0] == "certified"
 
 
-def grid_cells(grid: int) -> int:
-    """About how many cells a grid has."""
-    columns, per_unit = GRIDS[grid]
-    return columns * per_unit * 4 // 3
-
-
-def first_piece(box: Box) -> Piece:
-    """The box, with all grids on which it is tried."""
-    return Piece(box, next((grids for least, grids in TRIALS if width_of(box) > least), LAST))
-
-
 def width_of(box: Box) -> Fraction:
     """The longer side."""
     return max(end - start for start, end in box)
 
 
-def try_piece(piece: Piece) -> Tried:
+def try_box(box: Box) -> Tried:
     """Looks for a certificate of the theorem for a box, and has the checker read it."""
-    found = find_certificate(*piece.box, *GRIDS[piece.grids[0]])
+    found = find_certificate(*box, *GRID)
     line = line_of(found.certificate) if found.certificate else ""
-    return Tried(piece, line if line and check_line(line)[0] else "", found.cells)
-
-
-def next_pieces(rectangle: Rectangle, piece: Piece) -> list[Piece]:
-    """What is tried after a piece: its next grid, or its halves, or nothing where it is narrow."""
-    if len(piece.grids) > 1:
-        return [Piece(piece.box, piece.grids[1:])]
-    if width_of(piece.box) > TRIALS[-1][0]:
-        return [first_piece(half) for half in halves(rectangle, piece.box)]
-    return []
+    return Tried(box, line if line and check_line(line)[0] else "", found.cells)
 
 
 def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:

@@ -6,7 +6,7 @@ first checker's meter of work; integers and fractions only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import lru_cache
 from math import isqrt
@@ -19,7 +19,7 @@ ONE = 1 << BITS
 SLACK = 256  # units of 2^-40, in each bound: the roundings behind it are together below 100 units
 FINE = 96  # bits of the sums that give pi, sines and cosines
 LONGEST = 4  # periods that a flight may take in an enclosure
-MAX_COLUMNS, MAX_ROWS, MAX_CELLS = 1 << 13, 1 << 12, 1 << 21
+MAX_COLUMNS, MAX_ROWS, MAX_CELLS = 1 << 15, 1 << 13, 1 << 21
 MAX_STEPS = 1 << 26  # lines of a grid that one certificate may look at
 
 Interval = tuple[Fraction, Fraction]
@@ -100,6 +100,18 @@ def power_of_two(number: int) -> bool:
     return number > 0 and not number & number - 1
 
 
+def check_grid(grid: Grid) -> None:
+    """The parameters are in range, and no table of the grid is too large."""
+    (alpha_low, alpha_high), (g_low, g_high) = grid.alpha, grid.g
+    require(0 <= alpha_low <= alpha_high < 1, "alpha is not within 0 <= alpha < 1")
+    require(0 < g_low <= g_high <= 1, "g is not within 0 < g <= 1")
+    fits = power_of_two(grid.columns) and 16 <= grid.columns <= MAX_COLUMNS
+    require(fits, f"the columns are not a power of two from 16 to {MAX_COLUMNS}")
+    fits = power_of_two(grid.per_unit) and grid.per_unit <= MAX_ROWS
+    require(fits, f"the rows of a unit are not a power of two up to {MAX_ROWS}")
+    require(0 < grid.rows <= MAX_ROWS, f"the rows are not up to {MAX_ROWS}")
+
+
 def absorbing_strip(flights: Flights) -> None:
     """Every motion comes to closing speeds below top = rows/K, and stays there.
 
@@ -149,13 +161,7 @@ class Flights:
     def __init__(self, grid: Grid, work: Work) -> None:
         (alpha_low, alpha_high), (g_low, g_high) = grid.alpha, grid.g
         columns, rows = grid.columns, grid.rows
-        require(0 <= alpha_low <= alpha_high < 1, "alpha is not within 0 <= alpha < 1")
-        require(0 < g_low <= g_high <= 1, "g is not within 0 < g <= 1")
-        fits = power_of_two(columns) and 16 <= columns <= MAX_COLUMNS
-        require(fits, f"the columns are not a power of two from 16 to {MAX_COLUMNS}")
-        fits = power_of_two(grid.per_unit) and grid.per_unit <= MAX_ROWS
-        require(fits, f"the rows of a unit are not a power of two up to {MAX_ROWS}")
-        require(0 < rows <= MAX_ROWS and columns * rows <= MAX_CELLS, "too many cells")
+        check_grid(grid)
         self.work = work
         self.columns, self.per_unit, self.rows = columns, grid.per_unit, rows
         self.shift = columns.bit_length()  # 2^shift half columns are a period
@@ -196,15 +202,15 @@ class Flights:
         low = low * (self.k_low if low >= 0 else self.k_high) >> BITS
         return low, (high * (self.k_high if high >= 0 else self.k_low) >> BITS) + 1
 
-    def column(self, i: int) -> Iterator[list[Landing]]:
-        """The landings of each row of column i, from row 0."""
+    def column(self, i: int, rows: Iterable[int]) -> Iterator[tuple[int, list[Landing]]]:
+        """(row, its landings) for rows of column i, which ascend."""
         first = i
         walk = Walk(self, i)
-        for row in range(self.rows):
+        for row in rows:
             landings = walk.landings(row, first)
             require(landings, "a cell without a landing")
             first = landings[0][0]
-            yield landings
+            yield row, landings
 
 
 def round_down(value: Fraction) -> int:
@@ -347,7 +353,7 @@ class Walk:
             low = max(low, least_height)
             if low > step >> 2:
                 slope = max(slope, -self.speed(2 * m, row)[1])
-                time = (slope + isqrt(slope * slope + 2 * fall * low)) * ONE // fall
+                time = (slope + isqrt(slope * slope + 2 * fall * (low - 2 * SLACK))) * ONE // fall
                 jump = time // step
                 if jump > 1:
                     time = jump * step

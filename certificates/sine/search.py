@@ -2,6 +2,9 @@
 
 The flights are those that the checker encloses; what is looked for is the rest: a trap round the
 bounce that the map contracts, the arc in which a ball may rest, and ranks of all other cells.
+Where enclosures are too wide for a rank, some cells lie on cycles: these alone are cut, until none
+is left but round the bounce (the subdivision algorithm; M. Dellnitz, A. Hohmann, Numer. Math. 75,
+1997).
 """
 
 from __future__ import annotations
@@ -9,12 +12,15 @@ from __future__ import annotations
 import json
 import zlib
 from base64 import b64encode
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from fractions import Fraction
+from math import pi
 from typing import NamedTuple
 
 from ..checker import Rejected, Work
-from .checker import Certificate, Counterexample, check_trap
+from .cells import CUT, Certificate, check_trap, in_trap
+from .checker import Counterexample
+from .cycles import cyclic_parts
 from .flights import (
     MAX_STEPS,
     ONE,
@@ -23,10 +29,19 @@ from .flights import (
     Interval,
     Landing,
     Refused,
+    Walk,
     absorbing_strip,
+    check_grid,
 )
 
-WEIGHTS = [Fraction(n, 16) for n in range(8, 65)]
+Cell = tuple[int, int, int]  # how often its like are cut from the grid; column; row
+Box = tuple[int, int, int]  # width, low and high of a trap
+Targets = Callable[[Cell], Collection[Cell]]
+
+MOST_LEVELS = 8
+MOST_EDGES = 1 << 18  # between cells that are looked at again because wider ones lie on cycles
+MOST_TRAPPED = 1 << 12  # cells
+HIGHEST = CUT - 1
 
 
 class Found(NamedTuple):
@@ -37,25 +52,15 @@ class Found(NamedTuple):
     cells: int
 
 
-class Graph(NamedTuple):
-    """The cells of a grid and where they land: `landings[i * rows + row]`."""
-
-    grid: Grid
-    flights: Flights
-    landings: list[list[Landing]]
-
-
 def find_certificate(alpha: Interval, g: Interval, columns: int, per_unit: int) -> Found:
     """A certificate for a box, on a grid of so many columns and rows of a unit of speed."""
-    cells = 0
+    graph = None
     try:
-        grid, flights = find_strip(alpha, g, columns, per_unit)
-        cells = columns * grid.rows
-        graph = Graph(grid, flights, [one for i in range(columns) for one in flights.column(i)])
-        trapped = find_trap(graph)
-        return Found(find_ranks(graph, trapped), "", cells)
+        graph = Graph(*find_strip(alpha, g, columns, per_unit))
+        trapped = find_trap_and_cuts(graph)
+        return Found(find_ranks(graph, trapped), "", len(graph.landings))
     except (Refused, Rejected) as reason:
-        return Found(None, str(reason), cells)
+        return Found(None, str(reason), len(graph.landings) if graph else 0)
 
 
 def find_strip(alpha: Interval, g: Interval, columns: int, per_unit: int) -> tuple[Grid, Flights]:
@@ -73,51 +78,125 @@ def find_strip(alpha: Interval, g: Interval, columns: int, per_unit: int) -> tup
     raise Refused("no absorbing strip")
 
 
-def find_trap(graph: Graph) -> Certificate:
-    """The widest trap: a box round the bounce that its flights do not leave, and a weight in whose
-    norm the map contracts it.
+# ------------------------------------------------------------ cells and where they land
+
+
+class Graph:
+    """Cells, those of the grid and the parts of those that are cut, and where they land.
+
+    landings: of each cell that was looked at; cut: the cells that are cut; arc: of R, whose cells
+    are one node, `rest`; edges: how many were looked at, and how many may be.
     """
-    grid, columns = graph.grid, graph.grid.columns
-    bounce = [1 / (1 + end) * grid.per_unit for end in reversed(grid.alpha)]
-    # the rows with the bounce inside: where it is on a line, those on both of its sides
-    first = -int(-bounce[0] // 1) - 1, int(bounce[1] // 1) + 1
-    for width in range(columns // 8, 0, -1):
-        rows = trapped_rows(graph, width, first)
-        if rows is None:
-            continue
-        for weight in WEIGHTS:
-            trapped = Certificate(grid, width, *rows, weight, (0, 1), b"")
-            try:
-                check_trap(trapped, graph.flights)
-            except Refused:
+
+    def __init__(self, grid: Grid, flights: Flights) -> None:
+        self.grids, self.flights = [grid], [flights]
+        self.cut: set[Cell] = set()
+        self.walks: dict[tuple[int, int], Walk] = {}
+        self.landings: dict[Cell, list[Landing]] = {
+            (0, i, row): landings
+            for i in range(grid.columns)
+            for row, landings in flights.column(i, range(grid.rows))
+        }
+        self.arc = find_arc(flights, self.landings)
+        self.rest: Cell = (0, self.arc[0], 0)
+        self.edges, self.most_edges = 0, MAX_STEPS
+
+    def level(self, number: int) -> Grid:
+        """The grid of cells that are cut so often."""
+        if number == len(self.grids):
+            wide = self.grids[-1]
+            sides = {name: 2 * getattr(wide, name) for name in ("columns", "per_unit", "rows")}
+            grid = wide._replace(**sides)
+            check_grid(grid)
+            self.grids.append(grid)
+            self.flights.append(Flights(grid, Work(MAX_STEPS)))
+        return self.grids[number]
+
+    def lands(self, cell: Cell) -> list[Landing]:
+        """Where it lands."""
+        found = self.landings.get(cell)
+        if found is None:
+            number, i, row = cell
+            if (number, i) not in self.walks:
+                self.walks[number, i] = Walk(self.flights[number], i)
+            found = self.walks[number, i].landings(row, i)
+            if not found:
+                raise Refused("a cell without a landing")
+            self.landings[cell] = found
+        return found
+
+    def there(self, cell: Cell) -> bool:
+        """Whether the cell is one of the grid, or a part of one that is cut."""
+        return not cell[0] or above(cell) in self.cut
+
+    def node(self, cell: Cell) -> Cell:
+        """The cell, or R for its cells."""
+        number, i, row = cell
+        start, end = self.arc
+        rests = not number and not row and (i - start) % self.grids[0].columns < end - start
+        return self.rest if rests else cell
+
+    def nodes(self, number: int, landing: Landing) -> Iterator[Cell]:
+        """The cells that are not cut and have a part in common with where cells that are cut so
+        often land.
+        """
+        m, lowest, highest = landing
+        m %= self.grids[number].columns
+        found = [(0, m >> number, row) for row in range(lowest >> number, (highest >> number) + 1)]
+        while found:
+            self.edges += 1
+            cell = found.pop()
+            if cell not in self.cut:
+                yield self.node(cell)
                 continue
-            return trapped
-    raise Refused("no trap")
+            shift = number - cell[0] - 1
+            for part in parts(cell):
+                _, i, row = part
+                if shift < 0 or i == m >> shift and lowest >> shift <= row <= highest >> shift:
+                    found.append(part)
+
+    def targets(self, cell: Cell) -> set[Cell]:
+        """The cells where a motion may have its next impact, or leave from rest, first."""
+        if self.edges > self.most_edges:
+            raise Refused("flights may lead from too many cells back to them")
+        if cell == self.rest:
+            return self.targets_of_rest()
+        number, i, _ = cell
+        found = {node for landing in self.lands(cell) for node in self.nodes(number, landing)}
+        if not self.grids[0].alpha[0] and self.flights[number].S_low[i] <= ONE:
+            found.add(self.rest)
+        return found
+
+    def targets_of_rest(self) -> set[Cell]:
+        columns = self.grids[0].columns
+        start, end = self.arc
+        found: set[Cell] = set()
+        for i in range(start, end):
+            for m, lowest, highest in self.lands((0, i % columns, 0)):
+                stays = lowest == 0 and start <= m - i % columns + i < end
+                found.update(self.nodes(0, (m, lowest + stays, highest)))
+        if self.rest in found:
+            raise Refused("a ball that rests may land there one period later")
+        return found
 
 
-def trapped_rows(graph: Graph, width: int, first: tuple[int, int]) -> tuple[int, int] | None:
-    """The fewest rows, those of `first` among them, which flights from |x| <= width/N do not leave;
-    None where one leaves these phases.
-    """
-    columns, rows = graph.grid.columns, graph.grid.rows
-    low, high = first
-    while True:
-        least, most = low, high
-        for x in range(-width, width):
-            i = x % columns
-            for row in range(low, high):
-                for m, lowest, highest in graph.landings[i * rows + row]:
-                    if not -width <= m - i + x - columns < width or not lowest:
-                        return None
-                    least, most = min(least, lowest), max(most, highest + 1)
-        if (least, most) == (low, high):
-            return low, high
-        low, high = least, most
+def above(cell: Cell) -> Cell:
+    """The cell of which this is a part."""
+    number, i, row = cell
+    return number - 1, i >> 1, row >> 1
 
 
-def find_arc(graph: Graph) -> tuple[int, int]:
+def parts(cell: Cell) -> Iterator[Cell]:
+    """The four parts of a cell, in the order of their ranks."""
+    number, i, row = cell
+    for side in 2 * i, 2 * i + 1:
+        for half in 2 * row, 2 * row + 1:
+            yield number + 1, side, half
+
+
+def find_arc(flights: Flights, landings: dict[Cell, list[Landing]]) -> tuple[int, int]:
     """The columns where a ball may rest, and those after them where its next flights may land."""
-    columns, rows, flights = graph.grid.columns, graph.grid.rows, graph.flights
+    columns = flights.columns
     rest = [low <= ONE for low in flights.S_low]
     starts = [i for i in range(columns) if rest[i] and not rest[i - 1]]
     if len(starts) != 1:
@@ -127,7 +206,7 @@ def find_arc(graph: Graph) -> tuple[int, int]:
         end += 1
     i = start
     while i < end:
-        for m, lowest, _ in graph.landings[i % columns * rows]:
+        for m, lowest, _ in landings[0, i % columns, 0]:
             landed = m - i % columns + i
             if not lowest and end <= landed < end + columns // 8:
                 end = landed + 1
@@ -135,70 +214,189 @@ def find_arc(graph: Graph) -> tuple[int, int]:
     return start, end
 
 
+# ------------------------------------------------------------ the trap, and what is cut
+
+
+def find_trap_and_cuts(graph: Graph) -> Certificate:
+    """Cuts cells until those on cycles of the graph are all in a trap, which is returned.
+
+    A cycle of narrow cells is one of the wide cells that they are parts of: so only the parts of
+    cells on cycles are looked at again.
+    """
+    trapped: Certificate | None = None
+    nodes = {graph.node(cell) for cell in graph.landings}
+    for number in range(MOST_LEVELS + 1):
+        grid = graph.level(number)
+        cycles = cyclic_parts(nodes, graph.targets)
+        home = {cell for cycle in cycles if meets_bounce(grid, cycle) for cell in cycle}
+        home.discard(graph.rest)
+        trapped = finer(trapped) if trapped else find_trap(graph, number, home)
+        cut = {cell for cycle in cycles for cell in cycle if not is_trapped(trapped, cell)}
+        if trapped and not cut:
+            graph.most_edges = graph.edges + MAX_STEPS
+            return trapped
+        rests = {graph.rest} & cut
+        cut -= rests
+        if not trapped:
+            cut.update(around(graph, number, home))
+        if not cut:
+            break
+        graph.most_edges = graph.most_edges if number else graph.edges + MOST_EDGES
+        graph.cut |= cut
+        nodes = {part for cell in cut for part in parts(cell)} | rests
+    raise Refused("flights may lead from narrow cells back to them" if trapped else "no trap")
+
+
+def meets_bounce(grid: Grid, cells: Iterable[Cell]) -> bool:
+    """Whether one of the cells may hold the bounce."""
+    low, high = rows_of_bounce(grid)
+    return any(low <= row < high and i in (0, grid.columns - 1) for _, i, row in cells)
+
+
+def is_trapped(trapped: Certificate | None, cell: Cell) -> bool:
+    """Whether a cell of the grid of a trap is in it."""
+    number, i, row = cell
+    return trapped is not None and in_trap(trapped, 0, centred(i, trapped.grid), row, row)
+
+
+def centred(i: int, grid: Grid) -> int:
+    """The column, counted from the bounce."""
+    return i if i < grid.columns // 2 else i - grid.columns
+
+
+def finer(trapped: Certificate) -> Certificate:
+    """The same trap, in cells of half the width."""
+    grid = trapped.grid
+    grid = Grid(grid.alpha, grid.g, 2 * grid.columns, 2 * grid.per_unit, 2 * grid.rows)
+    width, low, high = 2 * trapped.width, 2 * trapped.low, 2 * trapped.high
+    return trapped._replace(grid=grid, width=width, low=low, high=high)
+
+
+def rows_of_bounce(grid: Grid) -> tuple[int, int]:
+    """The rows with the bounce inside: where it is on a line, those on both of its sides."""
+    first, last = (1 / (1 + end) * grid.per_unit for end in reversed(grid.alpha))
+    return -int(-first // 1) - 1, int(last // 1) + 1
+
+
+def extent(grid: Grid, cells: Iterable[Cell]) -> Box:
+    """(width, low, high) of the least box round the bounce with these cells in it."""
+    width, (low, high) = 1, rows_of_bounce(grid)
+    for _, i, row in cells:
+        x = centred(i, grid)
+        width, low, high = max(width, -x, x + 1), min(low, row), max(high, row + 1)
+    return width, low, high
+
+
+def find_trap(graph: Graph, number: int, home: Collection[Cell]) -> Certificate | None:
+    """The least box round the bounce that holds these cells and all that its flights reach, with a
+    weight in whose norm the map contracts it.
+    """
+    grid = graph.grids[number]
+    box: Box | None = None
+    grown: Box | None = extent(grid, home)
+    while grown != box:
+        box, grown = grown, grown and reached(graph, number, grown)
+    if grown is None:
+        return None
+    width, low, high = grown
+    for weight in weights_at_bounce(grid):
+        trapped = Certificate(grid, width, low, high, weight, graph.arc, b"")
+        try:
+            check_trap(trapped, grid, graph.flights[number])
+        except Refused:
+            continue
+        return trapped
+    return None
+
+
+def weights_at_bounce(grid: Grid) -> list[Fraction]:
+    """Weights in whose norms the map contracts what is close to the bounce, if there are any."""
+    alpha, g = (float(low + high) / 2 for low, high in (grid.alpha, grid.g))
+    lag = 1 - 2 * pi * g
+    x_by_x, x_by_s = lag * (1 + alpha) - alpha, alpha * (1 + alpha)
+    least = abs(lag * (x_by_x - 1)) / (1 - abs(lag * x_by_s - alpha))
+    most = (1 - abs(x_by_x)) / x_by_s if alpha else 4 * least
+    if not 0 < least < most:
+        return []
+    return [Fraction(round(least * (most / least) ** (n / 16) * 1024), 1024) for n in range(1, 16)]
+
+
+def reached(graph: Graph, number: int, box: Box) -> Box | None:
+    """The least box round the bounce with this one in it and what its flights reach one period
+    later; None where some land elsewhere, or may touch the table, or not all its cells are there.
+    """
+    width, low, high = box
+    columns = graph.grids[number].columns
+    if width > columns // 8 or 2 * width * (high - low) > MOST_TRAPPED:
+        return None
+    for x in range(-box[0], box[0]):
+        for row in range(*box[1:]):
+            cell = number, x % columns, row
+            if not graph.there(cell):
+                return None
+            for m, lowest, highest in graph.lands(cell):
+                y = m - x % columns + x - columns
+                if not lowest or abs(y) > columns // 8:
+                    return None
+                width, low, high = max(width, -y, y + 1), min(low, lowest), max(high, highest + 1)
+    return width, low, high
+
+
+def around(graph: Graph, number: int, home: Collection[Cell]) -> Iterator[Cell]:
+    """These cells and their neighbours, among which there may be room for a trap."""
+    grid = graph.grids[number]
+    width, low, high = extent(grid, home)
+    side, half = max(1, width // 2), max(1, (high - low) // 2)
+    for x in range(-width - side, width + side):
+        for row in range(max(0, low - half), min(high + half, grid.rows)):
+            cell = number, x % grid.columns, row
+            if graph.there(cell) and graph.node(cell) != graph.rest:
+                yield cell
+
+
+# ------------------------------------------------------------ ranks
+
+
 def find_ranks(graph: Graph, trapped: Certificate) -> Certificate:
-    """Ranks: 0 in the trap, else one more than the greatest of the cells where flights may land.
+    """Ranks: 0 in the trap, else one more than the greatest of the cells where flights may land."""
+    cut = sorted(graph.cut)
+    cells = sorted(
+        (0, i, row) for i in range(graph.grids[0].columns) for row in range(graph.grids[0].rows)
+    )
+    cells += [part for cell in cut for part in parts(cell)]
+    last = len(graph.grids) - 1
+
+    def in_it(cell: Cell) -> bool:
+        number, i, row = cell
+        x = centred(i, graph.grids[number])
+        return in_trap(trapped, last - number, x, row, row)
+
+    nodes = {graph.node(cell) for cell in cells if cell not in graph.cut}
+    ranks = {cell: 0 for cell in nodes if in_it(cell)}
+    descend([cell for cell in cells if cell in nodes and cell not in ranks], ranks, graph.targets)
+    left = len(nodes) - len(ranks)
+    if left:
+        raise Refused(f"{left} of {len(nodes)} cells without a rank")
+    if max(ranks.values()) > HIGHEST:
+        raise Refused(f"more than {HIGHEST} ranks")
+    data = bytes(CUT if cell in graph.cut else ranks[graph.node(cell)] for cell in cells)
+    return trapped._replace(grid=graph.grids[0], arc=graph.arc, ranks=data)
+
+
+def descend(cells: Iterable[Cell], ranks: dict[Cell, int], targets: Targets) -> None:
+    """Gives ranks to all cells from which every way leads down.
 
     Each cell waits for one cell without a rank at a time, and is looked at again when that has one.
     """
-    grid = trapped.grid
-    columns, rows = grid.columns, grid.rows
-    start, end = find_arc(graph)
-    rest = start * rows  # one node for all of row 0 on the arc
-
-    def node(m: int, row: int) -> int:
-        return (
-            rest if row == 0 and (m - start) % columns < end - start else m % columns * rows + row
-        )
-
-    def targets(cell: int) -> Iterator[int]:
-        if cell != rest:
-            i = cell // rows
-            if not grid.alpha[0] and graph.flights.S_low[i] <= ONE:
-                yield rest
-            yield from reached(cell)
-            return
-        for i in range(start, end):
-            for m, lowest, highest in graph.landings[i % columns * rows]:
-                stays = lowest == 0 and start <= m - i % columns + i < end
-                for row in range(lowest + stays, highest + 1):
-                    if node(m, row) == rest:
-                        raise Refused("a ball that rests may land there one period later")
-                    yield node(m, row)
-
-    def reached(cell: int) -> Iterator[int]:
-        for m, lowest, highest in graph.landings[cell]:
-            for row in range(lowest, highest + 1):
-                yield node(m, row)
-
-    ranks = [-1] * (columns * rows)
-    for x in range(-trapped.width, trapped.width):
-        for row in range(trapped.low, trapped.high):
-            ranks[x % columns * rows + row] = 0
-    cells = [n for n in range(columns * rows) if ranks[n] and node(n // rows, n % rows) == n]
-    descend(cells, ranks, targets)
-    left = sum(ranks[n] < 0 for n in cells)
-    if left:
-        raise Refused(f"{left} of {len(cells)} cells without a rank")
-    for i in range(start, end):
-        ranks[i % columns * rows] = ranks[rest]
-    if max(ranks) > 255:
-        raise Refused("more than 255 ranks")
-    return trapped._replace(arc=(start, end), ranks=bytes(ranks))
-
-
-def descend(
-    cells: Iterable[int], ranks: list[int], targets: Callable[[int], Iterator[int]]
-) -> None:
-    """Gives ranks to all cells from which every way leads down."""
-    greatest = dict.fromkeys(cells, 0)
-    left = {cell: targets(cell) for cell in cells}
-    waiting: dict[int, list[int]] = {}
+    left = {cell: iter(targets(cell)) for cell in cells}
+    greatest = dict.fromkeys(left, 0)
+    waiting: dict[Cell, list[Cell]] = {}
     for cell in left:
         ready = [cell]
         while ready:
             one = ready.pop()
             for target in left[one]:
-                if ranks[target] < 0:
+                if target not in ranks:
                     waiting.setdefault(target, []).append(one)
                     break
                 greatest[one] = max(greatest[one], ranks[target])

@@ -1,22 +1,27 @@
-"""The stored statement about the table that moves as a sine, and one line on it."""
+"""The statement about the table that moves as a sine that the store beside this file keeps, and
+what the second checker says of the store.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from ..checker import Rejected
 from .checker import check_folder
+from .flights import Refused
 
 STORE = Path(__file__).resolve().parent / "store"
-LOST = "sine: NOT certified"
+STATEMENT = (
+    "the period-one bounce is stable and every motion tends to it for all"
+    " alpha in [49/1000, 51/1000] and Gamma in [619/200, 621/200]"
+)
 
 
-def sine_line() -> str:
-    """One line: what the second checker certifies from the store beside it, or what is lost.
-
-    Raises Refused or Rejected, one line, where the store cannot be read.
+def stored_outcomes() -> list[tuple[str, str, str]]:
+    """(sentence or line, outcome, reason): of each stored statement, of each line of certificates
+    that is rejected, or of the store where it cannot be read.
     """
-    results = check_folder(str(STORE))
-    for name, word, why in results:
-        if word != "certified":
-            return f"{LOST}; {name}: {word}" + (f": {why}" if why else "")
-    return f"sine: certified by the second checker: {'; '.join(name for name, *_ in results)}"
+    try:
+        return check_folder(str(STORE))
+    except (Refused, Rejected) as reason:
+        return [(STORE.name, "rejected", str(reason))]

@@ -13,9 +13,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsed
 from rich.progress import Progress as Bar
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.sine.stored import LOST, sine_line
 from juggleproof.certificates.store import DEFAULT, write_file
-from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.claims import CheckedApart, Claim
 from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
@@ -72,8 +71,10 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     print(table.summary(done.judgements))
     theorem = "" if options.files else theorem_of_run(done)
     print(theorem, end="\n" if theorem else "")
-    sine = "" if options.files or options.only else sine_line()
-    print(sine, end="\n" if sine else "")
+    for claim, judged in zip(done.claims, done.judgements):
+        body = claim.body()
+        if isinstance(body, CheckedApart):
+            print(body.line(claim.id, judged.verdict))
     for name in done.restated:
         print(f"restated {name}: what was stored is not the statement of the sources")
     for name, reason in done.rejected:
@@ -99,10 +100,9 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     if before is not None and accepts:
         _accept(results, before, options, register)
     write_outputs(options, results, done.seconds)
-    code = results.exit | sine.startswith(LOST)
     if options.write_reports is None:
-        return code
-    return code | options.write_reports(contents_of(done, load_register(register)))
+        return results.exit
+    return results.exit | options.write_reports(contents_of(done, load_register(register)))
 
 
 def _refuse_reports(options: CertifyOptions) -> None:

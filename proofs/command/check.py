@@ -7,11 +7,11 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.sine.stored import LOST as sine_lost
-from juggleproof.certificates.sine.stored import sine_line
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.claims import CheckedApart, claims_in
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.reports.tree import LOST, theorem_line
+from juggleproof.proofs.sine import everywhere
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -20,8 +20,9 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def check(folder: Path | None) -> int:
-    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; 0
-    where every statement is certified or refuted, and the theorem, if it is there, proved; else 1.
+    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; of
+    the store, one line for what another checker certifies beside it; 0 where every statement is
+    certified or refuted, and the theorem, if it is there, and that proved; else 1.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """
@@ -37,7 +38,11 @@ def check(folder: Path | None) -> int:
     line = theorem_line(Store(where), {name: outcome for name, outcome, _ in results})
     if line:
         print(line)
-    sine = "" if folder else sine_line()
-    if sine:
-        print(sine)
-    return max(code, int(line.startswith(LOST)), int(sine.startswith(sine_lost)))
+    code = max(code, int(line.startswith(LOST)))
+    for claim in () if folder else claims_in([everywhere.__name__]):
+        body = claim.body()
+        if isinstance(body, CheckedApart):
+            verdict = body.verdict()
+            print(body.line(claim.id, verdict))
+            code = max(code, int(verdict.word != "holds"))
+    return code

@@ -13,7 +13,7 @@ from juggleproof.certificates.language import ClaimError, origins_in
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs import paper
-from juggleproof.proofs.claims import Claim, claim_named
+from juggleproof.proofs.claims import CheckedApart, Claim, claim_named
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import statements_of
@@ -84,6 +84,10 @@ def explain(
     for one in paper.derivations_of(stated) if [*origins_in(stated)] else ():
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(claim.body())}")
+    body, verdict = claim.body(), judgement.verdict
+    if isinstance(body, CheckedApart):
+        print("\n" + textwrap.indent("\n".join(body.sentences), " " * 4))
+        print(f"    -> {verdict.word}, {verdict.detail}")
     used = lemmas([*claims.values()], [claim])
     texts = {**Store(store).texts, **used, **dict(judgement.statements)}
     for name, text in judgement.statements:
@@ -94,7 +98,7 @@ def explain(
         _statement(text, outcome, certificate, not files, concluded)
         for premise in judgement.unproved.get(name, ()):
             print("\n" + textwrap.indent(premise, " " * 8))
-    sharp, verdict = sharp_range(judgement, claim), judgement.verdict
+    sharp = sharp_range(judgement, claim)
     if judgement.sharp or not files:
         print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
     if judgement.correction:

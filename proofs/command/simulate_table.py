@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
+from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.sine.cells import read_levels
 from juggleproof.certificates.sine.checker import check_line
-from juggleproof.certificates.sine.flights import Interval
+from juggleproof.certificates.sine.flights import MAX_STEPS, Interval
 from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of
@@ -118,8 +120,8 @@ def _picture(options: TableOptions, under: Table, starts: list[tuple[float, floa
 
 
 def ranks_for(under: Table) -> np.ndarray | None:
-    """The ranks of a certificate for the parameters, shape (rows, columns), or None where none is
-    found on a coarse grid, which says nothing.
+    """The ranks of a certificate for the parameters, shape (rows, columns), the greatest of its
+    parts for a cell that is cut; None where none is found, which says nothing.
     """
     if not under.gamma > birth(under.alpha) or not math.isfinite(under.gamma):
         return None
@@ -129,5 +131,5 @@ def ranks_for(under: Table) -> np.ndarray | None:
     found = find_certificate((alpha, alpha), between, *GRID).certificate
     if found is None or check_line(line_of(found))[0] is None:
         return None  # only what the checker takes is called certified
-    cells = np.frombuffer(found.ranks, np.uint8).astype(np.int64)
-    return cells.reshape(GRID[0], found.grid.rows).T
+    widest = read_levels(found, Work(MAX_STEPS))[0]
+    return np.array([list(column) for column in widest.ranks.values()]).T

@@ -40,7 +40,8 @@ _MODES = (
     "reversed-in-compression",
     "reversed-in-restitution",
 )
-# Claims about the paper's system that the paper itself does not print.
+# Claims about the paper's system, and about the table that it leaves open, that the paper itself
+# does not print.
 UNPRINTED = {
     "region-scaling": "the change to the normal form, through which every other claim is judged",
     "region-trap": (
@@ -71,6 +72,12 @@ UNPRINTED = {
     **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
     "part-at-rest": "the impact of a corner that does not slide at first",
     "part-newton": "why the simulation of the part has Poisson's restitution and not Newton's",
+    "sine-bounces": "the bounces of one period on a table that moves as a sine",
+    "sine-birth": "the drive at which they are born",
+    "sine-multipliers": "the multipliers of the bounce, from flight and impact",
+    "sine-stable": "where the bounce is stable",
+    "sine-other": "that the other bounce is a saddle",
+    "sine": "drives and restitutions for which every motion tends to one bounce",
 }
 
 

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from juggleproof.proofs import part, theorem
+from juggleproof.proofs import part, sine, theorem
 from juggleproof.proofs.claims import Claim, claims_in
 from juggleproof.symbolic.lazy import lazy_names
 
@@ -65,13 +65,14 @@ SECTIONS = (
 
 
 def modules_of_claims() -> list[str]:
-    """The modules of the paper's claims in the paper's order; those of the theorem and of the part
-    come after them.
+    """The modules of the paper's claims in the paper's order; those of the theorem, of the part and
+    of the table that moves as a sine come after them.
     """
     packages = (
         (__name__, SECTIONS),
         (theorem.__name__, theorem.SECTIONS),
         (part.__name__, part.SECTIONS),
+        (sine.__name__, sine.SECTIONS),
     )
     return [f"{package}.{section}" for package, sections in packages for section in sections]
 

@@ -46,6 +46,8 @@ NOTATION = (
     ("eps", r"\epsilon", ""),
     ("lam", r"\lambda", ""),
     ("theta", r"\theta", ""),
+    ("pi", r"\pi", ""),
+    ("Gamma", r"\Gamma", ""),
     ("rho", r"\rho", ""),
     ("mu", r"\mu", ""),
     ("sigma", r"\sigma", ""),

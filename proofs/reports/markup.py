@@ -316,6 +316,11 @@ LETTERS = {  # names in statements that the notation lacks -> what they stand fo
     "dE_dv": "slope of Delta_1 E with the velocity",
     "dR_dbeta": "slope of R(b) with the height",
     "dR_dv": "slope of R(b) with the velocity",
+    "Gamma": "peak acceleration of a table that moves as a sine, over gravity",
+    "G": "acceleration at which that table falls at the bounce, over gravity",
+    "V": "velocity of the ball as it strikes, over gravity times the period",
+    "cosine": "cosine of the angle of the table's sine at the impact",
+    "sine": "sine of that angle",
 }
 WHOLE = ("whole number", "whole numbers")  # of one letter, and of several
 ANY = ("any number that meets what is given", "any numbers that meet what is given")

@@ -13,8 +13,9 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
-from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.claims import VERDICTS, CheckedApart, Claim
 from juggleproof.proofs.judgement import Finding
+from juggleproof.proofs.ledger.ledger import UNPRINTED
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.ledger.remarks import remarks
 from juggleproof.proofs.paper import paper_claims
@@ -29,7 +30,9 @@ END = "<!-- end of what is generated -->"
 
 
 def summary() -> str:
-    """How many claims have each verdict, and how many statements each outcome: two lines."""
+    """How many claims have each verdict, and how many statements each outcome: two lines; and how
+    many of the claims the paper does not print.
+    """
     register, store = load_register(), Store(DEFAULT)
     verdicts = Counter(entry["verdict"] for entry in register.values())
     outcomes = Counter(word for own in _outcomes(store).values() for word in own.values())
@@ -38,6 +41,7 @@ def summary() -> str:
         + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
         + f".\n{outcomes.total()} statements: {outcomes['certified']} certified,"
         f" {outcomes['refuted']} refuted, {outcomes['unknown']} open."
+        f" The paper does not print {len(register.keys() & UNPRINTED)} of the claims."
     )
 
 
@@ -55,8 +59,10 @@ def results() -> str:
         entry = register.get(claim.id)
         if entry is None:
             continue
-        rules = [f"rule {name}" for name in getattr(claim.body(), "rests_on", ())]
-        settled = ", ".join([*counted(outcomes.get(claim.id, {})), *rules]) or "no statement"
+        body = claim.body()
+        others = [f"rule {name}" for name in getattr(body, "rests_on", ())]
+        others += [body.checker] if isinstance(body, CheckedApart) else []
+        settled = ", ".join([*counted(outcomes.get(claim.id, {})), *others]) or "no statement"
         verdict = entry["verdict"]
         if errata.group_of(claim, register, findings):
             verdict = f"[{verdict}](errata.md#{claim.id})"

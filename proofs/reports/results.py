@@ -19,6 +19,7 @@ from juggleproof.proofs.claims import (
     Argument,
     Assertion,
     Body,
+    CheckedApart,
     Claim,
     Following,
     NotFormalised,
@@ -85,6 +86,7 @@ def settled_by(judgement: Judgement) -> str:
         decided = sum(vote.answer in ("holds", "fails") for vote in cast)
         parts += [f"{route} {decided}/{len(cast)}"] if cast and decided else []
     parts += [f"rule {name}" for name in judgement.rests_on]
+    parts += [judgement.checked_by] if judgement.checked_by else []
     return ", ".join(parts) or "no statement"
 
 
@@ -141,6 +143,8 @@ def reading_of(body: Body) -> str:
         )
     if isinstance(body, Simulated):
         return "what a simulation shows"
+    if isinstance(body, CheckedApart):
+        return f"what {body.checker} certifies: {body.believed}"
     if isinstance(body, NotFormalised):
         return "no statement of real arithmetic"
     raise ClaimError("a body of unknown kind")

@@ -4,25 +4,29 @@ equation of the point is linear in.
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
 import sympy
 
-from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
+    HIGH,
+    LOW,
     Expr,
     Map,
     as_factor,
     atoms,
+    column,
     conjunction,
     conjuncts,
+    ends_of_space,
+    expression,
     holds,
     renamed,
     symbols,
-    value,
     written,
 )
 from juggleproof.proofs.stability.points import PARAMETERS
@@ -31,11 +35,12 @@ from juggleproof.proofs.stability.samples import Arrays, Floats, region
 NAMES = "ecuvwz"  # for the point, the first that is free
 REAL = 1e-9  # imaginary part, in floats
 MOST_DEGREE = 12
+BUDGET = 200_000  # of counted work for a statement about the point
 
 
 @dataclass(frozen=True)
 class Renamed:
-    """The map with its fixed point as a parameter, and what its old parameter is then."""
+    """The map with its fixed point as a parameter, and an old parameter with its term."""
 
     system: Map
     parameter: str
@@ -128,6 +133,56 @@ def without_positive_factors(part: str, positive: Set[Expr]) -> str:
     return f"{written(sympy.sign(sign) * left[0][0])} {'>' if strict else '>='} 0"
 
 
+def has_one_point(before: Map, found: Renamed) -> bool:
+    """Whether it is certified that each value of the old parameter is the term at exactly one value
+    of the point in the new domain: the term is monotone there, and the equation of both has
+    different signs at the ends of an interval.
+
+    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
+    ...         ("piece", "(2*x + a/x^2)/3")]
+    >>> system = read_rows("cube-root", rows)
+    >>> has_one_point(system, by_its_point(system))
+    True
+    """
+    (name,), old, term = found.system.point, found.parameter, found.term
+    over, domain = found.system.parameters, found.system.domain
+    second = f"{name}_2"
+    other = {name: second}
+    two = [f"forall {' '.join((*over, second))}"]
+    two += [f"given {one}" for one in conjuncts(domain)]
+    two += [f"given {one}" for one in (*conjuncts(renamed(domain, other)), f"{name} < {second}")]
+    if not any(shows(two, f"{term} {than} {renamed(term, other)}") for than in "<>"):
+        return False
+    low, high = interval(before, name, domain)
+    equation, divisor = sympy.fraction(sympy.together(expression(f"{term} - {old}")))
+    given = [f"forall {' '.join(before.parameters)}", f"given {before.domain}"]
+    ends = [renamed(written(equation), {name: f"({end})"}) for end in (low, high)]
+    if not shows(given, f"{low} < {high}") or not any(
+        shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
+        for left, right in ("<>", "><")
+    ):
+        return False
+    between = [f"forall {' '.join((*before.parameters, name))}", f"given {before.domain}"]
+    between += [f"given {low} < {name}", f"given {name} < {high}"]
+    is_finite = f"{written(divisor)} != 0"
+    where_both = [f"given {is_finite}", f"given {old} = {term}"]
+    return shows(between, is_finite) and shows([*between, *where_both], domain)
+
+
+def interval(before: Map, name: str, domain: str) -> tuple[str, str]:
+    """The ends that the domain has in the point; far out where it has none."""
+    ends = ends_of_space(replace(before, state=(name,)), domain, strict=True)
+    low, high = (written(ends[0, side]) if (0, side) in ends else "" for side in (LOW, HIGH))
+    far = " + ".join(["1", *(f"{one}^2" for one in before.parameters)])
+    return low or f"{high or 0} - ({far})", high or f"{low or 0} + {far}"
+
+
+def shows(lines: Sequence[str], formula: str) -> bool:
+    """Whether it is certified that the formula follows from the lines."""
+    return is_certified([*lines, f"show {formula}"], BUDGET)
+
+
 def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
     """Whether at all samples of the parameters one zero of the equation is in the set, and no other
     one is.
@@ -138,10 +193,7 @@ def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
     if poly.degree() > MOST_DEGREE:
         return False
     size = len(next(iter(parameters.values())))
-    columns = [
-        np.broadcast_to(np.asarray(value(written(c), parameters), float), (size,))
-        for c in poly.all_coeffs()
-    ]
+    columns = [column(written(c), parameters, size) for c in poly.all_coeffs()]
     return size > 0 and all(
         zeros_inside(system, parameters, row, k, inside) == 1
         for k, row in enumerate(np.stack(columns, axis=1))

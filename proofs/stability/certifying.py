@@ -12,6 +12,7 @@ from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.states import state_of
+from juggleproof.certificates.votes.vote import Budget as Votes
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
@@ -25,6 +26,8 @@ BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
 MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refutations and in part
 EFFORTS = (1, 2, SQUARED)
+LONG_SEARCH = 300_000  # units of work, before which Z3 is asked for a counter-model
+QUICK = Votes(rlimit=20_000)  # some 20 ms
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
 Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
@@ -141,8 +144,11 @@ class Proof:
         """A proof of one premise, if one is found."""
         if terms_of_pairs(premise) // 16 > budget:
             return None  # the first program would be too large
-        for effort in efforts:
+        for count, effort in enumerate(efforts):
             if self.work >= self.most:
+                return None
+            asked = count == 1 and budget >= LONG_SEARCH
+            if asked and vote_and_model(premise, budget=QUICK)[1] is not None:
                 return None
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
@@ -213,11 +219,11 @@ def where_open(given: str, domain: str, parameters: Sequence[str]) -> str:
     return f"at least where {where}, " if where else ""
 
 
-def is_certified(lines: Sequence[str]) -> bool:
+def is_certified(lines: Sequence[str], budget: int = BUDGET) -> bool:
     """Whether a certificate for the statement of these lines is found, and the checker takes it."""
     try:
         statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
-        found = search_certificate(statement, {}, Budget(BUDGET))
+        found = search_certificate(statement, {}, Budget(budget))
     except (checker.Rejected, Exhausted):  # it divides by what may be 0, or is too large
         return False
     return checker.check_one(statement, found, {}, {})[0] == "certified"

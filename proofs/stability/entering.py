@@ -15,15 +15,19 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
+    HIGH,
+    LOW,
     Expr,
     Map,
+    Side,
     atoms,
+    column,
     conjunction,
     conjuncts,
+    ends_of_space,
     expression,
     holds,
     symbols,
-    value,
     written,
 )
 from juggleproof.proofs.stability.samples import SEED, STATES, Arrays, Floats, around
@@ -123,9 +127,6 @@ def entering_rules(setting: Setting, boxes: Sequence[str], name: str) -> list[Ma
 # -------------------------------------------------------------------------------------------------
 # Parts of the space that every orbit enters, each the space of a map with the same piece.
 
-LOW, HIGH = 1, -1
-Side = tuple[int, int]  # the number of a variable, LOW or HIGH
-
 
 def spaces_entered(setting: Setting, far: bool) -> list[str]:
     """For one step after another, the space with bounds of all states so many steps after any of
@@ -164,7 +165,7 @@ def _bound(system: Map, side: Side, ends: dict[Side, Expr], points: Arrays, far:
         end = None if limit == end else limit
     if end is None or not end.is_rational_function():
         return ""
-    beyond = sign * (_at(image, points) - _at(end, points))
+    beyond = sign * (_at(end, points) - _at(image, points))
     attained = bool((beyond == 0).any())
     if (beyond < 0).any() or attained and not far:
         return ""
@@ -198,20 +199,6 @@ def limit_of(
     return image
 
 
-def ends_of_space(system: Map, space: str) -> dict[Side, Expr]:
-    """The ends that the space has, as terms in the parameters."""
-    state = symbols(system.state)
-    found: dict[Side, Expr] = {}
-    for poly, _ in atoms(space):
-        named = poly.free_symbols & set(state)
-        slope = sympy.diff(poly, *named) if len(named) == 1 else sympy.Integer(0)
-        if slope.is_Rational and slope != 0:
-            (one,) = named
-            side = state.index(one), LOW if slope > 0 else HIGH
-            found.setdefault(side, sympy.expand(one - poly / slope))
-    return found
-
-
 def states_at_ends(setting: Setting, space: str) -> Arrays:
     """States of the space, many of them at an end of it."""
     rng, points = np.random.default_rng(SEED), dict(setting.states.points)
@@ -226,7 +213,7 @@ def states_at_ends(setting: Setting, space: str) -> Arrays:
 
 def _at(term: Expr, points: Arrays) -> Floats:
     count = len(next(iter(points.values())))
-    return np.broadcast_to(np.asarray(value(written(term), points), float), (count,))
+    return column(written(term), points, count)
 
 
 def inner(setting: Setting, space: str) -> Setting:

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import formula_of, term_of
@@ -28,9 +29,11 @@ Expr = Any  # of SymPy, which has no types
 Value = Any  # a float array, a Fraction or an Expr: whatever a text is evaluated in
 Point = Mapping[str, Value]
 Piece = tuple[str, tuple[str, ...]]  # guard, images
+Side = tuple[int, int]  # the number of a state variable, LOW or HIGH
 
 ORDER = ("over", "domain", "state", "space", "piece", "point")
 ANYWHERE = "0 < 1"  # a formula that always holds, as text
+LOW, HIGH = -1, 1
 FUNCTIONS = ("abs", "max", "min")
 SIGNS = "names, 3/10 or 0.3, + - * / ^, abs max min, < <= = != >= >, and or not"
 RESERVED = re.compile(r"value|level|distance|root_\d+|.*_(next|gap|point)")
@@ -146,6 +149,11 @@ def value(text: str, point: Point) -> Value:
     return _value(checker.parse(text), point, Fraction)
 
 
+def column(term: str, points: Point, count: int) -> NDArray[np.float64]:
+    """The value of a term at so many points."""
+    return np.broadcast_to(np.asarray(value(term, points), float), (count,))
+
+
 def holds(text: str, point: Point) -> Value:
     """Whether a formula holds, for each state of an array."""
     return _holds(checker.parse(text), point, {})
@@ -237,20 +245,27 @@ def _atoms(node: ast.expr) -> Iterable[tuple[Expr, bool]]:
                 yield sympy.expand(left - right), isinstance(op, ast.Gt)
 
 
-def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
-    """What is > 0 in the space, for each state variable: its distance to a lower bound, and to an
-    upper one.
-    """
-    low: dict[str, str] = {}
-    high: dict[str, str] = {}
-    for poly, strict in atoms(system.space):
-        named = poly.free_symbols & set(symbols(system.state))
-        if strict and len(named) == 1:
+def ends_of_space(system: Map, space: str = "", strict: bool = False) -> dict[Side, Expr]:
+    """The ends of the space, or of a part of it, in single variables; `strict`: if not in it."""
+    state = symbols(system.state)
+    found: dict[Side, Expr] = {}
+    for poly, is_strict in atoms(space or system.space):
+        named = poly.free_symbols & set(state)
+        slope = sympy.diff(poly, *named) if len(named) == 1 else sympy.Integer(0)
+        if slope.is_Rational and slope != 0 and (is_strict or not strict):
             (one,) = named
-            slope = sympy.diff(poly, one)
-            if slope.is_Rational:
-                (low if slope > 0 else high).setdefault(str(one), written(poly / abs(slope)))
-    return low, high
+            side = state.index(one), LOW if slope > 0 else HIGH
+            found.setdefault(side, sympy.expand(one - poly / slope))
+    return found
+
+
+def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
+    """For each state variable its distance to an end, which is > 0: to lower ends, and to upper."""
+    found: dict[int, dict[str, str]] = {LOW: {}, HIGH: {}}
+    for (k, side), end in ends_of_space(system, strict=True).items():
+        gap = sympy.expand(side * (end - symbols(system.state)[k]))
+        found[side][system.state[k]] = written(gap)
+    return found[LOW], found[HIGH]
 
 
 def checker_text(node: ast.AST) -> str:

@@ -16,7 +16,13 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import Setting, bounded_below
-from juggleproof.proofs.stability.given import Map, expression, holds, symbols, value
+from juggleproof.proofs.stability.given import (
+    Map,
+    column,
+    expression,
+    holds,
+    symbols,
+)
 from juggleproof.proofs.stability.points import as_point, solutions
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -76,8 +82,7 @@ def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:
     known = setting.point.with_roots(setting.parameters)
     origin = {**known, **{name: np.zeros(count) for name in system.state}}
     shifts = [
-        np.stack([np.broadcast_to(np.asarray(value(i, origin), float), count) for i in images], 1)
-        for _, images in system.pieces
+        np.stack([column(i, origin, count) for i in images], 1) for _, images in system.pieces
     ]
     for word in itertools.islice(_words(len(pieces)), MOST_AFFINE):
         matrix, shift = np.broadcast_to(np.eye(n), (count, n, n)), np.zeros((count, n))
@@ -223,10 +228,10 @@ def grows(setting: Setting, more: str) -> Callable[[str], bool]:
     """Whether the square of the distance grows by more than 1 + more at samples, up to a radius."""
     system, known = setting.system, setting.constants
     (state,) = system.state
-    rate = 1 + np.broadcast_to(np.asarray(value(more, known), float), (setting.count,))
+    rate = 1 + column(more, known, setting.count)
 
     def fits(radius: str) -> bool:
-        reach = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+        reach = column(radius, known, setting.count)
         for share in SHARES:
             gap = share * reach
             points = known | {state: known[f"{state}_point"] + gap}

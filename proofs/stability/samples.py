@@ -21,6 +21,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     atoms,
     checker_text,
+    column,
     conjunction,
     conjuncts,
     expression,
@@ -86,7 +87,7 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
             point |= {name: values[chosen] for name, values in given.items()}
         with np.errstate(all="ignore"):
             for name, term in fixed.items():
-                point[name] = np.broadcast_to(np.asarray(value(term, point), float), (count,))
+                point[name] = column(term, point, count)
             inside = np.broadcast_to(holds(formula, point), (count,))
         kept.append({name: values[inside] for name, values in point.items()})
         total += int(inside.sum())
@@ -181,7 +182,7 @@ class Point:
         """The point for arrays of parameters."""
         known: Arrays = self.with_roots(parameters)
         size = _count(parameters)
-        return [np.broadcast_to(np.asarray(value(t, known), float), (size,)) for t in self.terms]
+        return [column(t, known, size) for t in self.terms]
 
     def with_roots(self, parameters: Mapping[str, Floats]) -> Arrays:
         """The parameters with the values of the roots."""

@@ -11,7 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.algebraic import by_its_point
+from juggleproof.proofs.stability.algebraic import by_its_point, has_one_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -21,6 +21,7 @@ from juggleproof.proofs.stability.certifying import (
     Proof,
     Report,
     beyond,
+    is_certified,
     tried,
     where_open,
 )
@@ -55,6 +56,9 @@ from juggleproof.proofs.stability.settings import setting_of
 
 MOST_REFUTED = 3  # fixed points
 LOCAL_TRIED = 3  # statements of states close to a point
+SAMPLES = 1000  # states, at which pieces apply that are not empty
+FEW_PIECES = 3  # of which none is looked at
+EMPTY_BUDGET = 20_000  # of counted work for a piece that none of them is in
 
 
 @dataclass
@@ -88,7 +92,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     comes nearest to either.
     """
     given, guards, original = system.domain, [guard for guard, _ in system.pieces], system
-    system = with_licences(system)
+    system = without_empty_pieces(with_licences(system))
     parameters = region(system.domain, system.parameters, PARAMETERS)
     proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
     if not all(map(len, parameters.values())):
@@ -111,8 +115,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     other = None if every else by_its_point(original)
     if other:
         outcome = outcome_of(other.system, report, budget)
-        more = f"; here {other.parameter} = {other.term}" if outcome.sentence else ""
-        return replace(outcome, sentence=outcome.sentence + more)
+        if outcome.sentence:
+            outcome.sentence += f"; here {other.parameter} = {other.term}"
+            if not has_one_point(original, other):
+                each = f"each {other.parameter} has one such {other.system.point[0]}"
+                outcome.sentence += f", where samples alone say that {each}"
+        return outcome
     if not every:
         if not system.point and not proof.add(without_fixed_point(system)):
             return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
@@ -165,6 +173,28 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                     sentence = f"{near}; of other states nothing was found"
                     return Outcome(proof, "region", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
+
+
+def without_empty_pieces(system: Map) -> Map:
+    """The map without the pieces that apply at no state, as it is certified: of cases of abs, max
+    and min, many exclude each other.
+
+    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> rows = [("state", "x"), ("piece", "max(x - 1, 0) + min(x + 1, 0)")]
+    >>> [guard for guard, _ in without_empty_pieces(read_rows("gap", rows)).pieces]
+    ['x - 1 >= 0 and 0 < x + 1', '0 > x - 1 and x + 1 <= 0', '0 > x - 1 and 0 < x + 1']
+    """
+    if len(system.pieces) < FEW_PIECES:
+        return system
+    inside = conjunction(system.domain, system.space)
+    points = region(inside, system.names, SAMPLES)
+    lines = [f"forall {' '.join(system.names)}", f"given {inside}"]
+    kept = [
+        piece
+        for piece, here in zip(system.pieces, system.applying(points))
+        if here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
+    ]
+    return replace(system, pieces=tuple(kept))
 
 
 def without_fixed_point(system: Map) -> MapRule:

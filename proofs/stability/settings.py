@@ -30,12 +30,13 @@ from juggleproof.proofs.stability.samples import (
 
 
 def known_of(setting: Setting) -> tuple[str, ...]:
-    """What premises are to know of a point whose terms are not simple: that it is a fixed point,
-    and on which side of the guard and of the bounds of the space it lies.
+    """What premises are to know of a point with roots or parameters in divisors: that it is a fixed
+    point, and on which side of the guard and of the bounds of the space it lies.
     """
     system, point, piece = setting.system, setting.point, setting.piece
     terms = [expression(term) for term in point.terms]
-    if all("/" not in written(t) or not t.free_symbols for t in terms) and not point.roots:
+    divisors = [sympy.denom(sympy.together(term)) for term in terms]
+    if all(divisor.is_number for divisor in divisors) and not point.roots:
         return ()
     names = {name: f"{name}_point" for name in system.state}
     lines = []

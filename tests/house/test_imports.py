@@ -62,7 +62,8 @@ FLOORS = (
     ("certificates.search", "certificates.votes", "certificates.coq"),
     ("proofs.reading",),
     ("proofs",),
-    ("proofs.paper", "proofs.theorem", "proofs.part", "proofs.smtlib", "proofs.ledger"),
+    ("proofs.paper", "proofs.theorem", "proofs.part", "proofs.sine")
+    + ("proofs.smtlib", "proofs.ledger"),
     ("proofs.reports", "proofs.api"),
     ("proofs.command", "proofs.pytest_plugin", "proofs.pytest_items"),
     ("benchmarks",),

@@ -20,18 +20,19 @@ from juggleproof.certificates.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.certificates.nodes import Node, Proof
-from juggleproof.certificates.search.by_products import (
+from juggleproof.certificates.search.closing import sign_node
+from juggleproof.certificates.search.falls.by_products import (
+    Combinations,
+    Multiplied,
     facts_kept,
     independent,
     obligations_closed,
     renumbered,
     with_facts,
 )
-from juggleproof.certificates.search.closing import sign_node
 from juggleproof.certificates.search.psatz.facts import Factors
-from juggleproof.certificates.search.psatz.lifting import lift, powers_of
+from juggleproof.certificates.search.psatz.lifting import lift
 from juggleproof.certificates.search.psatz.linear import Products
-from juggleproof.certificates.search.psatz.linear_program import Program, solve
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -267,35 +268,17 @@ class Case:
         last = firsts.index(len(kept) - 1)
         poly = problem.facts[last].poly
         inside = variables_of(poly)
-        every = [k for k, fact in enumerate(problem.facts) if variables_of(fact.poly) <= inside]
-        others = independent(problem, [k for k in every if k != last])
+        known = [k for k, fact in enumerate(problem.facts) if variables_of(fact.poly) <= inside]
+        others = independent(problem, [k for k in known if k != last])
         packing = Packing(self.ring, problem.polys())
         parts = [Products(problem, others, packing)]
-        for more in MORE:
-            program = Program()
-            columns: list[tuple[int, ...]] = []
-            for count in range(total_degree(poly) + more + 1):
-                if len(parts) <= count:
-                    products, terms = parts[-1].sizes_with_facts()
-                    if products > MOST_COLUMNS or terms > MOST_TERMS:
-                        return None
-                    parts.append(parts[-1].times_facts())
-                block = parts[count]
-                costs = 1.0 + block.widths / 4
-                program.add(block.at, block.keys, block.values, block.strict, costs)
-                columns += [tuple(one) for one in block.chosen.tolist()]
-            if len(columns) > MOST_COLUMNS:
-                return None
-            keys, values = packing.row(poly)
-            program.add(0 * keys, keys, values, np.array([True]), np.ones(1))
-            columns.append((last,))
-            self.budget.spend(3 * program.count)
-            found = solve(program, self.budget)
-            if found is not None:
-                used = [((powers_of(columns[k]), -1), c) for k, c in found[0].items()]
-                node = lift(problem, used, [], [])
-                return None if node is None else renumbered(node, kept)
-        return None
+        multiplied = [
+            Multiplied(self.ring.one, (), -1),
+            Multiplied(poly, (last,), -1, alone=True),
+        ]
+        every = Combinations(problem, parts, packing, MOST_COLUMNS, MOST_TERMS)
+        node = every.node(multiplied, total_degree(poly), MORE, [], self.budget)
+        return None if node is None else renumbered(node, kept)
 
     def written(
         self, problem: Problem, parts: Sequence[Part], facts: Mapping[str, int]

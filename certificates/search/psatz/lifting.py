@@ -26,6 +26,7 @@ from juggleproof.certificates.search.psatz.problem import Problem, Source
 
 MonomialCofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
 SWEEPS = 8
+LONG = 200  # bits of a number of an identity, from which on a shorter form is sought
 
 
 def powers_of(chosen: tuple[int, ...]) -> Factors:
@@ -217,18 +218,43 @@ def finish(
     if total:
         return None
     terms = [Term(t.coefficient, merge(t.factors, extra), t.root) for t in terms]
-    return written(source, terms, {k: c for k, c in owed.items() if c})
+    owed = {k: c for k, c in owed.items() if c}
+    return written(source, *without_common_facts(source, terms, owed))
+
+
+def without_common_facts(
+    source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]
+) -> tuple[Sequence[Term], dict[int, fmpz_mpoly]]:
+    """The identity divided by the facts that all its terms have in common, as often as they divide
+    the cofactors.
+    """
+    for k, _ in terms[0].factors if terms else ():
+        if source.relations[k] == "!=":
+            continue  # even powers only have a sign
+        for _ in range(min(dict(t.factors).get(k, 0) for t in terms)):
+            parts = {at: divmod(cofactor, source.lowered[k]) for at, cofactor in owed.items()}
+            if any(rest for _, rest in parts.values()):
+                break
+            owed = {at: quotient for at, (quotient, _) in parts.items()}
+            terms = [Term(t.coefficient, lessened(t.factors, k), t.root) for t in terms]
+    return terms, owed
+
+
+def lessened(factors: Factors, fact: int) -> Factors:
+    """A product of facts divided by one of them.
+
+    >>> lessened(((0, 2), (3, 1)), 3)
+    ((0, 2),)
+    """
+    return tuple((k, e - (k == fact)) for k, e in factors if k != fact or e > 1)
 
 
 def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> Psatz:
     """The node of an identity between lowered facts, every term brought to one weight by powers of
     the scales.
     """
-    scaling, content = source.scaling, 0
-    for t in terms:
-        content = gcd(content, t.coefficient.numerator)
-    for c in owed.values():
-        content = gcd(content, int(c.content()))
+    scaling = source.scaling
+    content = shortest_divisor([int(t.coefficient) for t in terms], list(owed.values()))
     weights = [scaling.largest(poly) for poly in source.polys] if scaling.scales else []
     parts: list[tuple[Fraction, Factors, fmpz_mpoly, tuple[int, ...]]] = []
     for t in terms:
@@ -263,6 +289,27 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
         factor = Fraction(source.dens[k], content)
         equations.append((k, scaled_text(c, factor)))
     return "psatz", products, equations
+
+
+def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) -> int:
+    """By what an identity in whole numbers is divided, so that it has the fewest digits: what all
+    have in common; or where that leaves long numbers, which come of fractions with many
+    denominators, one of them, which leaves such fractions.
+
+    >>> shortest_divisor([4, 6], [])
+    2
+    """
+    shared = gcd(*weights, *(int(c.content()) for c in cofactors))
+    if max(weights, default=0).bit_length() - shared.bit_length() < LONG:
+        return shared
+    every = [*weights, *(int(c) for poly in cofactors for c in poly.coeffs())]
+
+    def digits(divisor: int) -> int:
+        parts = [gcd(number, divisor).bit_length() for number in every]
+        long = divisor.bit_length()
+        return sum(number.bit_length() + long - 2 * part for number, part in zip(every, parts))
+
+    return min(shared, *set(weights), key=lambda one: (digits(one), one))
 
 
 def scaled_text(poly: fmpz_mpoly, factor: Fraction) -> str:

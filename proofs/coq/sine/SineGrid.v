@@ -1,4 +1,5 @@
 (* The cells of a certificate: columns of phases, counted on over periods, and rows of closing speeds.
+   They are its narrowest: where a certificate has a wider cell, all of these in it have its rank, and the first `deep` rows are its row 0.
 
    Defined:  cell, trap_cell, arc_cell; leads, what the ranks of the cells where a flight starts and ends satisfy; cells, what `check_cells` finds.
    Proved:   every state is in a cell, those of the trap in its cells, those of the arc in its cells, and a cell is of one kind;
@@ -37,7 +38,7 @@ Qed.
 
 Section Grid.
   Variables alpha g : R.
-  Variables columns per_unit rows width low high first last : Z.
+  Variables columns per_unit rows width low high first last deep : Z.
   Variable at_rest : nat.
   Variable rank : Z -> Z -> nat.
 
@@ -49,7 +50,7 @@ Section Grid.
   Definition top : R := IZR rows / K.
   Definition cell (i r : Z) (z : Impact) : Prop := IZR i / N <= fst z <= (IZR i + 1) / N /\ IZR r / K <= snd z <= (IZR r + 1) / K.
   Definition trap_cell (k i r : Z) : Prop := (k * columns - width <= i < k * columns + width /\ low <= r < high)%Z.
-  Definition arc_cell (k i r : Z) : Prop := (first + k * columns <= i < last + k * columns /\ r = 0)%Z.
+  Definition arc_cell (k i r : Z) : Prop := (first + k * columns <= i < last + k * columns /\ 0 <= r < deep)%Z.
   Definition other_cell (i r : Z) : Prop := (forall k, ~ trap_cell k i r) /\ forall k, ~ arc_cell k i r.
 
   (* A flight from the cell (i, r) to the cell (m, q). *)
@@ -61,7 +62,7 @@ Section Grid.
   Record cells : Prop := {
     grid_positive : (0 < columns)%Z /\ (0 < per_unit)%Z;
     trap_range : (0 < width /\ 8 * width <= columns /\ 0 < low < high /\ high <= rows)%Z;
-    arc_range : (0 <= first < columns /\ first < last < first + columns)%Z;
+    arc_range : (0 <= first < columns /\ first < last < first + columns /\ 0 < deep <= rows)%Z;
     arc_rank : forall k i r, arc_cell k i r -> rank i r = at_rest;
     arc_outside : forall y, IZR last / N <= y <= IZR first / N + 1 -> 1 < downward y;
     rank_of_rest : forall i r z, (0 <= r < rows)%Z -> other_cell i r -> cell i r z -> alpha = 0 -> downward (fst z) <= 1 -> (at_rest < rank i r)%nat;
@@ -73,7 +74,7 @@ Section Grid.
 
   Definition start : R := IZR first / N.
   Definition finish : R := IZR last / N.
-  Definition depth : R := 1 / K.
+  Definition depth : R := IZR deep / K.
   Definition ranked (n : nat) (z : Impact) : Prop := exists i r, (0 <= r < rows)%Z /\ cell i r z /\ other_cell i r /\ rank i r = n.
   Local Notation trap := (in_trap (IZR width / N) (IZR low / K) (IZR high / K)).
   Local Notation arc := (arc start finish depth).
@@ -126,17 +127,20 @@ Section Grid.
 
   Lemma arc_cell_is k i r z : arc_cell k i r -> cell i r z -> arc k z.
   Proof.
-    intros [columns_ ->] [place speed]. pose proof N_positive. pose proof K_positive. rewrite next_line in *.
+    intros [columns_ rows_] [place speed]. pose proof N_positive. pose proof K_positive. rewrite next_line in *.
     pose proof (scaled (first + k * columns) i N ltac:(lra) ltac:(lia)) as one. pose proof (scaled (i + 1) (last + k * columns) N ltac:(lra) ltac:(lia)) as two.
-    rewrite per_period in one, two. unfold SineDescent.arc, start, finish, depth. cbn [Z.add] in speed. unfold Rdiv in speed. rewrite Rmult_0_l in speed. unfold Rdiv in *. lra.
+    pose proof (scaled 0 r K ltac:(lra) ltac:(lia)) as three. pose proof (scaled (r + 1) deep K ltac:(lra) ltac:(lia)).
+    rewrite per_period in one, two. unfold SineDescent.arc, start, finish, depth. unfold Rdiv in three at 1. rewrite Rmult_0_l in three. lra.
   Qed.
 
-  Lemma arc_has_cell k z : arc k z -> exists i, arc_cell k i 0 /\ cell i 0 z.
+  Lemma arc_has_cell k z : arc k z -> exists i r, arc_cell k i r /\ cell i r z.
   Proof.
     intros [place speed]. pose proof N_positive. pose proof K_positive. destruct certified as [_ _ arc_ _ _ _ _].
     destruct (lines N (first + k * columns) (last + k * columns) (fst z)) as (i & i_range & i_place); [lra|lia| |].
     { rewrite !per_period. exact place. }
-    exists i. split; [unfold arc_cell; lia|]. split; [exact i_place|]. unfold depth in speed. rewrite Rplus_0_l. unfold Rdiv in *. lra.
+    destruct (lines K 0 deep (snd z)) as (r & r_range & r_speed); [lra|lia| |].
+    { unfold depth in speed. unfold Rdiv at 1. rewrite Rmult_0_l. lra. }
+    exists i, r. split; [unfold arc_cell; lia|now split].
   Qed.
 
   Lemma cell_of_state z : 0 <= snd z <= top -> exists i r, (0 <= r < rows)%Z /\ cell i r z.
@@ -184,8 +188,8 @@ Section Grid.
 
   Lemma grid_arc_flight k z w : arc k z -> flight z w -> snd w <= top -> arc k w \/ below ranked trap at_rest w.
   Proof.
-    intros inside flown bound. destruct (arc_has_cell k z inside) as (i & kind_ & here). destruct (trap_range certified) as (_ & _ & low_ & high_).
-    destruct (flights_lead certified i 0 z w ltac:(lia) here flown bound) as (m & q & range & there & (_ & in_arc & _)).
+    intros inside flown bound. destruct (arc_has_cell k z inside) as (i & r & kind_ & here). destruct (arc_range certified) as (_ & _ & deep_). pose proof (proj2 kind_) as row.
+    destruct (flights_lead certified i r z w ltac:(lia) here flown bound) as (m & q & range & there & (_ & in_arc & _)).
     destruct (in_arc k kind_) as [same|less]; [left; exact (arc_cell_is k m q w same there)|right].
     destruct (grid_below at_rest m q w range there less) as [yes|[no _]]; [exact yes|lia].
   Qed.
@@ -219,10 +223,10 @@ Section Grid.
     assert (row : r = 0%Z).
     { assert (IZR r <= 0); [|apply (le_IZR r 0) in H1; lia]. rewrite no_speed in speed. apply Rmult_le_reg_r with (/ K); [now apply Rinv_0_lt_compat|].
       unfold Rdiv in speed. lra. }
-    destruct (grid_positive certified) as [columns_ _]. destruct (arc_range certified) as [_ arc_].
+    destruct (grid_positive certified) as [columns_ _]. destruct (arc_range certified) as (_ & arc_ & deep_).
     set (k := ((i - first) / columns)%Z). assert (copy : (first + k * columns <= i < first + k * columns + columns)%Z).
     { unfold k. pose proof (Z.div_mod (i - first) columns ltac:(lia)). pose proof (Z.mod_pos_bound (i - first) columns columns_). nia. }
-    apply (proj2 kind_ k). split; [|exact row]. split; [lia|]. apply Znot_ge_lt. intro beyond.
+    apply (proj2 kind_ k). split; [|lia]. split; [lia|]. apply Znot_ge_lt. intro beyond.
     pose proof (scaled (last + k * columns) i N ltac:(lra) ltac:(lia)) as one. pose proof (scaled (i + 1) (first + (k + 1) * columns) N ltac:(lra) ltac:(lia)) as two.
     rewrite per_period in one, two. rewrite (plus_IZR k 1) in two. rewrite next_line in place.
     pose proof (grid_arc_holds k (fst z) ltac:(unfold start, finish; lra)). lra.

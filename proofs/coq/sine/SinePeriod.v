@@ -8,14 +8,14 @@ Open Scope R_scope.
 
 Section Period.
   Variables alpha g : R.
-  Variables columns per_unit rows width low high first last : Z.
+  Variables columns per_unit rows width low high first last deep : Z.
   Variable at_rest : nat.
   Variable rank : Z -> Z -> nat.
   Local Notation cell := (cell columns per_unit).
   Local Notation trap_cell := (trap_cell columns width low high).
-  Local Notation arc_cell := (arc_cell columns first last).
-  Local Notation other_cell := (other_cell columns width low high first last).
-  Local Notation leads := (leads columns width low high first last at_rest rank).
+  Local Notation arc_cell := (arc_cell columns first last deep).
+  Local Notation other_cell := (other_cell columns width low high first last deep).
+  Local Notation leads := (leads columns width low high first last deep at_rest rank).
   Local Notation top := (top per_unit rows).
 
   Hypothesis columns_positive : (0 < columns)%Z.

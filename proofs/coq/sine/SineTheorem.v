@@ -24,7 +24,7 @@ Open Scope R_scope.
 
 Section Theorem_.
   Variables alpha g rho weight rate S_low S_high : R.
-  Variables columns per_unit rows width low high first last : Z.
+  Variables columns per_unit rows width low high first last deep : Z.
   Variable at_rest : nat.
   Variable rank : Z -> Z -> nat.
 
@@ -50,7 +50,7 @@ Section Theorem_.
     norm_range : 0 < weight /\ 0 < rate < 1;
     norm_holds : contracts alpha reach slowest fastest weight rate S_low S_high;
     (* check_rest_arc and check_cells *)
-    cells_hold : cells alpha g columns per_unit rows width low high first last at_rest rank }.
+    cells_hold : cells alpha g columns per_unit rows width low high first last deep at_rest rank }.
 
   Hypothesis holds : certified.
 
@@ -81,7 +81,7 @@ Section Theorem_.
 
   Lemma trap_lands_ z w : trap 0 z -> flight z w -> trap 1 w.
   Proof.
-    intros inside flown. pose proof ranges. apply (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds) 0 z w inside flown).
+    intros inside flown. pose proof ranges. apply (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds) 0 z w inside flown).
     apply (flight_below z w flown). destruct inside. lra.
   Qed.
 
@@ -145,8 +145,8 @@ Section Theorem_.
 
     Lemma stays_in_the_trap k n : trap k (z n) -> forall j, trap (k + Z.of_nat j) (z (n + j)) /\ flight (z (n + j)) (z (S (n + j))).
     Proof.
-      exact (trap_keeps alpha g (start columns first) (finish columns last) top trap (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) trap_place
-        (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) trap_moves z speeds goes speeds_within k n).
+      exact (trap_keeps alpha g (start columns first) (finish columns last) top trap (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) trap_place
+        (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) trap_moves z speeds goes speeds_within k n).
     Qed.
     (* The flights of a motion in the trap, each a period back, are an execution of `next`. *)
     Lemma period_by_period k n : trap k (z n) -> let x := fun j => (fst (z (n + j)) - IZR (k + Z.of_nat j), snd (z (n + j))) in execution next x /\ trap 0 (x O).
@@ -162,16 +162,16 @@ Section Theorem_.
 
     Theorem rests_are_few bound : (forall n, fst (z n) <= bound) -> ~ forall m, exists n, (m <= n)%nat /\ ~ flight (z n) (z (S n)).
     Proof.
-      apply (no_endless_rests alpha g (start columns first) (finish columns last) (depth per_unit) top at_rest
-        (ranked columns per_unit rows width low high first last rank) trap); try (now apply grid_arc_short with (1 := cells_hold holds)).
+      apply (no_endless_rests alpha g (start columns first) (finish columns last) (depth per_unit deep) top at_rest
+        (ranked columns per_unit rows width low high first last deep rank) trap); try (now apply grid_arc_short with (1 := cells_hold holds)).
       - apply Rlt_le, Rdiv_lt_0_compat; [lra|apply ranges].
-      - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact trap_place.
-      - exact (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact trap_moves.
-      - exact (grid_arc_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_ranked_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_ranked_rest _ _ _ _ _ _ _ _ _ _ _ _ alpha_nonnegative (cells_hold holds)).
+      - exact (grid_arc_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_ranked_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_ranked_rest _ _ _ _ _ _ _ _ _ _ _ _ _ alpha_nonnegative (cells_hold holds)).
       - exact speeds.
       - exact goes.
       - exact speeds_within.
@@ -179,18 +179,18 @@ Section Theorem_.
 
     Lemma in_the_end : (forall time, exists n, time < fst (z n)) -> exists n k, trap k (z n).
     Proof.
-      intro unbounded. destruct (comes_to_the_trap alpha g (start columns first) (finish columns last) (depth per_unit) top at_rest
-        (ranked columns per_unit rows width low high first last rank) trap) with (z := z) as (n & k & all).
+      intro unbounded. destruct (comes_to_the_trap alpha g (start columns first) (finish columns last) (depth per_unit deep) top at_rest
+        (ranked columns per_unit rows width low high first last deep rank) trap) with (z := z) as (n & k & all).
       - apply Rlt_le, Rdiv_lt_0_compat; [lra|apply ranges].
-      - exact (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_located _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_located _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact trap_place.
-      - exact (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_trap_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
       - exact trap_moves.
-      - exact (grid_arc_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_ranked_flight _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
-      - exact (grid_ranked_rest _ _ _ _ _ _ _ _ _ _ _ _ alpha_nonnegative (cells_hold holds)).
+      - exact (grid_arc_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_ranked_flight _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)).
+      - exact (grid_ranked_rest _ _ _ _ _ _ _ _ _ _ _ _ _ alpha_nonnegative (cells_hold holds)).
       - exact speeds.
       - exact goes.
       - exact speeds_within.
@@ -256,8 +256,8 @@ Section Theorem_.
 
   Lemma before_the_arc_ends x : downward alpha g x <= 1 -> exists e, x < e < x + 1 /\ 1 < downward alpha g e.
   Proof.
-    intro slow. pose proof (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as short.
-    pose proof (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as outside.
+    intro slow. pose proof (grid_arc_short _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as short.
+    pose proof (grid_arc_holds _ _ _ _ _ _ _ _ _ _ _ _ _ (cells_hold holds)) as outside.
     destruct (slow_is_in_the_arc alpha g (start columns first) (finish columns last) outside x slow) as [k place].
     exists (finish columns last + IZR k). split; [lra|]. apply (outside k). lra.
   Qed.

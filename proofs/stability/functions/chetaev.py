@@ -33,6 +33,7 @@ from juggleproof.proofs.stability.functions.values import (
 )
 from juggleproof.proofs.stability.given import (
     as_factor,
+    column,
     conjunction,
     expression,
     holds,
@@ -80,11 +81,7 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
             continue
         form = signs * (z * matrix - sympy.eye(size)).adjugate()
         numbers = np.stack(
-            [
-                s
-                * np.broadcast_to(np.asarray(value(written(one), setting.constants), float), count)
-                for s, one in zip(signs, form)
-            ]
+            [s * column(written(one), setting.constants, count) for s, one in zip(signs, form)]
         )
         if (numbers < 0).all():
             form, numbers = -form, -numbers

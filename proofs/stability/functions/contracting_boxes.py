@@ -34,11 +34,14 @@ from juggleproof.proofs.stability.functions.values import (
     power_products,
 )
 from juggleproof.proofs.stability.given import (
+    HIGH,
+    LOW,
     Expr,
+    Side,
     as_factor,
     atoms,
-    bounds,
     conjunction,
+    ends_of_space,
     expression,
     holds,
     symbols,
@@ -60,8 +63,6 @@ SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of a side; -1: any
 TOGETHER = 3  # of the factors of a constant
 SPAN = 2.5  # powers of ten below and above 1 that a side without an end runs over
 LOOSE = 4.0  # how well a constant fits, above which the fall at the end itself is taken
-LOW, HIGH = -1, 1
-Side = tuple[int, int]  # the number of a variable, LOW or HIGH
 Ends = dict[Side, Expr]  # as terms in the parameters
 
 
@@ -88,7 +89,7 @@ def contracting_box_rules(
     if beyond(setting.domain, domain, system.parameters):
         return
     setting = replace(setting, domain=domain)
-    entered, descents = bounds_of_space(setting), []
+    entered, descents = ends_of_space(setting.system, strict=True), []
     for side, end in box.items():
         step = step_of(setting, entered, side, end)
         if not step:
@@ -198,7 +199,7 @@ def below_all(setting: Setting, terms: Sequence[Expr]) -> Floats:
 
 def box_of(setting: Setting) -> Ends | None:
     """The ends of the box, in the order in which orbits enter them."""
-    given = bounds_of_space(setting)
+    given = ends_of_space(setting.system, strict=True)
     every = [(k, side) for side in (HIGH, LOW) for k in range(len(setting.system.state))]
     still: Ends = {}
     for _ in every:
@@ -240,7 +241,7 @@ def limit_of(setting: Setting, low: Ends, side: Side) -> Expr | None:
             image = worst(setting, {**low, side: one}, (k, LOW), end)
             if image is not None:
                 found += roots_of(sympy.numer(sympy.together(image - end)), one)
-    return beside(setting, side, bounds_of_space(setting).get(side), found)
+    return beside(setting, side, ends_of_space(setting.system, strict=True).get(side), found)
 
 
 def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]) -> Expr | None:
@@ -316,7 +317,7 @@ def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     where samples fall by less.
     """
     (k, direction), system = side, setting.system
-    name, lower = system.state[k], bounds_of_space(setting)[k, LOW]
+    name, lower = system.state[k], ends_of_space(setting.system, strict=True)[k, LOW]
     limit = entered.get(side)
     samples = states_of(setting, {**entered, (k, -direction): end, side: limit})
     points = samples.points
@@ -343,7 +344,10 @@ def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     """1 over the fall of a step from the end itself, without factors that are 1 at least; nothing
     where the domain does not say that the others are positive.
     """
-    image, lower = worst(setting, entered, side, end), bounds_of_space(setting)[side[0], LOW]
+    image, lower = (
+        worst(setting, entered, side, end),
+        ends_of_space(setting.system, strict=True)[side[0], LOW],
+    )
     if image is None:
         return ""
     fall = end - image if side[1] == HIGH else 1 / (end - lower) - 1 / (image - lower)
@@ -360,18 +364,6 @@ def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
             return ""
     below = -below if at_parameters(setting, below).max() < 0 else below
     return f"({as_factor(written(below))}/({'*'.join(kept) or 1}))"
-
-
-def bounds_of_space(setting: Setting) -> Ends:
-    """The ends that the space has."""
-    state = symbols(setting.system.state)
-    found: Ends = {}
-    for side, texts in zip((LOW, HIGH), bounds(setting.system)):
-        for k, one in enumerate(state):
-            if str(one) in texts:
-                end = sympy.expand(one + side * expression(texts[str(one)]))
-                found |= {(k, side): end} if not end.free_symbols & set(state) else {}
-    return found
 
 
 def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:

@@ -26,6 +26,7 @@ from juggleproof.proofs.stability.given import (
     Expr,
     as_factor,
     atoms,
+    column,
     conjunction,
     conjuncts,
     expression,
@@ -104,10 +105,7 @@ def slopes(setting: Setting, reach: Expr) -> list[Expr]:
         for term in (1 - reach * sympy.diff(image, state, 2) / 2, sympy.diff(image, state))
     )
     with np.errstate(all="ignore"):
-        at, multiplier = (
-            np.broadcast_to(np.asarray(value(written(term), known), float), (setting.count,))
-            for term in (matched, slope)
-        )
+        at, multiplier = (column(written(term), known, setting.count) for term in (matched, slope))
     found = [sympy.Integer(0)]
     if (at > 0).all():
         found.append(matched)
@@ -244,7 +242,7 @@ def steepness(setting: Setting, function: Function, radius: str) -> str:
     """A bound of V(s)/|s - e| where |s - e| <= radius; nothing where none is found."""
     (state,) = setting.system.state
     known = setting.constants
-    size = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+    size = column(radius, known, setting.count)
     least = np.full(setting.count, np.inf)
     for gap in (size, -size):
         points = known | {state: known[f"{state}_point"] + gap, f"{state}_gap": gap}

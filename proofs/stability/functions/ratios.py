@@ -24,7 +24,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.certificates.search.by_products import proof_by_products
+from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
 from juggleproof.proofs.stability.functions.templates import Function

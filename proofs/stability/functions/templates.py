@@ -19,7 +19,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     bounds,
-    conjunction,
+    column,
     expression,
     holds,
     value,
@@ -42,7 +42,7 @@ class Function:
 
     def at(self, points: Arrays, count: int) -> Floats:
         """Its values at so many states."""
-        parts = [np.broadcast_to(np.asarray(value(t, points), float), (count,)) for t in self.terms]
+        parts = [column(t, points, count) for t in self.terms]
         if self.guards:
             inside = [np.broadcast_to(holds(g, points), (count,)) for g in self.guards]
             parts = [np.where(mask, v, -np.inf) for mask, v in zip(inside, parts)]
@@ -74,14 +74,13 @@ class Template:
     def columns(self, point: Arrays) -> Floats:
         """The terms at each state, shape (states, unknowns)."""
         size = len(next(iter(point.values())))
-        below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
+        below = column(self.divisor, point, size)
         blocks = []
         guards = self.parts or ("0 < 1",)
         for guard, basis in zip(guards, self.bases or (self.basis,) * len(guards)):
             inside = np.broadcast_to(holds(guard, point), (size,))
             for b in basis:
-                column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
-                blocks.append(np.where(inside, column / below, 0.0))
+                blocks.append(np.where(inside, column(b, point, size) / below, 0.0))
         return np.stack(blocks, axis=1)
 
     def every_term(self) -> list[str]:
@@ -128,7 +127,9 @@ class Sides:
         return [""] * (len(self.forms) * len(self.factors) * (1 if self.even else 2))
 
     def function(self, numbers: Sequence[Fraction]) -> Function:
-        """The sum, a linear form for each choice of signs."""
+        """The sum, as the greatest of a linear form for each choice of signs, which it is where no
+        weight is negative: premises then have no cases.
+        """
         size = len(self.factors)
         products = [
             expression(f"({c})*{f}") for c, f in zip(numbers, itertools.cycle(self.factors))
@@ -136,16 +137,14 @@ class Sides:
         weights = [sum(products[k : k + size]) for k in range(0, len(numbers), size)]
         if self.even:
             weights = [one for one in weights for _ in range(2)]
-        terms, guards = [], []
+        terms = []
         for signs in itertools.product((0, 1), repeat=len(self.forms)):
             total = sum(
                 (1 - 2 * sign) * weights[2 * k + sign] * expression(form)
                 for k, (form, sign) in enumerate(zip(self.forms, signs))
             )
             terms.append(written(total))
-            sides = zip(self.forms, signs)
-            guards.append(conjunction(*(f"{one} {'<' if s else '>='} 0" for one, s in sides)))
-        return Function(tuple(terms), tuple(guards))
+        return Function(tuple(terms))
 
 
 def squares_of(system: Map) -> list[str]:
@@ -228,9 +227,7 @@ def margins(
         rows = np.concatenate([here - there, here])
         length = np.linalg.norm(rows, axis=1)
         rows = rows / length[:, None]
-        rows[: len(here)] /= np.broadcast_to(np.asarray(value(scale, states), float), len(here))[
-            :, None
-        ]
+        rows[: len(here)] /= column(scale, states, len(here))[:, None]
     fits = np.isfinite(rows).all(axis=1) & (length > 1e-30)
     return rows[fits], np.tile(np.arange(len(here)), 2)[fits]
 

@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Proof
-from juggleproof.certificates.search.by_products import proof_by_products
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
+from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
 from juggleproof.proofs.stability.functions.norms import is_affine

@@ -24,6 +24,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     atoms,
+    column,
     conjunction,
     expression,
     holds,
@@ -70,7 +71,7 @@ def power_products(
     factors: Sequence[str], parameters: Arrays, size: int
 ) -> list[tuple[str, Floats]]:
     """Products of powers of the factors, the simplest first, as text and at the parameters."""
-    values = [np.broadcast_to(np.asarray(value(f, parameters), float), (size,)) for f in factors]
+    values = [column(f, parameters, size) for f in factors]
     found = []
     limit, total_limit = next(limits for most, limits in LIMITS if len(factors) <= most)
     every = itertools.product(range(-limit, limit + 1), repeat=len(factors))
@@ -329,7 +330,7 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
     candidates += [text for text, _ in setting.products[:8] if text != "1"]
     for radius in candidates:
         with np.errstate(all="ignore"):
-            size = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+            size = column(radius, known, setting.count)
             if not (size > 0).all():
                 continue
             states = dict(points)

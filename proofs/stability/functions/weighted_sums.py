@@ -24,6 +24,7 @@ from juggleproof.proofs.stability.given import (
     Map,
     as_factor,
     atoms,
+    column,
     holds,
     value,
     written,
@@ -102,7 +103,7 @@ def rows_of(setting: Setting, function: Function) -> Iterator[tuple[float, list[
     if ball is None or not steep:
         return
     for scale in scales(setting):
-        size = np.broadcast_to(np.asarray(value(scale, setting.constants), float), setting.count)
+        size = column(scale, setting.constants, setting.count)
         shares = samples.least((here - there) / here, setting.count) / size
         for rank, constant in bounded_below(shares, setting.products, 1):
             drop = "" if constant == "1" else f"{as_factor(constant)}*"

@@ -8,7 +8,10 @@ from functools import cache
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.certificate import search_map_rule
+from juggleproof.certificates.language import NO_ROLES
+from juggleproof.certificates.search.certificate import search_premises
+from juggleproof.certificates.search.ranges import Violation
+from juggleproof.certificates.work import Budget
 
 Json = Any
 BUDGET = 40_000
@@ -530,8 +533,23 @@ def searched(text: str) -> dict[str, Json]:
     found = dict(searched(before)) if before else {}  # most texts begin as another does
     if not any("unknown" in certificate for certificate in found.values()):
         *earlier, (name, statement) = read(text).items()
-        found[name] = search_map_rule(statement, dict(earlier), BUDGET)
+        found[name] = certificate_of(statement, dict(earlier))
     return found
+
+
+def certificate_of(statement: checker.Statement, known: dict[str, checker.Statement]) -> Json:
+    """A proof of each premise of a map rule, or the first that has none."""
+    premises, proofs = checker.premises_of(statement, known), {}
+
+    def is_false(name: str) -> bool:
+        violation = Violation.of(premises[name], None, NO_ROLES)
+        return violation.absent_everywhere(Budget(BUDGET)) is False
+
+    for name, proof in search_premises(premises, known, BUDGET, is_false=is_false):
+        if proof is None:
+            return {"unknown": f"no proof of the premise {name} was found"}
+        proofs[name] = proof
+    return {"certified": proofs}
 
 
 def checked(

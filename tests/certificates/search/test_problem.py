@@ -22,6 +22,11 @@ from juggleproof.certificates.algebra.polynomials import (
 )
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.psatz.facts import Scaling
+from juggleproof.certificates.search.psatz.lifting import (
+    Term,
+    shortest_divisor,
+    without_common_facts,
+)
 from juggleproof.certificates.search.psatz.linear_program import Program, solve
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
@@ -39,6 +44,32 @@ def state_of(text: str, names: str, integers: str = "") -> State:
     for name in names.split():
         context.declare(name, name in integers.split())
     return State(context).assume(context.formula(checker.parse(text)))
+
+
+def test_long_numbers_of_one_denominator_become_short_fractions_holds() -> None:
+    first, second = 2**201 - 3, 3**140
+    weights = [second, first, first * second]  # of 1/first, 1/second and 1
+    assert shortest_divisor(weights, []) == first * second
+
+
+@pytest.mark.parametrize(("relation", "left"), [(">", 0), (">=", 0), ("!=", 2)])
+def test_an_identity_is_divided_by_common_facts_with_a_sign_holds(relation: str, left: int) -> None:
+    state = state_of(f"x {relation} 0 and y > 0 and x + y^2 > 1", "x y")  # without scales
+    source = Problem(state, Ring(("x", "y")), True).source
+    ring = source.ring
+    terms = [Term(Fraction(1), ((0, 2), (1, 1)), ring.one), Term(Fraction(2), ((0, 2),), ring.one)]
+    x, y = ring.gens
+    found, owed = without_common_facts(source, terms, {7: x**2 * y})
+    assert [dict(one.factors).get(0, 0) for one in found] == [left] * 2
+    assert owed == {7: x**left * y}
+
+
+def test_a_common_fact_that_a_cofactor_lacks_is_kept_holds() -> None:
+    state = state_of("x > 0 and y > 0 and x + y^2 > 1", "x y")
+    source = Problem(state, Ring(("x", "y")), True).source
+    terms = [Term(Fraction(1), ((0, 2),), source.ring.one)]
+    found, owed = without_common_facts(source, terms, {7: source.ring.gens[1]})
+    assert found == terms and owed == {7: source.ring.gens[1]}
 
 
 @settings(max_examples=50, deadline=None)

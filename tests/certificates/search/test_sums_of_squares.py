@@ -123,6 +123,22 @@ def test_what_no_entry_alone_can_make_up_for_is_not_spread_holds() -> None:
     assert program().spread([Fraction(1)] * (program().rows - 1) + [Fraction(0)]) is not None
 
 
+def test_few_entries_make_up_for_what_is_missing_in_every_equation_holds() -> None:
+    block = program().blocks[1]
+    equations = LinearEquations([*program().blocks, block], [], Fraction(1, 3))
+    missing = [Fraction(k + 1, 7) for k in range(equations.rows)]
+    change = equations.basic(missing)
+    assert change is not None and equations.combination(change) == missing
+    assert sum(map(bool, change)) <= equations.rows < len(change)
+
+
+def test_a_sum_of_squares_in_many_squares_keeps_its_numbers_short_holds() -> None:
+    text = "forall x y z\nshow x^4 + y^4 + z^4 + x^2 + y^2 + z^2 + 1 > 2*x*y*z + x*y/3 - z/5"
+    found = search_certificate(statement(text), {}, Budget(10**6), attempts=SQUARES_FIRST)
+    _, _, (_, products, _) = found["certified"]
+    assert max(len(c) for c, _, _ in products) < 60
+
+
 TRUE = {
     "motzkin": "forall x y\nshow x^4*y^2 + x^2*y^4 + 1 >= 3*x^2*y^2",
     "choi-lam": "forall x y z\nshow x^2*y^2 + y^2*z^2 + z^2*x^2 + 1 >= 4*x*y*z",

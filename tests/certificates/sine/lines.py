@@ -18,10 +18,11 @@ Line = dict[str, Any]
 
 @cache
 def proved(name: str) -> str:
-    """A line that proves its box: of one pair, or of alpha from 0 on."""
+    """A line that proves its box: of one pair, of alpha from 0 on, or with cells that are cut."""
     boxes = {
         "pair": ((Q(1, 20), Q(1, 20)), (Q(197, 1000), Q(197, 1000)), 256, 8),
         "plastic": ((Q(0), Q(1, 1000)), (Q(21, 100), Q(21, 100)), 256, 16),
+        "cut": ((Q(1, 20), Q(1, 20)), (Q(26, 100), Q(26, 100)), 256, 16),
     }
     found = find_certificate(*boxes[name])
     if found.certificate is None:
@@ -64,6 +65,27 @@ def ranked(change: Callable[[bytearray], object]) -> Callable[[str], str]:
     return changed
 
 
+def rows(number: int) -> Callable[[str], str]:
+    """Ranks of so many rows of "pair", all 1."""
+    return ranked(lambda one: one.__setitem__(slice(None), bytes([1]) * (256 * number)))
+
+
+def cut_once(ranks: bytearray, times: int) -> None:
+    """Cuts a cell, then one of its parts, and so on."""
+    ranks[ALOFT] = 255
+    for left in reversed(range(times)):
+        ranks += bytes([255 if left else 1, 1, 1, 1])
+
+
+def cut_across(ranks: bytearray, times: int) -> None:
+    """Cuts a cell of each column, then a part of each column, and so on."""
+    columns = 256
+    ranks[::11] = bytes([255]) * columns
+    for left in reversed(range(times)):
+        ranks += bytes([255 if left else 1, 1] * (2 * columns))
+        columns *= 2
+
+
 def refuting(kind: str, alpha: str, g: str | list[str], *grid: int) -> str:
     """A line that refutes at a pair, or for an interval of g."""
     ends = g if isinstance(g, list) else [g, g]
@@ -76,6 +98,7 @@ REST = 10 * 11  # a cell of its arc, and one outside of that
 ALOFT = 60 * 11 + 3
 OTHER = 60 * 22 + 3  # on that of "plastic"
 MAY_REST = 120 * 22 + 3
+PART = 256 * 22 + 12  # on that of "cut"
 
 # (defect, line, reason)
 REJECTED: list[tuple[str, Callable[[], str], str]] = [
@@ -86,16 +109,30 @@ REJECTED: list[tuple[str, Callable[[], str], str]] = [
     ("g beyond 1", lambda: line(g=["1/5", "11/10"]), "g is not within"),
     ("too few columns", lambda: line(grid=[8, 8, 11]), "the columns are not"),
     ("columns that are no power of two", lambda: line(grid=[255, 8, 11]), "the columns are not"),
-    ("too many columns", lambda: line(grid=[1 << 14, 8, 11]), "the columns are not"),
-    ("columns below 0", lambda: line(grid=[-256, 8, 11]), "too many cells"),
+    ("too many columns", lambda: line(grid=[1 << 16, 8, 11]), "the columns are not"),
+    ("columns below 0", lambda: line(grid=[-256, 8, 11]), "the columns are not"),
     ("columns and rows below 0", lambda: line(grid=[-256, 8, -11]), "the columns are not"),
     ("rows that are no power of two", lambda: line(grid=[256, 9, 11]), "the rows of a unit"),
     ("no rows of a unit", lambda: line(grid=[256, 0, 11]), "the rows of a unit"),
-    ("too many rows of a unit", lambda: line(grid=[256, 8192, 11]), "the rows of a unit"),
-    ("no rows", lambda: line(grid=[256, 8, 0]), "too many cells"),
-    ("too many rows", lambda: line(grid=[16, 8, 4097]), "too many cells"),
-    ("too many cells", lambda: line(grid=[4096, 8, 4096]), "too many cells"),
-    ("rows below the strip", lambda: line(grid=[256, 8, 10]), "the rows do not reach"),
+    ("too many rows of a unit", lambda: line(grid=[256, 16384, 11]), "the rows of a unit"),
+    ("no rows", lambda: line(grid=[256, 8, 0]), "the rows are not"),
+    ("too many rows", lambda: line(grid=[16, 8, 8193]), "the rows are not"),
+    ("too many cells", lambda: line(ranks=packed(bytes((1 << 21) + 1))), "too many cells"),
+    ("ranks of a part of its cells", lambda: line(grid=[512, 8, 11]), "not one rank for each"),
+    ("too many cells that are cut", lambda: line(ranks=ranked(lambda one: cut_across(one, 5))),
+     "too many cells"),
+    ("cells that are cut too often", lambda: line(ranks=ranked(lambda one: cut_once(one, 8))),
+     "the columns are not"),
+    ("a cell that is cut without parts",
+     lambda: line(ranks=ranked(lambda one: one.__setitem__(ALOFT, 255))), "not one rank for each"),
+    ("a part too few", lambda: line("cut", ranks=ranked(lambda one: one.pop())), "not one rank"),
+    ("a part too many",
+     lambda: line("cut", ranks=ranked(lambda one: one.append(1))), "not one rank"),
+    ("a part of too low a rank",
+     lambda: line("cut", ranks=ranked(lambda one: one.__setitem__(PART, 1))),
+     "a rank does not fall"),
+    ("rows below the strip",
+     lambda: line(grid=[256, 8, 10], ranks=rows(10)), "the rows do not reach"),
     ("a trap without width", lambda: line(trap=put((0, 0))), "the trap is empty"),
     ("a trap as wide as a period", lambda: line(trap=put((0, 33))), "the trap is empty"),
     ("a trap at rest", lambda: line(trap=put((1, 0))), "the trap is empty"),
@@ -108,12 +145,15 @@ REJECTED: list[tuple[str, Callable[[], str], str]] = [
     ("a trap above that of the greatest alpha", lambda: line("plastic", trap=put((1, 16))),
      "the bounce is not inside"),
     ("a trap below that of the least alpha of a wide box",
-     lambda: line(alpha=["1/20", "1/5"], grid=[256, 8, 16], trap=put((1, 6), (2, 7))),
+     lambda: line(alpha=["1/20", "1/5"], grid=[256, 8, 16], ranks=rows(16),
+                  trap=put((1, 6), (2, 7))),
      "the bounce is not inside"),
     ("a trap above that of the greatest alpha of a wide box",
-     lambda: line(alpha=["1/20", "1/5"], grid=[256, 8, 16]), "the bounce is not inside"),
+     lambda: line(alpha=["1/20", "1/5"], grid=[256, 8, 16], ranks=rows(16)),
+     "the bounce is not inside"),
     ("a bounce on the lower edge of its trap",
-     lambda: line(alpha=["1/7", "1/7"], grid=[256, 8, 16]), "the bounce is not inside"),
+     lambda: line(alpha=["1/7", "1/7"], grid=[256, 8, 16], ranks=rows(16)),
+     "the bounce is not inside"),
     ("a bounce on the upper edge of its trap", lambda: line(alpha=["0", "0"]),
      "the bounce is not inside"),
     ("a trap where the table rises", lambda: line(trap=put((0, 32))), "the table is too slow"),
@@ -172,9 +212,9 @@ REJECTED: list[tuple[str, Callable[[], str], str]] = [
     ("a saddle that may touch", lambda: refuting("saddle", "3/10", "13/100", 16, 4),
      "it may touch the table before"),
     ("a saddle on too fine a grid", lambda: refuting("saddle", "1/5", "1/5", 256, 4096),
-     "too many cells"),
-    ("a saddle on a grid too large", lambda: refuting("saddle", "1/5", "1/5", 8192, 1024),
-     "too many cells"),
+     "the rows are not"),
+    ("a saddle on a grid too large", lambda: refuting("saddle", "1/5", "1/5", 65536, 16),
+     "the columns are not"),
     ("a saddle of alpha 1", lambda: refuting("saddle", "1", "1/5", 256, 16), "alpha is not within"),
     # what is written
     ("no line", lambda: "", "not a line of certificates"),
@@ -205,7 +245,7 @@ REJECTED: list[tuple[str, Callable[[], str], str]] = [
     ("ranks that are no text", lambda: line(ranks=7), "malformed (TypeError)"),
     ("ranks that are no base64", lambda: line(ranks="*"), "malformed (Error)"),
     ("ranks that are not compressed", lambda: line(ranks="AAAA"), "malformed (error)"),
-    ("ranks beyond all memory", lambda: line(ranks=packed(bytes(1 << 24))), "not one rank for"),
+    ("ranks beyond all memory", lambda: line(ranks=packed(bytes(1 << 24))), "too many cells"),
     ("ranks cut short", lambda: line(ranks=lambda old: old[: len(old) // 8 * 4]), "not one rank"),
 ]  # fmt: skip
 
@@ -213,9 +253,10 @@ REJECTED: list[tuple[str, Callable[[], str], str]] = [
 ACCEPTED: list[tuple[str, Callable[[], str]]] = [
     ("a pair", line),
     ("alpha from 0", lambda: line("plastic")),
+    ("cells that are cut", lambda: line("cut")),
     ("a smaller box", lambda: line("plastic", alpha=["0", "1/2000"])),
     ("another weight", lambda: line(trap=put((3, "3/2")))),
-    ("a higher rank", lambda: line(ranks=ranked(lambda one: one.__setitem__(10, 255)))),
+    ("a higher rank", lambda: line(ranks=ranked(lambda one: one.__setitem__(10, 254)))),
     ("a real saddle", lambda: refuting("saddle", "1/20", "7/100", 256, 16)),
     ("a real saddle near its graze", lambda: refuting("saddle", "1/20", "78/1000", 4096, 128)),
     ("a real saddle of another alpha", lambda: refuting("saddle", "1/10", "15/100", 256, 16)),

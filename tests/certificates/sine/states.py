@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from juggleproof.certificates.checker import Work
-from juggleproof.certificates.sine import checker, flights
+from juggleproof.certificates.sine import cells, checker, flights
 from tests.certificates.sine.impacts import State, exact, first_impact
 
 Q = Fraction
@@ -23,6 +23,7 @@ class Code(NamedTuple):
     """The second checker's files, or mutants of them."""
 
     flights: Any = flights
+    cells: Any = cells
     checker: Any = checker
 
 
@@ -137,7 +138,9 @@ def escapes(code: Code, grid: flights.Grid, count: int, seed: int) -> tuple[int,
             found = first_impact(state)
             for i, row in cells_of(state, grid) if found else ():
                 if grid.rows < 40:
-                    lands = whole.setdefault(i, [] if i in whole else [*there.column(i)])[row]
+                    if i not in whole:
+                        whole[i] = [one for _, one in there.column(i, range(grid.rows))]
+                    lands = whole[i][row]
                 else:
                     walk = walks[i] = walks.get(i) or code.flights.Walk(there, i)
                     below = walk.landings(row - 1, i) if row else []

@@ -17,7 +17,7 @@ from flint import arb, ctx
 from juggleproof.certificates.checker import Rejected, Work
 from tests.certificates.sine.bounds import UNIT
 from tests.certificates.sine.impacts import PRECISION, exact
-from tests.certificates.sine.states import Code
+from tests.certificates.sine.states import STEPS, Code
 
 Q = Fraction
 COLUMNS, ROWS = 16, 3
@@ -35,6 +35,12 @@ def reason(code: Code, rule: Callable[..., object], *arguments: object) -> str:
 
 
 # ------------------------------------------------------------ cells
+
+
+def finer(i: int, row: int) -> list[tuple[int, int, int]]:
+    """Where the parts of cells land: in the trap."""
+    away = (i + COLUMNS) % (2 * COLUMNS) - COLUMNS
+    return [(i - away + 2 * COLUMNS, 2, 3)]
 
 
 def landings(i: int, row: int) -> list[tuple[int, int, int]]:
@@ -58,6 +64,9 @@ class World(NamedTuple):
     low: frozenset[int] = frozenset({14, 15, 16})  # columns where S may be 1 or below
     alpha: Fraction = Q(1, 20)
     arc: tuple[int, int] = (START, END)
+    cut: dict[tuple[int, int], tuple[int, int, int, int]] = {}  # ranks of the parts
+    parts: dict[tuple[int, int], list[tuple[int, int, int]]] = {}  # where parts land
+    trap: tuple[Fraction | int, ...] = (1, 1, 2)
 
 
 def seen(code: Code, world: World) -> str:
@@ -67,17 +76,26 @@ def seen(code: Code, world: World) -> str:
         for row in range(ROWS):
             rests = row == 0 and (i if i >= START else i + COLUMNS) < END
             rank = 2 if rests else 0 if i in TRAP and row == 1 else 1
+            rank = code.cells.CUT if (i, row) in world.cut else rank
             ranks.append(world.ranks.get((i, row), rank))
+    for place in sorted(world.cut):
+        ranks.extend(world.cut[place])
 
-    def column(i: int) -> Iterator[list[tuple[int, int, int]]]:
-        return iter([world.lands.get((i, row)) or landings(i, row) for row in range(ROWS)])
+    def flown(lands: Any, changed: Any, scale: int) -> SimpleNamespace:
+        def column(i: int, rows: list[int]) -> Iterator[tuple[int, list[tuple[int, int, int]]]]:
+            return ((row, changed.get((i, row)) or lands(i, row)) for row in rows)
 
-    steep = [UNIT + (not {i, i + COLUMNS} & world.low) for i in range(COLUMNS)]
-    there = SimpleNamespace(column=column, S_low=steep, S_high=steep)
+        wide = [i // scale for i in range(scale * COLUMNS)]
+        steep = [UNIT + (not {i, i + COLUMNS} & world.low) for i in wide]
+        return SimpleNamespace(column=column, S_low=steep, S_high=steep)
+
+    flights = [flown(landings, world.lands, 1), flown(finer, world.parts, 2)]
     grid = code.flights.Grid((world.alpha, Q(1, 2)), (Q(1, 5), Q(1, 5)), COLUMNS, 1, ROWS)
-    certificate = code.checker.Certificate(grid, 1, 1, 2, Q(1), world.arc, bytes(ranks))
-    why = reason(code, code.checker.check_rest_arc, certificate, there)
-    return why or reason(code, code.checker.check_cells, certificate, there)
+    trap = [int(side * 2 if world.cut else side) for side in world.trap]
+    certificate = code.cells.Certificate(grid, *trap, Q(1), world.arc, bytes(ranks))
+    levels = code.cells.read_levels(certificate, Work(STEPS))
+    why = reason(code, code.cells.check_rest_arc, certificate, levels, flights[0])
+    return why or reason(code, code.cells.check_cells, certificate, levels, flights)
 
 
 IN_TRAP, LEAVES = "a cell of the trap has a rank", "a flight leaves the trap"
@@ -85,6 +103,9 @@ FALLS, FITS = "a rank does not fall", "a rank does not fit its cell"
 MAY_REST = "a cell where the ball may rest has no higher rank than R"
 EMPTY = "the rest arc is empty or longer than a period"
 LEFT_OUT = "the rest arc leaves out a phase where the ball may rest"
+CUTS, WHOLE = "the trap cuts a cell", "a cell of the rest arc is cut"
+CUT = {(5, 1): (1, 1, 1, 1)}
+HALF = Q(1, 2)
 ALONE = {  # an arc of one column, 3; what is elsewhere lands in the trap
     "arc": (3, 4),
     "low": frozenset({3}),
@@ -149,7 +170,48 @@ WORLDS = [
     World("an arc that just holds them", "", low=frozenset({13, 17})),
     World("S of 1 just before the arc", LEFT_OUT, low=frozenset({12})),
     World("S of 1 just behind the arc", LEFT_OUT, low=frozenset({18})),
-]
+    World("a cell that is cut", cut=CUT),
+    World("from part to part", cut={(5, 1): (2, 1, 1, 1)}, parts={(10, 2): [(11, 2, 2)]}),
+    World("from part to part, on its rank", FALLS, cut=CUT, parts={(10, 2): [(11, 2, 2)]}),
+    World("a part that lands in itself", FALLS, cut=CUT, parts={(11, 3): [(43, 3, 3)]}),
+    World("a part of rank 0", FITS, cut={(5, 1): (1, 1, 0, 1)}),
+    World("to a lower part alone", cut={(5, 1): (2, 9, 1, 1)}, parts={(10, 2): [(11, 2, 3)]}),
+    World("into a cell that is cut", "", {(7, 1): [(5, 1, 1)]}, {(7, 1): 4},
+          cut={(5, 1): (1, 1, 1, 3)}),
+    World("into parts, one of its rank", FALLS, {(7, 1): [(5, 1, 1)]}, {(7, 1): 3},
+          cut={(5, 1): (1, 1, 1, 3)}),
+    World("into parts, the first of its rank", FALLS, {(7, 1): [(5, 1, 1)]}, {(7, 1): 3},
+          cut={(5, 1): (3, 1, 1, 1)}),
+    World("from a part to a wide cell", cut={(5, 1): (2, 1, 1, 1)},
+          parts={(10, 2): [(14, 2, 3)]}),
+    World("from a part to a wide cell of its rank", FALLS, cut=CUT,
+          parts={(10, 2): [(46, 3, 3)]}),
+    World("from a part to the wide cell above", cut={(5, 1): (2, 1, 1, 1)},
+          parts={(10, 2): [(10, 4, 5)]}),
+    World("from a part to the wide cell above, of its rank", FALLS, cut=CUT,
+          parts={(10, 2): [(10, 4, 4)]}),
+    World("from a part to the wide cell below, of its rank", FALLS, cut=CUT,
+          parts={(10, 2): [(10, 1, 1)]}),
+    World("from a part to rest", cut={(5, 1): (3, 1, 1, 1)}, parts={(10, 2): [(28, 0, 0)]}),
+    World("from a part to rest, on its rank", FALLS, cut={(5, 1): (2, 1, 1, 1)},
+          parts={(10, 2): [(28, 0, 0)]}),
+    World("a trap of parts", cut={(0, 1): (0, 0, 0, 0)}),
+    World("a trap of parts, one with a rank", FALLS, cut={(0, 1): (0, 0, 0, 1)}),
+    World("behind the trap, by a part", LEAVES, cut={(0, 1): (0, 0, 0, 0)},
+          parts={(1, 2): [(33, 2, 3), (34, 2, 3)]}),
+    World("above the trap, by a part", LEAVES, cut={(0, 1): (0, 0, 0, 0)},
+          parts={(1, 2): [(32, 2, 4)]}),
+    World("a trap beside a part", cut={(0, 1): (0, 0, 0, 0), (1, 1): (1, 1, 1, 1)}),
+    *(World(f"the trap ends in a wide cell, {sides}", CUTS, ranks={(0, 1): 1, (15, 1): 1}, cut=CUT,
+            trap=sides) for sides in ((HALF, 1, 2), (1, HALF, 2), (1, 1, 3 * HALF))),
+    World("a cell of the arc that is cut", WHOLE, cut={(14, 0): (2, 2, 2, 2)}),
+    World("the first cell of the arc is cut", WHOLE, cut={(13, 0): (2, 2, 2, 2)}),
+    World("the last cell of the arc is cut", WHOLE, cut={(1, 0): (2, 2, 2, 2)}),
+    World("the cell behind the arc is cut", cut={(2, 0): (1, 1, 1, 1)}),
+    World("plastic parts", ranks={**ELSEWHERE, (3, 2): 3}, cut={(3, 1): (3, 3, 3, 3)}, **ALONE),
+    World("plastic parts, one of R's rank", MAY_REST, ranks={**ELSEWHERE, (3, 2): 3},
+          cut={(3, 1): (3, 3, 3, 2)}, **ALONE),
+]  # fmt: skip
 
 
 # ------------------------------------------------------------ traps and strips
@@ -228,7 +290,7 @@ def wrong_traps(code: Code, count: int, seed: int) -> tuple[int, list[str]]:
         high = -int(-ends[1] * per_unit // 1) + source.randrange(4)
         there = code.flights.Flights(grid, Work(1 << 20))
         for width in (1, 12, 32):
-            one = code.checker.Certificate(grid, width, low, high, Q(1), (0, 1), b"")
+            one = code.cells.Certificate(grid, width, low, high, Q(1), (0, 1), b"")
             least, most = needed(one)
             begin, end = enough(one, steepness(one, 2))
             within = [Q(float(begin)) * Q(501, 500), Q(float(end)) * Q(499, 500)]
@@ -236,7 +298,7 @@ def wrong_traps(code: Code, count: int, seed: int) -> tuple[int, list[str]]:
             for weight in (*within, Q(least) * Q(499, 500), Q(most) * Q(501, 500)):
                 if weight > 0:
                     tried = one._replace(weight=weight)
-                    why = reason(code, code.checker.check_trap, tried, there)
+                    why = reason(code, code.cells.check_trap, tried, grid, there)
                     contract += not why
                     if (weight in within) and why == NO_TRAP or weight not in within and not why:
                         wrong.append(f"{number}, {width}, {float(weight)}: {why}")
@@ -258,7 +320,7 @@ def wrong_strips(code: Code) -> list[str]:
         for number, expected in ((rows, ""), (rows - 1, "the rows do not reach")):
             grid = code.flights.Grid(*ends, 16, 1024, number)
             there = code.flights.Flights(grid, Work(1 << 20))
-            why = reason(code, code.checker.absorbing_strip, there)
+            why = reason(code, code.flights.absorbing_strip, there)
             if not why.startswith(expected) or bool(why) != bool(expected):
                 wrong.append(f"{number} rows: {why}")
     return wrong

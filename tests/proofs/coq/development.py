@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import threading
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +20,12 @@ SOURCES = Path(__file__).resolve().parents[3] / "proofs" / "coq"
 # Loaded, not imported: each module imports what its file does.
 LIBRARIES = "Reals Qreals QArith ZArith Lra Lia List Bool FunctionalExtensionality"
 LONGEST = 600  # seconds for one answer
+# What Coq's standard Reals rest on; nothing else may be assumed.
+REALS = {
+    "ClassicalDedekindReals.sig_forall_dec",
+    "ClassicalDedekindReals.sig_not_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+}
 
 
 def coqc() -> str:
@@ -139,3 +146,32 @@ def build(coq: Coq) -> Coq:
         answer = coq.tell(name.removesuffix(".v"), source(name))
         assert answer.accepted, (name, answer.output)
     return coq
+
+
+def axioms(answer: Answer) -> set[str]:
+    """The axioms that an accepted text has printed last."""
+    assert answer.accepted, answer.output
+    _, begins, named = answer.output.partition("Axioms:\n")
+    assert begins
+    return set(re.findall(r"^([\w.]+)\s*:", named, flags=re.MULTILINE))
+
+
+def theorems(text: str, kinds: str = "Theorem") -> list[str]:
+    """What a text proves, of these kinds, by name."""
+    return re.findall(rf"^ *(?:{kinds}) (\w+)", text, flags=re.MULTILINE)
+
+
+def rest_on_the_reals(coq: Coq, names: Sequence[str]) -> bool:
+    """Whether theorems (MODULE.NAME) rest on the axioms of the Reals, and on no others."""
+    everything = ", ".join(f"@{name}" for name in names)
+    text = f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
+    return axioms(coq.ask(text)) == REALS
+
+
+def rejects(coq: Coq, file: str, old: str, new: str, later: Sequence[str] = ()) -> bool:
+    """Whether a file that says something else, or one of the later files, is rejected."""
+    text = source(file)
+    assert old in text, (file, old)
+    texts = {file: text.replace(old, new), **{name: source(name) for name in later}}
+    modules = [module(name.removesuffix(".v"), text) for name, text in texts.items()]
+    return coq.ask("".join(modules)).rejected

@@ -13,9 +13,8 @@ import pytest
 from juggleproof.certificates import checker
 from tests.certificates.checker.harness import Case, judge
 from tests.certificates.checker.rules import TABLES
-from tests.proofs.coq.development import SOURCES, Coq, source
+from tests.proofs.coq.development import SOURCES, Coq, rejects, rest_on_the_reals, source, theorems
 from tests.proofs.coq.model import HEAD, NotWritten, accepted
-from tests.proofs.coq.test_development import REALS, axioms
 
 # The tables of what is not among Coq's functions.
 ELSEWHERE = {"iterates"}
@@ -29,16 +28,12 @@ FILES = (
 
 def test_the_rules_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     asked = [
-        f"@{file}.{name}"
+        f"{file}.{name}"
         for file in FILES
-        for name in re.findall(r"^(?:Theorem|Lemma) (\w+)", source(f"{file}.v"), flags=re.MULTILINE)
+        for name in theorems(source(f"{file}.v"), "Theorem|Lemma")
     ]
-    assert len(asked) > 100 and "@Leaves.closes_sound" in asked
-    text = (
-        f"From Juggleproof Require {' '.join(FILES)}.\n"
-        f"Definition everything := ({', '.join(asked)}).\nPrint Assumptions everything.\n"
-    )
-    assert axioms(development.ask(text)) == REALS
+    assert len(asked) > 100 and "Leaves.closes_sound" in asked
+    assert rest_on_the_reals(development, asked)
 
 
 def test_every_proof_rule_is_one_of_coqs_holds() -> None:
@@ -337,9 +332,7 @@ def test_every_change_is_of_a_line_that_is_there_holds() -> None:
 @pytest.mark.parametrize("name", list(WEAKER)[::SHARE])
 def test_rejects_a_weaker_rule(name: str, development: Coq) -> None:
     file, old, new = WEAKER[name]
-    text = source(f"{file}.v")
-    assert text.count(old) >= 1
-    assert development.ask(text.replace(old, new)).rejected
+    assert rejects(development, f"{file}.v", old, new)
 
 
 # What a certificate that has no shape, or names what is not there, ends in before Coq is asked.

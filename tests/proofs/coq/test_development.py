@@ -13,24 +13,10 @@ import pytest
 
 from juggleproof.proofs.theorem import coq
 from juggleproof.proofs.theorem.coq import STATEMENTS, Attraction, Piece, current, statements
-from tests.proofs.coq.development import SOURCES, Answer, Coq, order
+from tests.proofs.coq.development import SOURCES, Coq, order, rest_on_the_reals, theorems
 
-# What Coq's standard Reals rest on; nothing else may be assumed.
-REALS = {
-    "ClassicalDedekindReals.sig_forall_dec",
-    "ClassicalDedekindReals.sig_not_dec",
-    "FunctionalExtensionality.functional_extensionality_dep",
-}
 # One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
-
-
-def axioms(answer: Answer) -> set[str]:
-    """The axioms that an accepted text has printed last."""
-    assert answer.accepted, answer.output
-    _, begins, named = answer.output.partition("Axioms:\n")
-    assert begins
-    return set(re.findall(r"^([\w.]+)\s*:", named, flags=re.MULTILINE))
 
 
 def test_every_source_is_compiled_holds() -> None:
@@ -56,7 +42,7 @@ def test_the_statements_are_those_of_the_table_holds() -> None:
 
 
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
-    names = re.findall(r"^(?:Theorem|Lemma) (\w+)", (STATEMENTS).read_text(), flags=re.MULTILINE)
+    names = theorems(STATEMENTS.read_text(), "Theorem|Lemma")
     rules = [
         "Rules.descent",
         "Rules.contraction",
@@ -116,13 +102,7 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: C
     ]
     asked = [f"Statements.{name}" for name in names] + rules
     assert len(names) > 40
-    everything = ", ".join(f"@{name}" for name in asked)
-    text = (
-        "From Juggleproof Require Rules Ranks Lists RulesInFull Lyapunov Relation RelationRanks"
-        " RelationInto Statements Existence FromPhysics.\n"
-        f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
-    )
-    assert axioms(development.ask(text)) == REALS
+    assert rest_on_the_reals(development, asked)
 
 
 def changed(**changes: object) -> Callable[[Attraction], Attraction]:

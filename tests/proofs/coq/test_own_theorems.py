@@ -24,9 +24,8 @@ from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
-from tests.proofs.coq.development import Answer, Coq, compiled
+from tests.proofs.coq.development import REALS, Answer, Coq, axioms, compiled
 from tests.proofs.coq.maps import WORDS
-from tests.proofs.coq.test_development import REALS, axioms
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE = 1 if ALL else 2

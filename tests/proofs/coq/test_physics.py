@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from tests.proofs.coq.development import Coq, module, order, source
+from tests.proofs.coq.development import Coq, order, rejects
 
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 4
 PHYSICS = ("Executions.v", "Bouncing.v", "Existence.v", "FromPhysics.v")
@@ -44,17 +44,10 @@ THEOREMS = {
 
 @pytest.mark.parametrize("name", list(DEFINITIONS)[::SHARE])
 def test_rejects_a_changed_definition(name: str, development: Coq) -> None:
-    old, new = DEFINITIONS[name]
-    text = source(PHYSICS[0])
-    assert text.count(old) == 1 and [file for file in order() if file in PHYSICS] == list(PHYSICS)
-    texts = [text.replace(old, new), *map(source, PHYSICS[1:])]
-    modules = [module(file.removesuffix(".v"), text) for file, text in zip(PHYSICS, texts)]
-    assert development.ask("".join(modules)).rejected
+    assert [file for file in order() if file in PHYSICS] == list(PHYSICS)
+    assert rejects(development, PHYSICS[0], *DEFINITIONS[name], later=PHYSICS[1:])
 
 
 @pytest.mark.parametrize("name", list(THEOREMS)[::SHARE])
 def test_rejects_a_changed_theorem(name: str, development: Coq) -> None:
-    old, new = THEOREMS[name]
-    text = source(PHYSICS[-1])
-    assert old in text
-    assert development.ask(text.replace(old, new)).rejected
+    assert rejects(development, PHYSICS[-1], *THEOREMS[name])

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-import re
 
 import pytest
 
-from tests.proofs.coq.development import Coq, module, order, source
-from tests.proofs.coq.test_development import REALS, axioms
+from tests.proofs.coq.development import Coq, order, rejects, rest_on_the_reals, source, theorems
 
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 6
 SINE = tuple(file for file in order() if file.startswith("Sine"))
@@ -92,20 +90,12 @@ CHANGES = {
 @pytest.mark.parametrize("name", list(CHANGES)[::SHARE])
 def test_rejects_a_changed_law_or_finding(name: str, development: Coq) -> None:
     file, old, new = CHANGES[name]
-    text = source(file)
-    assert text.count(old) == 1
-    later = SINE[SINE.index(file) + 1 :]
-    texts = {file: text.replace(old, new), **{name: source(name) for name in later}}
-    modules = [module(name.removesuffix(".v"), text) for name, text in texts.items()]
-    assert development.ask("".join(modules)).rejected
+    assert rejects(development, file, old, new, later=SINE[SINE.index(file) + 1 :])
 
 
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     names = [
-        f"@{file.removesuffix('.v')}.{name}"
-        for file in SINE
-        for name in re.findall(r"^  Theorem (\w+)", source(file), flags=re.MULTILINE)
+        f"{file.removesuffix('.v')}.{name}" for file in SINE for name in theorems(source(file))
     ]
     assert len(names) > 20
-    text = f"Definition everything := ({', '.join(names)}).\nPrint Assumptions everything.\n"
-    assert axioms(development.ask(text)) == REALS
+    assert rest_on_the_reals(development, names)

@@ -28,6 +28,7 @@ from juggleproof.certificates.language import reals
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.paper import names, regions
 from juggleproof.proofs.paper import states as orbits
+from juggleproof.proofs.sine.bounces import TABLE as TABLE_VOCABULARY
 from tests.proofs.paper.search_needs import (
     LICENSES,
     NEEDED,
@@ -49,8 +50,8 @@ COUNTS, OPEN = HERE / "hypothesis_counts.tsv", HERE / "hypotheses_undecided.tsv"
 SAMPLE = 93  # one claim in so many: six, which have hypotheses of every need and take seconds
 REASONS = {
     "standing": (
-        "the range of a parameter of the paper, assumed of all its claims: 0 < alpha < 1, r > 0, g"
-        " > 0, a whole number of periods >= 1"
+        "the range of a parameter, assumed of all claims of the paper: 0 < alpha < 1, r > 0, g > 0,"
+        " a whole number of periods >= 1; or of those on the sine: 0 <= alpha < 1, pi, Gamma > 0"
     ),
     "states": "the claim is about the states of this region of the plane",
     "impact": (
@@ -65,7 +66,8 @@ REASONS = {
 }
 STANDING = [
     str(formula)
-    for table in (names.WITH_INTEGER_K.ranges, names.WITH_INTEGER_K.givens)
+    for vocabulary in (names.WITH_INTEGER_K, TABLE_VOCABULARY)
+    for table in (vocabulary.ranges, vocabulary.givens)
     for formulas in table.values()
     for formula in formulas
 ]

@@ -117,11 +117,11 @@ def spelled(command: str, content: str, start: int, latex: str) -> list[tuple[st
 
 GREEK_LETTERS = (
     "alpha beta gamma delta epsilon varepsilon lambda rho tau chi xi mu nu eta theta kappa sigma"
-    " omega".split()
+    " omega pi Gamma".split()
 )
 PLAIN = {
-    letter: letter for letter in "cdhjJkKmnpqstTuwWxyz" + "BCPS"
-}  # the paper gives none to a state or a region; the last are of the corner
+    letter: letter for letter in "cdhjJkKmnpqstTuwWxyz" + "BCPS" + "GV"
+}  # the paper gives none to a state or a region; the last are of the corner, and of the sine
 BASES = {  # (base, accents) -> name; subscripts and primes are added to it
     **{(letter, ""): name for letter, name in PLAIN.items()},
     (r"\alpha", ""): "alpha",
@@ -138,7 +138,7 @@ BASES = {  # (base, accents) -> name; subscripts and primes are added to it
     (r"\varepsilon", ""): "eps",
     (r"\lambda", ""): "lam",
     ("E", ""): "E",
-    **{(rf"\{name}", ""): name for name in ("mu", "sigma", "omega")},
+    **{(rf"\{name}", ""): name for name in ("mu", "sigma", "omega", "pi", "Gamma")},
 }
 WHOLE = {  # (base, accents, subscript) -> names
     (r"\rho", "dot", "0"): ("r",),

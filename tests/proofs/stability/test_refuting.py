@@ -10,9 +10,12 @@ from pathlib import Path
 import pytest
 import sympy
 
+from juggleproof.certificates import checker
+from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof
 from juggleproof.proofs.stability.failing import is_fixed
 from juggleproof.proofs.stability.given import read_rows
 from juggleproof.proofs.stability.points import as_point, fixed_points
+from juggleproof.proofs.stability.search import without_empty_pieces
 from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
 
@@ -111,3 +114,28 @@ def test_rejects_a_point_that_is_not_fixed() -> None:
     assert is_fixed(setting)
     for term in ("1/2", "(a + 1)/(2*a)", "2"):
         assert not is_fixed(replace(setting, point=replace(setting.point, terms=(term,))))
+
+
+def test_a_false_premise_is_not_sought_for_long_holds() -> None:
+    text = "statement a/a\nforall x y\ngiven x > 0 and y > 0\nshow x^3 + y^3 > 2*x*y"
+    proof = Proof()
+    assert proof.proof_of(checker.read_statements(text)["a/a"], EFFORTS, BUDGET) is None
+    assert proof.work < 3000
+
+
+def test_pieces_that_samples_miss_are_kept_holds() -> None:
+    guards = ("x <= 10^4", "10^4 < x and x < 10^4 + 1", "x >= 10^4 + 1")
+    pieces = [("piece", f"{guard} -> x/2") for guard in guards]
+    system = read_rows("far", [("state", "x"), *pieces])
+    assert without_empty_pieces(system) == system
+
+
+@pytest.mark.parametrize(("image", "known"), [("(x + a)/4", 0), ("(a*x + 1)/4", 1)])
+def test_a_point_without_parameters_in_divisors_needs_no_equations_holds(
+    image: str, known: int
+) -> None:
+    """a/3 is put in; of 1/(4 - a) premises have the equation."""
+    rows = [("over", "a"), ("domain", "0 < a and a < 2"), ("state", "x"), ("piece", image)]
+    system = read_rows("affine", rows)
+    (fixed,) = fixed_points(system)
+    assert len(setting_of(system, fixed, system.domain).have) == known

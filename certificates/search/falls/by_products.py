@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from math import prod
+from typing import NamedTuple
 
 from flint import fmpz_mpoly
 
@@ -260,32 +262,76 @@ def leaf(
         (poly, own, root) if own and own[0] in first else (poly * shared, (*own, *common), root)
         for poly, own, root in polys
     ]
-    top = max(total_degree(poly) for poly, _, root in polys if root < 0)
-    for more in MORE:
-        program = Program()
-        columns: list[tuple[tuple[int, ...], int]] = []
-        for poly, own, root in polys:
-            row = packing.row(poly)
-            for count in range(top + more - total_degree(poly) + 1):
-                while len(parts) <= count:
-                    products, terms = parts[-1].sizes_with_facts()
-                    if products > most or terms > MOST_TERMS:
+    multiplied = [Multiplied(*one) for one in polys]
+    top = max(total_degree(one.poly) for one in multiplied if one.root < 0)
+    node = Combinations(problem, parts, packing, most).node(multiplied, top, MORE, roots, budget)
+    return None if node is None else renumbered(node, kept)
+
+
+class Multiplied(NamedTuple):
+    """What stands in an identity times products of facts: itself a product of facts, or the square
+    of a root.
+    """
+
+    poly: fmpz_mpoly
+    own: tuple[int, ...]  # numbers of the facts
+    root: int  # number of the root, or -1
+    alone: bool = False  # times 1 only
+
+
+@dataclass(frozen=True)
+class Combinations:
+    """Combinations of products of facts, `parts`, of one factor more in each."""
+
+    problem: Problem
+    parts: list[Products]
+    packing: Packing
+    most: int  # products
+    most_terms: int = MOST_TERMS
+
+    def node(
+        self,
+        multiplied: Sequence[Multiplied],
+        top: int,
+        mores: Sequence[int],
+        roots: list[fmpz_mpoly],
+        budget: Budget,
+    ) -> Node | None:
+        """A node that combines them to a contradiction, of degrees that are above `top` by one of
+        the numbers, the least first.
+        """
+        for more in mores:
+            program = Program()
+            columns: list[tuple[tuple[int, ...], int]] = []
+            for poly, own, root, alone in multiplied:
+                row = self.packing.row(poly)
+                for count in range(1 if alone else top + more - total_degree(poly) + 1):
+                    if not self.has(count):
                         return None
-                    parts.append(parts[-1].times_facts())
-                block = parts[count].times_row(row)
-                strict = block.strict & (root < 0 and all(problem.facts[k].strict for k in own))
-                program.add(block.at, block.keys, block.values, strict, 1.0 + block.widths / 4)
-                columns += [(tuple(one) + own, root) for one in parts[count].chosen.tolist()]
-            if len(columns) > most:
+                    part = self.parts[count]
+                    block = part.times_row(row)
+                    strict = root < 0 and all(self.problem.facts[k].strict for k in own)
+                    costs = 1.0 + block.widths / 4
+                    program.add(block.at, block.keys, block.values, block.strict & strict, costs)
+                    columns += [(tuple(one) + own, root) for one in part.chosen.tolist()]
+            if len(columns) > self.most:
                 return None
-        budget.spend(3 * program.count)
-        iterations = min(MOST_ITERATIONS, ITERATED // max(1, program.count))
-        found = solve(program, budget, iterations)
-        if found is not None:
-            used = [((powers_of(columns[k][0]), columns[k][1]), c) for k, c in found[0].items()]
-            node = lift(problem, used, [], roots)
-            return None if node is None else renumbered(node, kept)
-    return None
+            budget.spend(3 * program.count)
+            iterations = min(MOST_ITERATIONS, ITERATED // max(1, program.count))
+            found = solve(program, budget, iterations)
+            if found is not None:
+                used = [((powers_of(columns[k][0]), columns[k][1]), c) for k, c in found[0].items()]
+                return lift(self.problem, used, [], roots)
+        return None
+
+    def has(self, count: int) -> bool:
+        """Whether there are products of so many facts, which are not too many."""
+        while len(self.parts) <= count:
+            products, terms = self.parts[-1].sizes_with_facts()
+            if products > self.most or terms > self.most_terms:
+                return False
+            self.parts.append(self.parts[-1].times_facts())
+        return True
 
 
 def independent(problem: Problem, positive: Sequence[int]) -> list[int]:

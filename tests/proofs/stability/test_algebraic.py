@@ -1,0 +1,55 @@
+"""A fixed point as a parameter: what is certified of it, and what rests on samples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from juggleproof.proofs.stability.algebraic import Renamed, by_its_point, has_one_point
+from juggleproof.proofs.stability.given import Map, read_rows
+from juggleproof.proofs.stability.search import search_stability
+
+
+def relaxed(image: str, domain: str, space: str) -> Map:
+    """A map of one variable with the parameter a."""
+    rows = [("over", "a"), ("domain", domain), ("state", "x"), ("space", space)]
+    return read_rows("relaxed", [*rows, ("piece", image)])
+
+
+MAPS = {
+    "root": relaxed("(2*x + a/x^2)/3", "a > 0", "x > 0"),
+    "between": relaxed("x/2 + (a - x^3)/8", "0 < a and a < 1", "0 < x and x < 2"),
+    "falls": relaxed("x + (1 - a*x - x^3)/8", "a > 0", "0 < x and x < 2"),
+    "everywhere": relaxed("x/2 + (a - x^3)/8", "-1 < a and a < 1", "-2 < x and x < 2"),
+}
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_each_value_of_a_parameter_has_one_point_holds(name: str) -> None:
+    found = by_its_point(MAPS[name])
+    assert found is not None and has_one_point(MAPS[name], found)
+
+
+# the term of the old parameter, and the domain of the new one
+FALSE = {
+    "not-monotone": ("e^3 - e", "e > 0"),
+    "misses-small-values": ("e^3", "e > 1"),
+    "misses-large-values": ("e^3", "0 < e and e < 2"),
+    "has-a-pole": ("e^3/(e - 1)^2", "e > 0"),
+}
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_rejects_a_point_that_some_values_have_twice_or_not_at_all(name: str) -> None:
+    term, domain = FALSE[name]
+    renamed = replace(MAPS["root"], parameters=("e",), domain=domain, point=("e",))
+    assert not has_one_point(MAPS["root"], Renamed(renamed, "a", term))
+
+
+def test_what_samples_alone_say_of_the_point_is_said_to_rest_on_them_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("juggleproof.proofs.stability.algebraic.BUDGET", 0)
+    sentence = search_stability(MAPS["root"]).sentence
+    assert sentence.endswith("; here a = e^3, where samples alone say that each a has one such e")
