@@ -4,7 +4,7 @@ equation of the point is linear in.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     as_factor,
+    atoms,
     column,
     conjunction,
     conjuncts,
@@ -70,9 +71,11 @@ def by_its_point(system: Map) -> Renamed | None:
             ]
             inside = conjunction(system.space, guard)
             if linear and sympy.degree(factor, state) > 2 and is_the_point(system, factor, inside):
-                (term,) = sympy.solve(factor, linear[0])
+                # polynomials first, which need no licences
+                old = min(linear, key=lambda one: sympy.Poly(factor, one).LC().has(state))
+                (term,) = sympy.solve(factor, old)
                 at = sympy.factor(term.subs(state, *symbols([name])))
-                return with_parameter(system, inside, name, str(linear[0]), at)
+                return with_parameter(system, inside, name, str(old), at)
     return None
 
 
@@ -87,6 +90,9 @@ def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) ->
         rest = [one for one in kept if one != part]
         if part in kept and rest and not beyond(conjunction(*rest), part, over):
             kept = rest
+    for _ in range(2):  # again with what the first turn says to be positive
+        positive = {atoms(one)[0][0] for one in kept if atoms(one) and atoms(one)[0][1]}
+        kept = [without_positive_factors(one, positive) for one in kept]
     pieces = tuple(
         (renamed(guard, put), tuple(renamed(image, put) for image in images))
         for guard, images in system.pieces
@@ -95,6 +101,36 @@ def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) ->
     domain = conjunction(*kept) or ANYWHERE
     changed = replace(system, parameters=over, domain=domain, space=space, pieces=pieces)
     return Renamed(replace(changed, point=(name,)), old, written(term))
+
+
+def without_positive_factors(part: str, positive: Set[Expr]) -> str:
+    """An inequality without factors that have one sign at all parameters, where one other is left;
+    positive: terms that are.
+
+    >>> e = sympy.Symbol("e", real=True)
+    >>> without_positive_factors("e*(e^2 + 1) < 2", set())
+    '1 - e > 0'
+    >>> without_positive_factors("(e + 1)^4 < 16", {e})
+    '1 - e > 0'
+    """
+    rows = atoms(part)
+    if len(rows) != 1 or not rows[0][0].is_polynomial():
+        return part
+    ((poly, strict),) = rows
+    sign, factors = sympy.factor_list(poly)
+    left = []
+    for factor, power in factors:
+        names = factor.free_symbols
+        signs = {c > 0 for c in sympy.Poly(factor, *names).coeffs()}
+        if len(signs) == 1 and names <= positive:
+            sign *= 1 if True in signs else -1
+        elif len(names) == 1 and sympy.Poly(factor, *names).count_roots() == 0:
+            sign *= sympy.sign(factor.subs(dict.fromkeys(names, 0)))
+        else:
+            left.append((factor, power))
+    if len(left) != 1 or left[0][1] > 1:
+        return part
+    return f"{written(sympy.sign(sign) * left[0][0])} {'>' if strict else '>='} 0"
 
 
 def has_one_point(before: Map, found: Renamed) -> bool:

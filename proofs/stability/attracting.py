@@ -4,7 +4,7 @@ first, until one is certified.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
@@ -32,8 +32,15 @@ from juggleproof.proofs.stability.functions.contracting_boxes import contracting
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
-from juggleproof.proofs.stability.functions.ratios import ratio_rules
+from juggleproof.proofs.stability.functions.ratios import (
+    ratio_rules,
+    weighted_distance_rules,
+)
 from juggleproof.proofs.stability.functions.saturated import saturated_rules
+from juggleproof.proofs.stability.functions.second_iterate import (
+    licensed_space,
+    second_iterate_rules,
+)
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     lyapunov_functions,
@@ -126,11 +133,51 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
                 return True
     if in_boxes(proof, setting, log):
         return True
-    for rule, searches in ratio_rules(setting, name):
-        if not tried(proof, rule, (1, 2), BOX_BUDGET, log, searches=searches):
+    if len(setting.system.state) == 1:
+        return by_second_iterate(proof, setting, log)
+    for rule, searches in (*ratio_rules(setting, name), *weighted_distance_rules(setting, name)):
+        if certified_on(proof, setting, rule, searches, log):
             return True
     chains = contracting_box_rules(setting, setting.system.name)
     return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
+
+
+def by_second_iterate(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same for a map of one variable that decreases, on the space where its images divide by
+    nothing that is 0.
+    """
+    space, name = licensed_space(setting), f"{setting.system.name}/lyapunov"
+    part = setting if space == setting.system.space else inner(setting, space)
+    return any(
+        certified_on(proof, setting, rule, searches, log)
+        for rule, searches in second_iterate_rules(part, space, name)
+    )
+
+
+def certified_on(
+    proof: Proof,
+    setting: Setting,
+    rule: MapRule,
+    searches: Mapping[str, Search],
+    log: Report,
+) -> bool:
+    """Whether a statement is certified; where V divides by what only its set says to be positive,
+    for the map on this set, with the statements that this is the whole space.
+    """
+    whole = replace(rule, rows=(("map", f"{setting.system.name}/{setting.map}"), *rule.rows[1:]))
+    fault = tried(proof, whole, (1, 2), BOX_BUDGET, log, searches=searches)
+    if not fault.startswith(checker.Kind.DIVISION.value):
+        return not fault
+    space, count = dict(rule.rows)["on"], len(proof.rules)
+    part = inner(setting, space)
+    name = f"{setting.system.name}/{part.map}"
+    inside = replace(rule, rows=(("map", name), *rule.rows[1:]))
+    if not setting.outer and not proof.add(part.system.rule(name)):
+        if not tried(proof, inside, (1, 2), BOX_BUDGET, log, searches=searches):
+            if proof.add_all(rules_into(setting, [space]), EFFORTS, log):
+                return True
+    proof.keep(count)
+    return False
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:

@@ -136,7 +136,10 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         if len(system.state) == 1:
             closed = narrowed(system, fixed, parameters, closed=True)
             if closed != split:  # the multiplier is -1 at the end
+                left = proof.most - proof.work
+                proof.most = proof.work + left // 2
                 found = settled(proof, system, fixed, closed, given, log, closed=True)
+                proof.most = proof.work + left  # for the open condition, or what is outside
                 if found:
                     return Outcome(proof, *found, lines)
         log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))

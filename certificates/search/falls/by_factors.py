@@ -26,6 +26,7 @@ from juggleproof.certificates.search.falls.by_products import (
     Multiplied,
     facts_kept,
     independent,
+    obligations_closed,
     renumbered,
     with_facts,
 )
@@ -59,7 +60,8 @@ def proof_by_factors(
     unfolding = unfolded(premise)
     budget = Budget(BUDGET)
     try:
-        for _ in unfolding.obligations:
+        steps = obligations_closed(unfolding, known, budget)
+        if steps is None:
             return None
         state = state_of(unfolding).assume(unfolding.goal(False))
         if state.choices or state.closed:
@@ -76,14 +78,17 @@ def proof_by_factors(
             else:
                 inside = {**points, sign: 0 * points[sign]}
             facts = [*kept, len(state.facts)]
-            nodes.append(Case(ring, goal, inside, budget).close(case, facts))
+            nodes.append(Case(ring, goal, inside, budget, sign).close(case, facts))
             if nodes[-1] is None:
                 return None
     except Exhausted:
         return None
     node = sign_node(sign, nodes)
-    proof: Proof | None = None if node is None else ("proof", [], node)
+    proof: Proof | None = None if node is None else ("proof", steps, node)
     return proof if proof is not None and proves(premise, proof, known) else None
+
+
+Part = tuple[fmpz_mpoly, int | None]  # a polynomial, and the number of the fact that it multiplies
 
 
 @dataclass(frozen=True)
@@ -96,6 +101,10 @@ class Identity:
     times: fmpz_mpoly
     rest: fmpz_mpoly
 
+    def parts(self) -> list[Part]:
+        """The products of the sum."""
+        return [(self.below, self.goal), (self.times, self.bound), (self.rest, None)]
+
 
 @dataclass(frozen=True)
 class Case:
@@ -105,6 +114,7 @@ class Case:
     goal: int
     points: Points
     budget: Budget
+    sign: str
 
     def close(self, state: State, kept: list[int]) -> Node | None:
         """A node that contradicts the facts with these numbers."""
@@ -166,12 +176,21 @@ class Case:
         value = self.ring.names.index(VALUE)
         identity = self.identity(problem, goal, bound, value)
         facts = {str(fact.poly): k for k, fact in enumerate(problem.facts)}
-        for part in (identity.below, identity.times, identity.rest):
+        unknown = self.unknown_factor([part for part, _ in identity.parts()], facts)
+        if unknown is not None:
+            return self.lemma(state, kept, bound, goal, problem, unknown)
+        node = self.written(problem, identity.parts(), facts)
+        return None if node is None else renumbered(node, kept)
+
+    def unknown_factor(
+        self, parts: Sequence[fmpz_mpoly], facts: Mapping[str, int]
+    ) -> fmpz_mpoly | None:
+        """The first factor of an odd power that is no fact, nor its opposite."""
+        for part in parts:
             for factor, power in self.ring.factors(part):
                 if power % 2 and str(factor) not in facts and str(-factor) not in facts:
-                    return self.lemma(state, kept, bound, goal, problem, factor)
-        node = self.written(problem, identity, facts)
-        return None if node is None else renumbered(node, kept)
+                    return factor
+        return None
 
     def lemma(
         self,
@@ -189,15 +208,54 @@ class Case:
         positive = bool((at > CLOSE).any())
         text = problem.homogeneous_text(factor)
         cases, more = state.by_sign(text), [*kept, len(state.facts)]
-        wrong = self.sum_of_products(cases[0 if positive else 2], more)
+        opposite = cases[0 if positive else 2]
+        wrong = self.sum_of_products(opposite, more)
+        if wrong is None:
+            parts = self.square_of_sign(factor if positive else -factor)
+            facts = {str(fact.poly): k for k, fact in enumerate(problem.facts)}
+            unknown = self.unknown_factor(parts, facts)
+            if unknown is not None:
+                return self.lemma(state, kept, bound, goal, problem, unknown)
+            wrong = self.by_square(opposite, more, parts)
         if wrong is None:
             return None
         number = len(state.facts)
-        at_zero = as_equation(wrong, number, positive)
+        at_zero = as_equation(wrong, number, positive, self.texts(opposite, more))
         if at_zero is None:
             return None
         inner = self.by_lemmas(cases[2 if positive else 0], more, bound, goal)
         return sign_node(text, [wrong, at_zero, inner] if positive else [inner, at_zero, wrong])
+
+    def texts(self, state: State, kept: list[int]) -> dict[int, str]:
+        """The facts as text, where no scales were set to 1."""
+        source = Problem(with_facts(state, kept), self.ring, True).source
+        polys = [] if source.scaling.scales else source.lowered
+        return {k: f"({poly})/{state.facts[k][0].den}" for k, poly in zip(kept, polys)}
+
+    def square_of_sign(self, poly: fmpz_mpoly) -> list[fmpz_mpoly]:
+        """c_0 + c_1 g + c_2 g^2 + .. in the variable g of the cases as a sum: what multiplies it,
+        4 c_2, then (2 c_2 g + c_1)^2, 4 c_0 c_2 - c_1^2, and 4 c_2 c_k g^k, which are to be >= 0;
+        nothing where its degree is below 2.
+        """
+        gen = self.ring.gens[self.ring.names.index(self.sign)]
+        parts = coefficients_in(poly, self.ring.names.index(self.sign), gen)
+        if len(parts) < 3 or not parts[2]:
+            return []
+        low, slope, bend, *more = parts
+        found = [4 * bend, (2 * bend * gen + slope) ** 2, 4 * low * bend - slope**2]
+        found += [4 * bend * part * gen**k for k, part in enumerate(more, 3)]
+        return [one for one in found if one]
+
+    def by_square(self, state: State, kept: list[int], parts: list[fmpz_mpoly]) -> Node | None:
+        """A node that the last fact is false, which the first of the parts multiplies."""
+        problem = Problem(with_facts(state, kept), self.ring, True)
+        firsts = [fact.factors[0][0] for fact in problem.facts]
+        if not parts or problem.contradiction is not None or len(kept) - 1 not in firsts:
+            return None
+        facts = {str(fact.poly): k for k, fact in enumerate(problem.facts)}
+        last = firsts.index(len(kept) - 1)
+        node = self.written(problem, [(parts[0], last), *((one, None) for one in parts[1:])], facts)
+        return None if node is None else renumbered(node, kept)
 
     def sum_of_products(self, state: State, kept: list[int]) -> Node | None:
         """A node that the last fact is false: its opposite is a sum of products of the others."""
@@ -223,27 +281,23 @@ class Case:
         return None if node is None else renumbered(node, kept)
 
     def written(
-        self, problem: Problem, identity: Identity, facts: Mapping[str, int]
+        self, problem: Problem, parts: Sequence[Part], facts: Mapping[str, int]
     ) -> Node | None:
-        """The node of the identity, whose parts are products of facts."""
+        """The node of a sum that is 0, whose parts are products of facts and squares."""
         used: list[tuple[tuple[Factors, int], Fraction]] = []
         roots: list[fmpz_mpoly] = []
-        parts = (
-            (identity.below, identity.goal),
-            (identity.times, identity.bound),
-            (identity.rest, None),
-        )
         for part, own in parts:
             if not part:
                 continue
             powers: dict[int, int] = {} if own is None else {own: 1}
             root, product = self.ring.one, self.ring.one
             for factor, power in self.ring.factors(part):
-                if power % 2:
-                    k = facts.get(str(factor), facts.get(str(-factor), -1))
-                    powers[k] = powers.get(k, 0) + 1
-                    product = product * problem.facts[k].poly
-                root = root * factor ** (power // 2)
+                k = facts.get(str(factor), facts.get(str(-factor), -1))
+                if k >= 0:  # no root, which might be 0
+                    powers[k] = powers.get(k, 0) + power
+                    product = product * problem.facts[k].poly ** power
+                else:
+                    root = root * factor ** (power // 2)
             content = part // (product * root**2)
             if not content.is_constant() or int(content.leading_coefficient()) < 0:
                 return None
@@ -261,17 +315,22 @@ def variables_of(poly: fmpz_mpoly) -> set[int]:
     return {v for v, power in enumerate(poly.degrees()) if power}
 
 
-def as_equation(node: Node, number: int, positive: bool) -> Node | None:
-    """The same node where the fact is that the polynomial is 0; None where others multiply it."""
+def as_equation(node: Node, number: int, positive: bool, texts: Mapping[int, str]) -> Node | None:
+    """The same node where the fact is that the polynomial is 0; None where others multiply it of
+    which there is no text.
+    """
     if node[0] != "psatz":
         return None
     _, products, equations = node
     kept, cofactors = [], list(equations)
     for c, factors, root in products:
-        if number not in dict(factors):
+        powers = dict(factors)
+        if number not in powers:
             kept.append((c, factors, root))
-        elif dict(factors) == {number: 1} and root == "1":
-            cofactors.append((number, str(-Fraction(c) if positive else Fraction(c))))
-        else:
+            continue
+        if powers.pop(number) > 1 or not powers.keys() <= texts.keys():
             return None
+        parts = [str(-Fraction(c) if positive else Fraction(c)) if c else "0"]
+        parts += [f"({texts[k]})^{e}" for k, e in powers.items()]
+        cofactors.append((number, "*".join(parts + [f"({root})^2"] * (root != "1"))))
     return "psatz", kept, cofactors

@@ -23,7 +23,11 @@ from juggleproof.certificates.nodes import Node, Proof
 from juggleproof.certificates.search.closing import search_closing, sign_node
 from juggleproof.certificates.search.psatz.lifting import lift, powers_of
 from juggleproof.certificates.search.psatz.linear import Products
-from juggleproof.certificates.search.psatz.linear_program import Program, solve
+from juggleproof.certificates.search.psatz.linear_program import (
+    MOST_ITERATIONS,
+    Program,
+    solve,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -32,6 +36,7 @@ MOVING = ("value", "level", "distance")
 MORE = (0, 1, 2, 3)  # degrees than those of the goal
 MOST_COLUMNS = 6000
 MOST_TERMS = 2_000_000  # of all products of so many facts
+ITERATED = 5_000_000  # columns in all iterations of a linear program
 BUDGET = 1_000_000  # of counted work for a premise
 
 
@@ -49,15 +54,11 @@ def proof_by_products(
     then cases of these signs.
     """
     unfolding = unfolded(premise)
-    steps = []
     budget = Budget(BUDGET)
     try:
-        for count, negation in unfolding.obligations:
-            state = state_of(unfolding, count).assume(negation)
-            step = search_closing(state, known, budget, effort=1, confirm=False)
-            if step is None:
-                return None
-            steps.append(step)
+        steps = obligations_closed(unfolding, known, budget)
+        if steps is None:
+            return None
         state = state_of(unfolding).assume(unfolding.goal(False))
         ring = Ring(tuple(state.context.index))
         kept = facts_kept(state, ring, terms, unknowns)
@@ -147,6 +148,20 @@ def facts_kept(
         ):
             kept.append(k)
     return kept
+
+
+def obligations_closed(
+    unfolding: checker.Unfolding, known: dict[str, checker.Statement], budget: Budget
+) -> list[Node] | None:
+    """Nodes for what a premise needs to be read, as that a root exists; None where one is open."""
+    steps = []
+    for count, negation in unfolding.obligations:
+        state = state_of(unfolding, count).assume(negation)
+        step = search_closing(state, known, budget, effort=1, confirm=False)
+        if step is None:
+            return None
+        steps.append(step)
+    return steps
 
 
 def with_facts(state: State, kept: Sequence[int]) -> State:
@@ -302,7 +317,8 @@ class Combinations:
             if len(columns) > self.most:
                 return None
             budget.spend(3 * program.count)
-            found = solve(program, budget)
+            iterations = min(MOST_ITERATIONS, ITERATED // max(1, program.count))
+            found = solve(program, budget, iterations)
             if found is not None:
                 used = [((powers_of(columns[k][0]), columns[k][1]), c) for k, c in found[0].items()]
                 return lift(self.problem, used, [], roots)

@@ -22,6 +22,7 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 EXACT = float(1 << 53)
 MOST_ENTRIES = 6_000_000
+MOST_ITERATIONS = 5000
 TINY = 1e-9
 
 
@@ -82,7 +83,7 @@ class Program:
 Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 
 
-def solve(program: Program, budget: Budget) -> Solution | None:
+def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used,
     exactly; None where none were found.
 
@@ -118,7 +119,11 @@ def solve(program: Program, budget: Budget) -> Solution | None:
     budget.spend(100 + work.size // 8)
     for jitter in JITTER:
         vertex = optimum(
-            work / size, inequality, strict, costs * (1 + jitter * NOISE[: len(costs)])
+            work / size,
+            inequality,
+            strict,
+            costs * (1 + jitter * NOISE[: len(costs)]),
+            iterations,
         )
         if vertex is None:
             return None
@@ -259,7 +264,7 @@ def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | Non
 
 
 def optimum(
-    matrix: Floats, inequality: Mask, strict: Mask, costs: Floats
+    matrix: Floats, inequality: Mask, strict: Mask, costs: Floats, iterations: int
 ) -> tuple[Floats, Keys] | None:
     """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
     floats, and its basic columns; None where HiGHS finds none.
@@ -283,8 +288,10 @@ def optimum(
     model.a_matrix_.index_ = at_row.astype(np.int32)
     model.a_matrix_.value_ = turned[at_column, at_row]
     solver = SOLVER.highs
+    solver.setOptionValue("simplex_iteration_limit", iterations)
     solver.passModel(model)
     solver.run()
+    solver.setOptionValue("simplex_iteration_limit", MOST_ITERATIONS)
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
         return None
     status = solver.getBasis().col_status
@@ -299,7 +306,7 @@ OPTIONS = (
     ("threads", 1),
     ("random_seed", 1),
     ("solver", "simplex"),
-    ("simplex_iteration_limit", 5000),
+    ("simplex_iteration_limit", MOST_ITERATIONS),
     ("primal_feasibility_tolerance", 1e-10),
 )
 

@@ -12,6 +12,7 @@ In reading order, each importing those before it only:
 - `part_metric`: greatest weighted distances, with the part metric.
 - `ratios`: greatest weighted ratios, with weights that depend on the parameters.
 - `two_sided`: functions of one variable, a distance on each side of the point.
+- `second_iterate`: the same of decreasing maps, with the next state's distance.
 - `contracting_boxes`: boxes that the map takes into smaller ones, and how orbits enter them.
 - `chetaev`: functions that grow, quadratic or linear in a cone.
 """

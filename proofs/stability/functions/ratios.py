@@ -67,6 +67,17 @@ def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str
     yield from next(filter(None, every), [])
 
 
+def weighted_distance_rules(
+    setting: Setting, name: str
+) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+    """The same for weighted distances of a map that contracts them in the whole space: by the
+    comparison matrix |A| of the derivative A at the point.
+    """
+    system = setting.system
+    if 1 < len(system.state) <= MOST_STATES and len(system.pieces) == 1:
+        yield from distance_rules(setting, name)
+
+
 def distance_rules(setting: Setting, name: str) -> list[tuple[MapRule, dict[str, Search]]]:
     """The same for weighted distances."""
     setting, put = with_equations(setting)
@@ -133,6 +144,7 @@ def origins(setting: Setting) -> Iterator[list[Expr]]:
     low, _ = bounds(system)
     if len(low) == len(state):
         yield [expression(low[one]) for one in system.state]
+    yield from origins_on_boundary(setting, low)
     shifts: dict[Expr, None] = {}
     for image in system.images[setting.piece]:
         below = sympy.fraction(sympy.together(image))[1]
@@ -143,6 +155,17 @@ def origins(setting: Setting) -> Iterator[list[Expr]]:
                 shifts[sympy.expand(factor / slope - named.pop())] = None
     for shift in itertools.islice(shifts, MOST_SHIFTS):
         yield [one + shift for one in state]
+
+
+def origins_on_boundary(setting: Setting, low: dict[str, str]) -> Iterator[list[Expr]]:
+    """Where the point is 0 in some variables, which no ratio can be of: these plus half of
+    another of its coordinates.
+    """
+    pairs = dict(zip(symbols(setting.system.state), map(expression, setting.point.terms)))
+    zero = [one for one, e in pairs.items() if e == 0]
+    if zero and all(str(one) in low for one in pairs if one not in zero):
+        for e in dict.fromkeys(e for e in pairs.values() if e != 0):
+            yield [one + e / 2 if one in zero else expression(low[str(one)]) for one in pairs]
 
 
 def is_plain(origin: Sequence[Expr]) -> bool:

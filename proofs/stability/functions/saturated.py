@@ -12,6 +12,7 @@ import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.templates import (
+    TURNS,
     Function,
     best_weights,
     margins,
@@ -23,11 +24,20 @@ from juggleproof.proofs.stability.functions.values import (
     bounded_below,
     small_balls,
 )
-from juggleproof.proofs.stability.given import Expr, expression, holds, symbols, value, written
-from juggleproof.proofs.stability.samples import around, region
+from juggleproof.proofs.stability.given import (
+    Expr,
+    atoms,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.samples import Floats, around, region
 
 LOSSES = 2  # candidates for the constant of a loss
 FUNCTIONS = 2
+SMALL = 0.01  # of the greatest value of a bound
 CLOSE = 1e-3  # of V, where a piece is taken to reach the point
 
 Signs = dict[str, list[str]]  # for a premise, polynomials whose signs are its cases
@@ -41,13 +51,35 @@ def saturated_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[MapR
     template = next(quadratic_templates(system, setting.piece, ()))
     parameters = region(setting.domain, system.parameters, 500)
     tests = around(system, setting.point, parameters, 20, on).points
-    rows, _ = margins(template, system, setting.states.points)
-    every, _ = margins(template, system, tests)
-    weights = best_weights(rows) if len(rows) and len(every) else None
-    if weights is None or len(system.pieces) == 1:
+    if len(system.pieces) == 1:
         return
-    for numbers in itertools.islice(rounded(weights, every), FUNCTIONS):
-        yield from rules_of(setting, template.terms(numbers)[0], on, name)
+    for scale in scales(setting):
+        rows, _ = margins(template, system, setting.states.points, scale)
+        every = np.concatenate([rows, margins(template, system, tests, scale)[0]])
+        weights = weights_with_missed(rows, every)
+        found = iter(()) if weights is None else rounded(weights, every)
+        for numbers in itertools.islice(found, FUNCTIONS):
+            yield from rules_of(setting, template.terms(numbers)[0], on, name)
+
+
+def scales(setting: Setting) -> Iterator[str]:
+    """1, and what goes to 0 at an end of the domain, where V may be free not to fall."""
+    yield "1"
+    for bound, strict in atoms(setting.domain):
+        at = np.asarray(value(written(bound), setting.parameters), float)
+        if strict and 0 < at.min() < SMALL * at.max():
+            yield written(bound)
+
+
+def weights_with_missed(rows: Floats, every: Floats) -> Floats | None:
+    """Weights for these rows and, turn by turn, for those of all that they miss."""
+    for _ in range(TURNS if len(rows) else 0):
+        weights = best_weights(rows)
+        missed = np.zeros(0) if weights is None else every @ weights <= 0
+        if not missed.any():
+            return weights
+        rows = np.concatenate([rows, every[missed]])
+    return None
 
 
 def rules_of(setting: Setting, term: str, on: str, name: str) -> Iterator[tuple[MapRule, Signs]]:

@@ -36,6 +36,22 @@ def test_what_is_a_product_once_the_bound_is_put_in_holds(shown: str) -> None:
     assert proof is not None and proves(premise(shown), proof, {})
 
 
+def test_what_has_no_sign_but_by_a_square_holds() -> None:
+    """x^2 - x e + e^2 > 0 is no sum of products of x and e."""
+    statement = premise("x_gap^2*e <= value*(x_gap^2 + e^2)")
+    proof = proof_by_factors(statement, {}, (), "x_gap", POINTS)
+    assert proof is not None and proves(statement, proof, {})
+
+
+def test_a_premise_with_a_root_holds() -> None:
+    text = TEXT.format("x_gap^2 <= value*(e + x_gap)")
+    text = text.replace("range e > 0", "range e > 0\nroot r = sqrt(e + 1)")
+    statement = checker.read_statements(text)["newton/falls"]
+    points = POINTS | {"r": np.sqrt(POINTS["e"] + 1)}
+    proof = proof_by_factors(statement, {}, ("r",), "x_gap", points)
+    assert proof is not None and proves(statement, proof, {})
+
+
 def test_rejects_a_fall_that_is_too_large() -> None:
     shown = "3*x_gap^2 <= value*(e + x_gap)"
     assert proof_by_factors(premise(shown), {}, (), "x_gap", POINTS) is None

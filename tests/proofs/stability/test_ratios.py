@@ -5,7 +5,11 @@ from __future__ import annotations
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Proof
 from juggleproof.proofs.stability.domains import narrowed
-from juggleproof.proofs.stability.functions.ratios import ratio_rules
+from juggleproof.proofs.stability.functions.ratios import (
+    origins,
+    ratio_rules,
+    weighted_distance_rules,
+)
 from juggleproof.proofs.stability.given import of_rule
 from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
@@ -68,3 +72,23 @@ def test_what_a_bound_of_an_eliminated_parameter_says_of_the_point_is_known_hold
     fixed = next(one for one in fixed_points(system) if "0" not in one.point.terms)
     candidate, _ = next(ratio_rules(setting_of(system, fixed, system.domain), "m/lyapunov"))
     assert ("have", "-x_point + y_point > 0") in candidate.rows
+
+
+def test_a_point_on_the_boundary_has_ratios_of_a_variable_plus_half_of_another_holds() -> None:
+    rows = [("over", "r"), ("domain", "1 < r and r < 3"), ("state", "x y")]
+    rows += [("space", "x > 0 and y >= 0"), ("piece", "r*x/(1 + x + y), y/(2 + y)")]
+    system = with_licences(of_rule(MapRule("m", tuple(rows))))
+    (fixed,) = [one for one in fixed_points(system) if one.point.terms == ("r - 1", "0")]
+    first = next(origins(setting_of(system, fixed, system.domain)))
+    assert [str(one) for one in first] == ["x", "r/2 + y - 1/2"]
+
+
+def test_a_cascade_with_a_jordan_block_is_stable_holds() -> None:
+    """No quadratic form with constant coefficients falls for all a."""
+    rows = [("over", "a"), ("domain", "0 <= a and a < 1"), ("state", "x y z")]
+    system = of_rule(MapRule("m", (*rows, ("piece", "a*x, x + a*y, y + a*z"))))
+    (fixed,), proof = fixed_points(system), Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    rules = weighted_distance_rules(setting_of(system, fixed, system.domain), "m/lyapunov")
+    candidate, searches = next(rules)
+    assert proof.add(candidate, (1,), 100_000, searches=searches) == ""

@@ -46,6 +46,13 @@ def test_clipped_steps_below_two_thirds_come_to_rest_holds() -> None:
     assert "clipped/lyapunov" in proved(clipped("0 < h and 2 - 3*h > 0")).known
 
 
+def test_a_loop_whose_gain_goes_to_zero_comes_to_rest_holds() -> None:
+    """At k = 0, an end of the domain, x stays where it is."""
+    rows = [("over", "k"), ("domain", "0 < k and k < 1/2"), ("state", "x v")]
+    image = "x + v - k*max(-1, min(1, x)), v/2 - k/4*max(-1, min(1, x))"
+    assert "loop/lyapunov" in proved(read_rows("loop", [*rows, ("piece", image)])).known
+
+
 def test_rejects_clipped_steps_up_to_one() -> None:
     """At h = 1 the linear part has the multiplier -2."""
     assert set(proved(clipped("0 < h and h < 1")).known) == {"clipped/map"}

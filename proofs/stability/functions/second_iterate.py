@@ -1,0 +1,170 @@
+"""Maps of one variable that decrease, whose second iterate is closer to the point e: on one side of
+it the distance, on the other that of the next state with a weight c > 1,
+
+    V = max(s - e, c (f(s) - e))    or    V = max(e - s, c (e - f(s))).
+
+From the other side V falls to V/c, from the one side to c |f(f(s)) - e|.  Such a map has no cycle
+but e if and only if f(f(s)) is closer to e than s is, for all s.
+
+Source: W. A. Coppel, The solution of equations by iteration, Mathematical Proceedings of the
+Cambridge Philosophical Society 51 (1955).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.functions.norms import is_affine
+from juggleproof.proofs.stability.functions.ratios import at_parameters, point_names
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.two_sided import (
+    FEW,
+    MOST_POINTS,
+    is_clear,
+    products_of_shares,
+    proof_that_it_falls,
+    solved,
+    states_of,
+    with_licences,
+)
+from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
+from juggleproof.proofs.stability.given import (
+    Expr,
+    as_factor,
+    conjunction,
+    symbols,
+    written,
+)
+from juggleproof.proofs.stability.samples import licence
+
+MEANS = ((0, 1), (1, 1), (3, 1))  # (p, q): 1/c = (p + q l)/(p + q), where -l is the slope at e
+TRIED = 3  # functions
+ROUNDING = 1e-10  # of the point, relative to it
+
+
+def licensed_space(setting: Setting) -> str:
+    """The space, with what the map's images divide by said to be positive."""
+    system, space = setting.system, setting.system.space
+    for factor, _ in sympy.factor_list(sympy.denom(sympy.together(_image(setting))))[1]:
+        if factor.free_symbols & set(symbols(system.state)):
+            space = conjunction(space, licence(factor, conjunction(setting.domain, space)))
+    return space
+
+
+def second_iterate_rules(
+    setting: Setting, on: str, name: str
+) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+    """Statements `lyapunov` that samples do not refute, those first whose loss fits best, with a
+    search of its own for the premises that V falls.
+    """
+    if len(setting.system.state) > 1 or is_affine(setting.system):
+        return
+    setting, put = solved(setting)
+    slope = slope_of(setting, put)
+    if not (at_parameters(setting, slope) > 0).all():
+        return
+    samples = states_of(setting)
+    setting = replace(setting, states=samples.where(is_exact(setting)[samples.which]))
+    found = []
+    for sign in (1, -1):
+        for k, mean in enumerate(MEANS):
+            function = function_of(setting, slope, sign, mean)
+            for rank, rule in _rules(setting, put, slope, function, on, name):
+                found.append((rank + k / 4, rule, _searches(setting, put, function)))
+    for _, rule, searches in sorted(found, key=lambda one: one[0])[:TRIED]:
+        yield rule, searches
+
+
+def _image(setting: Setting) -> Expr:
+    (image,) = setting.system.images[setting.piece]
+    return image
+
+
+def is_exact(setting: Setting) -> NDArray[np.bool_]:
+    """At which parameters the point is a fixed point up to rounding, close to which the weights of
+    V may be small; at all where these are few.
+    """
+    ((state,), known) = setting.system.state, setting.constants
+    point = known[f"{state}_point"]
+    with np.errstate(all="ignore"):
+        (image,) = setting.system.next(known | {state: point})
+    exact = np.asarray(np.abs(image - point) <= ROUNDING * np.abs(point))
+    return exact if exact.mean() > FEW else np.ones(setting.count, bool)
+
+
+def slope_of(setting: Setting, put: dict[Expr, Expr]) -> Expr:
+    """By what the map decreases at the point."""
+    (state,), (point,) = symbols(setting.system.state), point_names(setting)
+    return sympy.factor(-sympy.diff(_image(setting), state).subs(state, point).xreplace(put))
+
+
+def function_of(setting: Setting, slope: Expr, sign: int, mean: tuple[int, int]) -> Function:
+    """V times what makes its weights polynomials; sign: 1 for the distance above the point."""
+    over, under = sympy.fraction(slope)
+    if at_parameters(setting, under).max() < 0:
+        over, under = -over, -under
+    plain, many = mean
+    near, far = sympy.expand(plain * under + many * over), (plain + many) * under
+    near, far = (sympy.factor(one / sympy.gcd(near, far)) for one in (near, far))
+    (state,) = setting.system.state
+    sides = (f"{state}_gap", f"({written(_image(setting))} - {state}_point)")
+    minus = "" if sign > 0 else "-"
+    terms = (f"{minus}{as_factor(written(c))}*{one}" for c, one in zip((near, far), sides))
+    return Function(tuple(terms))
+
+
+def _rules(
+    setting: Setting,
+    put: dict[Expr, Expr],
+    slope: Expr,
+    function: Function,
+    on: str,
+    name: str,
+) -> Iterator[tuple[float, MapRule]]:
+    """The statements for one function, each with a number that is small where it fits well."""
+    samples, (state,) = setting.states, setting.system.state
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    radius, upper = next(small_balls(setting, function), ("", ""))
+    clear = is_clear(setting, here, there)
+    samples, here, there = samples.where(clear), here[clear], there[clear]
+    if not radius or not len(here) or not (there < here).all():
+        return
+    steep = here / np.abs(samples.points[f"{state}_gap"])
+    known = [*setting.products, *products_of_shares(setting, [1 - slope, 1 + slope])]
+    fall = samples.least((here - there) / here, setting.count)
+    for _, far in bounded_below(samples.least(steep, setting.count), known, 1):
+        for rank, constant in bounded_below(fall, known):
+            rows = [
+                ("on", on),
+                ("loss", f"{as_factor(constant)}*value"),
+                ("least", f"{as_factor(constant)}*{as_factor(far)}*distance"),
+                ("upper", upper),
+                ("radius", radius),
+            ]
+            licensed = with_licences(with_licences(setting, constant), far)
+            yield rank, licensed.rule(name, function, rows)
+
+
+def _searches(setting: Setting, put: dict[Expr, Expr], function: Function) -> dict[str, Search]:
+    """For the premises that V falls."""
+    samples, roots = setting.states, [root for root, _ in setting.point.roots]
+    known = samples.points | {"value": function.at(samples.points, len(samples.which))}
+    step = 1 + len(samples.which) // MOST_POINTS
+    search = partial(
+        proof_that_it_falls,
+        terms=range(2),
+        unknowns=[*map(str, put), *roots],
+        roots=roots,
+        gap=f"{setting.system.state[0]}_gap",
+        points={name: values[::step] for name, values in known.items()},
+    )
+    pieces = range(len(setting.system.pieces))
+    return {f"falls-{k + 1}-{i + 1}": search for k in pieces for i in range(2)}
