@@ -5,7 +5,7 @@ Of the second checker, whose theorem stands in `checker.py`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -23,6 +23,7 @@ from .flights import (
 )
 
 CUT = 255  # in place of the rank of a cell that is cut
+WHOLE, PARTED = 1, 2  # what a row of a column is, or 0
 
 
 class Certificate(NamedTuple):
@@ -46,13 +47,17 @@ class Level(NamedTuple):
     """The cells of one width.
 
     ranks: for each column with such cells, the rank of each of its rows, in which a wider cell has
-    its own, and a cell that is cut the greatest of its parts; rows: the rows of such cells, but for
-    those that are cut.
+    its own, and a cell that is cut the greatest of its parts; cells: for these columns, what each
+    row is: a cell of this width that is WHOLE, one that is PARTED, or a part of a wider one.
     """
 
     grid: Grid
     ranks: dict[int, bytearray]
-    rows: dict[int, list[int]]
+    cells: dict[int, bytearray]
+
+    def rows(self, i: int, kind: int) -> Iterator[int]:
+        """The rows of a column that are of this kind."""
+        return (row for row, found in enumerate(self.cells[i]) if found == kind)
 
 
 def read_levels(certificate: Certificate, work: Work) -> list[Level]:
@@ -68,33 +73,38 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
     read = stored = columns * rows
     require(read <= len(data), "not one rank for each cell")
     first = {i: bytearray(data[i * rows : (i + 1) * rows]) for i in range(columns)}
-    levels = [Level(grid, first, {i: list(range(rows)) for i in range(columns)})]
-    cuts: list[list[tuple[int, int]]] = []
+    levels = [Level(grid, first, {i: bytearray([WHOLE]) * rows for i in range(columns)})]
     while True:
         wide = levels[-1]
-        cut = [(i, row) for i, own in wide.rows.items() for row in own if wide.ranks[i][row] == CUT]
+        for i, cells in wide.cells.items():
+            for row in wide.rows(i, WHOLE):
+                if wide.ranks[i][row] == CUT:
+                    cells[row] = PARTED
+        cut = [i for i, cells in wide.cells.items() if PARTED in cells]
         if not cut:
             break
-        require(read + 4 * len(cut) <= len(data), "not one rank for each cell")
+        parts = 4 * sum(wide.cells[i].count(PARTED) for i in cut)
+        require(read + parts <= len(data), "not one rank for each cell")
         grid = Grid(grid.alpha, grid.g, 2 * grid.columns, 2 * grid.per_unit, 2 * grid.rows)
-        stored += 2 * grid.rows * len({i for i, _ in cut})
+        stored += 2 * grid.rows * len(cut)
         require(stored <= MAX_CELLS, "too many cells")
         narrow = Level(grid, {}, {})
-        for i, row in cut:
-            wide.rows[i].remove(row)
+        for i in cut:
             for side in 2 * i, 2 * i + 1:
-                if side not in narrow.ranks:
-                    narrow.ranks[side], narrow.rows[side] = doubled(wide.ranks[i]), []
-                narrow.ranks[side][2 * row : 2 * row + 2] = data[read : read + 2]
-                narrow.rows[side] += [2 * row, 2 * row + 1]
-                read += 2
+                narrow.ranks[side] = doubled(wide.ranks[i])
+                narrow.cells[side] = bytearray(grid.rows)
+            for row in wide.rows(i, PARTED):
+                for side in 2 * i, 2 * i + 1:
+                    narrow.ranks[side][2 * row : 2 * row + 2] = data[read : read + 2]
+                    narrow.cells[side][2 * row : 2 * row + 2] = [WHOLE, WHOLE]
+                    read += 2
         levels.append(narrow)
-        cuts.append(cut)
     require(read == len(data), "not one rank for each cell")
-    for wide, narrow, cut in reversed(list(zip(levels, levels[1:], cuts))):
-        for i, row in cut:
-            parts = [narrow.ranks[side][2 * row : 2 * row + 2] for side in (2 * i, 2 * i + 1)]
-            wide.ranks[i][row] = max(map(max, parts))
+    for wide, narrow in reversed(list(zip(levels, levels[1:]))):
+        for i in wide.cells:
+            for row in wide.rows(i, PARTED):
+                sides = narrow.ranks[2 * i], narrow.ranks[2 * i + 1]
+                wide.ranks[i][row] = max(max(side[2 * row : 2 * row + 2]) for side in sides)
     work.spend(stored)
     return levels
 
@@ -198,7 +208,7 @@ def check_rest_arc(certificate: Certificate, levels: Sequence[Level], flights: F
     require(fits, "the rest arc is empty or longer than a period")
     outside = all(flights.S_low[i % columns] > ONE for i in range(end, start + columns))
     require(outside, "the rest arc leaves out a phase where the ball may rest")
-    whole = all(0 in levels[0].rows[i % columns] for i in range(start, end))
+    whole = all(levels[0].cells[i % columns][0] == WHOLE for i in range(start, end))
     require(whole, "a cell of the rest arc is cut")
 
 
@@ -219,12 +229,12 @@ def check_cells(
     require(at_rest > 0, "R has rank 0")
     for number, (level, flown) in enumerate(zip(levels, flights)):
         columns, shift = level.grid.columns, len(levels) - 1 - number
-        for i, rows in level.rows.items():
+        for i in level.cells:
             lifted = i if i >= start else i + columns
             in_arc = not number and lifted < end
             x = i if i < columns // 2 else i - columns
             may_stay = level.grid.alpha[0] == 0 and flown.S_low[i] <= ONE
-            for row, landings in flown.column(i, rows):
+            for row, landings in flown.column(i, level.rows(i, WHOLE)):
                 rank = level.ranks[i][row]
                 if in_trap(certificate, shift, x, row, row):
                     require(rank == 0, "a cell of the trap has a rank")

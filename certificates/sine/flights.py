@@ -237,13 +237,9 @@ class Walk:
     def __init__(self, flights: Flights, i: int) -> None:
         self.flights, self.i = flights, i
         self.j = 2 * i + 1
-        # 1 - S on this column, and for each column from it on: least S - 1, greatest F over a chord
+        # 1 - S on this column
         self.lag_low, self.lag_high = ONE - flights.S_high[i], ONE - flights.S_low[i]
         self.lag = max(abs(self.lag_low), abs(self.lag_high))
-        order = [*range(i, flights.columns), *range(i)]
-        self.rise = [flights.S_low[t] - ONE for t in order]
-        square = 8 * flights.columns**2
-        self.bend = [max(0, flights.S_high[t] - ONE) // square + 1 for t in order]
         self.heights: dict[int, tuple[int, ...]] = {}
         self.speeds: dict[int, tuple[int, ...]] = {}
 
@@ -337,10 +333,11 @@ class Walk:
         m = first
         if m == i:
             # x anywhere in the column: F >= alpha s t + rise t^2/2 up to its end
-            if self.rise[0] <= 0 and least * 2 * columns <= -self.rise[0]:
+            rise = flights.S_low[i] - ONE
+            if rise <= 0 and least * 2 * columns <= -rise:
                 landings += self.landing(m, row)
             m += 1
-            low, slope = 0, least + (min(0, self.rise[0]) * step >> BITS)
+            low, slope = 0, least + (min(0, rise) * step >> BITS)
         else:
             low, slope = 0, -self.speed(2 * m, row)[1]
         steps = 0
@@ -364,7 +361,9 @@ class Walk:
                         m += jump
                         continue
                     raise Refused("a jump over a landing")
-            rise, bend = self.rise[(m - i) % columns], self.bend[(m - i) % columns]
+            # least S - 1 on the column, and greatest F over a chord
+            rise = flights.S_low[m % columns] - ONE
+            bend = max(0, flights.S_high[m % columns] - ONE) // (8 * columns * columns) + 1
             after = low + (slope * step >> BITS) + (rise * step >> BITS + 1) * step // ONE
             free = after > 0 if rise <= 0 else slope >= 0
             if not free and not (low > bend and self.height(m + 1, row)[0] > bend):
