@@ -149,6 +149,19 @@ def test_boxes_are_kept_where_an_executor_dies(
     assert len(kept(tmp_path, None)[0]) == 1
 
 
+def test_a_dask_cluster_finds_the_same_bytes_holds(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    options = ["certify", "sine", "--alpha", "0.0499:0.0501", "--gamma", "3.05:3.15"]
+    assert run([*options, "--jobs", "1", "--store", str(tmp_path / "alone")]) == 0
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, processes=True
+    ) as cluster:
+        shared = ["--executor", cluster.scheduler_address, "--store", str(tmp_path / "shared")]
+        assert run([*options, *shared]) == 0
+    for name in ("statements.txt", "certificates.jsonl"):
+        assert (tmp_path / "alone" / name).read_bytes() == (tmp_path / "shared" / name).read_bytes()
+
+
 def test_rejects_a_line_of_the_folder_that_proves_nothing(tmp_path: Path) -> None:
     found = find_certificate(
         (Fraction(1, 20), Fraction(1, 20)), (Fraction(197, 1000), Fraction(197, 1000)), 256, 16
