@@ -11,6 +11,7 @@ it but `juggleproof bench`.
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table
     stability  the maps in examples: what is proved, and by a semidefinite program
+    sine       the table that moves as a sine: growth with width, distance to the edges, processes
     speed      whole commands: seconds and memory
 
 Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.

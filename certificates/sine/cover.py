@@ -71,26 +71,47 @@ class Covered(NamedTuple):
     counterexample: Counterexample | None
 
 
+Progress = Callable[[int, int], None]
+
+
 def cover(
-    rectangle: Rectangle,
+    rectangles: Sequence[Rectangle],
     folder: Path,
     executor: Executor | None = None,
     budget: int = BUDGET,
-    progress: Callable[[int, int], None] = lambda done, known: None,
-) -> Covered:
-    """Certifies the theorem on the rectangle as far as it can, or refutes it; keeps each box in the
-    folder as soon as it is certified, and goes on from those that are there.
+    progress: Progress = lambda done, known: None,
+) -> Iterator[Covered]:
+    """Certifies the theorem on each of the rectangles as far as it can, or refutes it; keeps each
+    box in the folder as soon as it is certified, and goes on from those that are there.
 
-    budget: cells that the search may look at; progress: is told how many boxes are done, of how
-    many that are known.  Raises ClaimError, one line, where the folder cannot be used or the
-    executor fails.
+    budget: cells that the search may look at for a rectangle; progress: is told how many boxes are
+    done, of how many that are known.  Raises ClaimError, one line, where the folder cannot be used
+    or the executor fails.
     """
     proved, rejected = kept(folder, executor)
+    for rectangle in rectangles:
+        yield cover_one(rectangle, folder, proved, executor, budget, progress)._replace(
+            rejected=rejected
+        )
+        rejected = []
+
+
+def cover_one(
+    rectangle: Rectangle,
+    folder: Path,
+    proved: dict[str, Proved],
+    executor: Executor | None,
+    budget: int,
+    progress: Progress,
+) -> Covered:
+    """What `cover` finds for one rectangle, from what the lines of the folder prove, to which it
+    adds.
+    """
     counterexample = find_counterexample(rectangle, list(proved.values()))
     if counterexample is not None:
         proved[line_of(counterexample)] = counterexample
         write(folder, rectangle, proved)
-        return Covered("refuted", [], [], 0, rejected, counterexample)
+        return Covered("refuted", [], [], 0, [], counterexample)
     boxes = first_boxes(rectangle)
     left: list[Box] = []
     cells = known = done = 0
@@ -117,7 +138,7 @@ def cover(
     write(folder, rectangle, proved)
     word, _ = outcome(rectangle, list(proved.values()))
     boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
-    return Covered(word, boxes, sorted(left), cells, rejected, None)
+    return Covered(word, boxes, sorted(left), cells, [], None)
 
 
 def shared(

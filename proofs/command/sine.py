@@ -85,14 +85,14 @@ def certify(options: SineOptions) -> int:
     folder, tell = options.store or STORE, now_and_then()
     found = []
     with _executor(options) as executor:
-        for rectangle in rectangles:
-            covered = cover(
-                rectangle,
-                folder,
-                executor,
-                options.budget or BUDGET,
-                lambda done, known: tell(f"{done} of {known} boxes tried"),
-            )
+        several = cover(
+            rectangles,
+            folder,
+            executor,
+            options.budget or BUDGET,
+            lambda done, known: tell(f"{done} of {known} boxes tried"),
+        )
+        for rectangle, covered in zip(rectangles, several):
             found.append(covered)
             for line in covered.rejected:
                 print(f"rejected by the checker: {line}")

@@ -94,6 +94,8 @@ def _weights(setting: Setting, texts: Sequence[str]) -> tuple[Fraction, ...]:
     changes of one after the other find them; empty where there are none.
     """
     here, there, samples = values(setting, texts)
+    if not here.size:
+        return ()
 
     def fit(weights: Sequence[Fraction]) -> tuple[float, float]:
         """The share of the samples that fall, and how far they do."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from concurrent.futures import BrokenExecutor, Executor, Future
 from fractions import Fraction
 from pathlib import Path
@@ -20,11 +21,13 @@ from juggleproof.certificates.sine.checker import (
     read_line,
     read_statement,
 )
-from juggleproof.certificates.sine.cover import cover, first_boxes, halves, kept
+from juggleproof.certificates.sine.cover import Covered, cover, first_boxes, halves, kept
 from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.sine.stored import STATEMENT, STORE
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.command.sine import WIDE
 
+ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
 
 
@@ -33,20 +36,26 @@ def rectangle(alpha: str, gamma: str) -> Rectangle:
     return read_statement(f"{WORDS} [{alpha}] and Gamma in [{gamma}]")
 
 
+def cover_it(whole: Rectangle, *options: Any, **named: Any) -> Covered:
+    """The cover of one rectangle."""
+    (found,) = cover([whole], *options, **named)
+    return found
+
+
 def at(alpha: str, gamma: str) -> Rectangle:
     return rectangle(f"{alpha}, {alpha}", f"{gamma}, {gamma}")
 
 
 def test_the_stored_certificate_holds_and_is_what_the_search_finds(tmp_path: Path) -> None:
-    cover(read_statement(STATEMENT), tmp_path)
+    cover_it(read_statement(STATEMENT), tmp_path)
     for name in ("statements.txt", "certificates.jsonl"):
         assert (tmp_path / name).read_bytes() == (STORE / name).read_bytes()
 
 
 def test_a_point_is_certified_and_found_again_in_the_folder(tmp_path: Path) -> None:
-    found = cover(at("1/20", "31/10"), tmp_path)
+    found = cover_it(at("1/20", "31/10"), tmp_path)
     assert (found.outcome, len(found.boxes), found.left, found.cells) == ("certified", 1, [], 5376)
-    again = cover(at("1/20", "31/10"), tmp_path)
+    again = cover_it(at("1/20", "31/10"), tmp_path)
     assert (again.outcome, again.cells) == ("certified", 0)
     assert [word for _, word, _ in check_folder(str(tmp_path))] == ["certified"]
 
@@ -65,7 +74,7 @@ def test_a_point_is_certified_and_found_again_in_the_folder(tmp_path: Path) -> N
 def test_where_the_theorem_fails_it_is_refuted(
     alpha: str, gamma: str, why: str, tmp_path: Path
 ) -> None:
-    found = cover(at(alpha, gamma), tmp_path)
+    found = cover_it(at(alpha, gamma), tmp_path)
     assert found.outcome == "refuted" and found.counterexample is not None
     assert found.counterexample.refutes == why
     assert [word for _, word, _ in check_folder(str(tmp_path))] == ["refuted"]
@@ -108,9 +117,9 @@ def test_a_budget_leaves_boxes_and_a_second_run_goes_on(
     whole = rectangle("499/10000, 501/10000", "309/100, 311/100")
     monkeypatch.setattr(covering, "START", (Fraction(1, 200), Fraction(1, 200)))
     assert len(first_boxes(whole)) == 2
-    part = cover(whole, tmp_path, budget=8_000)
+    part = cover_it(whole, tmp_path, budget=8_000)
     assert (part.outcome, len(part.boxes), len(part.left)) == ("unknown", 1, 1)
-    rest = cover(whole, tmp_path, budget=8_000)
+    rest = cover_it(whole, tmp_path, budget=8_000)
     assert (rest.outcome, len(rest.boxes), rest.left) == ("certified", 2, [])
 
 
@@ -136,8 +145,21 @@ def test_boxes_are_kept_where_an_executor_dies(
     whole = rectangle("499/10000, 501/10000", "309/100, 311/100")
     monkeypatch.setattr(covering, "START", (Fraction(1, 200), Fraction(1, 200)))
     with pytest.raises(ClaimError, match=r"^the executor failed \(BrokenExecutor: gone\)"):
-        cover(whole, tmp_path, Dying())
+        cover_it(whole, tmp_path, Dying())
     assert len(kept(tmp_path, None)[0]) == 1
+
+
+def test_a_dask_cluster_finds_the_same_bytes_holds(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    options = ["certify", "sine", "--alpha", "0.0499:0.0501", "--gamma", "3.05:3.15"]
+    assert run([*options, "--jobs", "1", "--store", str(tmp_path / "alone")]) == 0
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, processes=True
+    ) as cluster:
+        shared = ["--executor", cluster.scheduler_address, "--store", str(tmp_path / "shared")]
+        assert run([*options, *shared]) == 0
+    for name in ("statements.txt", "certificates.jsonl"):
+        assert (tmp_path / "alone" / name).read_bytes() == (tmp_path / "shared" / name).read_bytes()
 
 
 def test_rejects_a_line_of_the_folder_that_proves_nothing(tmp_path: Path) -> None:
@@ -149,7 +171,7 @@ def test_rejects_a_line_of_the_folder_that_proves_nothing(tmp_path: Path) -> Non
     forged = line_of(found.certificate._replace(grid=wider))
     assert check_line(forged)[0] is None and read_line(forged)
     (tmp_path / "certificates.jsonl").write_text(f"{forged}\n")
-    done = cover(at("1/20", "31/10"), tmp_path)
+    done = cover_it(at("1/20", "31/10"), tmp_path)
     assert done.outcome == "certified" and len(done.rejected) == 1
     assert forged not in (tmp_path / "certificates.jsonl").read_text()
 
@@ -175,6 +197,27 @@ def test_the_command_says_what_is_proved(
     ]
 
 
+def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ends = ("[1/20, 1/20] and Gamma in [31/10, 31/10]", "[1/10, 1/10] and g in [11/50, 11/50]")
+    (tmp_path / "statements.txt").write_text("".join(f"{WORDS} {one}\n" for one in ends))
+    monkeypatch.setattr("juggleproof.proofs.command.sine.WIDE", tmp_path)
+    assert run(["certify", "sine", "--jobs", "1", "--store", str(tmp_path / "found")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[::2][:2] == [f"certified: {WORDS} {one}" for one in ends]
+
+
+def test_the_wide_cover_is_of_boxes_that_the_checker_takes_holds() -> None:
+    lines = (WIDE / "certificates.jsonl").read_text().splitlines()
+    proved = [read_line(line) for line in lines]
+    for statement in (WIDE / "statements.txt").read_text().splitlines():
+        assert outcome(read_statement(statement), proved)[0] == "certified"
+    assert sum(len(line) for line in lines) < 1_000_000
+    for line in lines[:: 1 if ALL else 40]:
+        assert check_line(line)[0] is not None
+
+
 def test_frequency_and_amplitude_give_the_drive(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -190,7 +233,6 @@ def test_frequency_and_amplitude_give_the_drive(
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ([], "needs --alpha A0:A1, and --gamma G0:G1"),
         (["--alpha", "0.05"], "needs --alpha A0:A1, and --gamma G0:G1"),
         (["--alpha", "0.05", "--frequency", "30"], "--frequency and --amplitude go together"),
         (["--alpha", "0.05", "--amplitude", "1", "--gamma", "3"], "go together, without --gamma"),

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Proof
 from juggleproof.proofs.stability.domains import narrowed
+from juggleproof.proofs.stability.functions import part_metric
 from juggleproof.proofs.stability.functions.ratios import (
     origins,
     ratio_rules,
@@ -92,3 +98,12 @@ def test_a_cascade_with_a_jordan_block_is_stable_holds() -> None:
     rules = weighted_distance_rules(setting_of(system, fixed, system.domain), "m/lyapunov")
     candidate, searches = next(rules)
     assert proof.add(candidate, (1,), 100_000, searches=searches) == ""
+
+
+def test_no_weights_are_found_where_no_sample_is_in_range_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    setting = SimpleNamespace(system=SimpleNamespace(state=("x",)), count=1)
+    none = np.zeros((2, 0)), np.zeros((2, 0)), SimpleNamespace()
+    monkeypatch.setattr(part_metric, "values", lambda *_: none)
+    assert part_metric._weights(setting, ["x", "1/x"]) == ()  # type: ignore[arg-type]
