@@ -123,8 +123,8 @@ TAMPERED = [
     ("statements.txt", "49/1000", "48/1000", "it is not stored"),
     ("statements.txt", "51/1000", "49/1000", "it is not stored"),  # smaller, and certified
     ("certificates.jsonl", '"49/1000"', '"50/1000"', "unknown: "),
-    ("certificates.jsonl", "eNrt2N", "eNrt3N", "rejected: "),
-    ("certificates.jsonl", "[7, 15, 16,", "[7, 15, 17,", "rejected: "),
+    ("certificates.jsonl", '"ranks": "eN', '"ranks": "eM', "rejected: "),
+    ("certificates.jsonl", ", 15, 16,", ", 15, 17,", "rejected: "),
     ("statements.txt", "the period-one", "The period-one", "rejected: not a statement"),
 ]
 
@@ -158,7 +158,7 @@ def test_certify_and_check_tell_a_tampered_store_holds(
     (told,) = json.loads((tmp_path / "true.json").read_text())["claims"]
     assert (told["id"], told["verdict"], told["detail"]) == ("sine", *REGISTERED["sine"].values())
     assert run("check").returncode == 0
-    tamper(store, "certificates.jsonl", "eNrt2N", "eNrt3N")
+    tamper(store, "certificates.jsonl", '"ranks": "eN', '"ranks": "eM')
     for command in (("check",), (*arguments, str(tmp_path / "false.json"))):
         done = run(*command)
         assert done.returncode == 1 and not done.stderr

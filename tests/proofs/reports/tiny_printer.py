@@ -58,6 +58,8 @@ GLYPHS = {
     "change_1": (r"\Delta_1 E", r"\Delta_{1} E"),
     "mu": (r"\mu",),
     "sigma": (r"\sigma",),
+    "pi": (r"\pi",),
+    "Gamma": (r"\Gamma",),
     "omega": (r"\omega",),
     "omega_after": (r"\omega_{\mathrm{after}}",),
 }
