@@ -85,7 +85,7 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
             break
         parts = 4 * sum(wide.cells[i].count(PARTED) for i in cut)
         require(read + parts <= len(data), "not one rank for each cell")
-        grid = Grid(grid.alpha, grid.g, 2 * grid.columns, 2 * grid.per_unit, 2 * grid.rows)
+        grid = halved(grid)
         stored += 2 * grid.rows * len(cut)
         require(stored <= MAX_CELLS, "too many cells")
         narrow = Level(grid, {}, {})
@@ -107,6 +107,11 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
                 wide.ranks[i][row] = max(max(side[2 * row : 2 * row + 2]) for side in sides)
     work.spend(stored)
     return levels
+
+
+def halved(grid: Grid) -> Grid:
+    """The grid of cells of half the width in phase and speed."""
+    return Grid(grid.alpha, grid.g, 2 * grid.columns, 2 * grid.per_unit, 2 * grid.rows)
 
 
 def doubled(ranks: bytearray) -> bytearray:

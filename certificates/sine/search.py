@@ -18,7 +18,7 @@ from math import pi
 from typing import NamedTuple
 
 from ..checker import Rejected, Work
-from .cells import CUT, Certificate, check_trap, in_trap
+from .cells import CUT, Certificate, check_trap, halved, in_trap
 from .checker import Counterexample
 from .cycles import cyclic_parts
 from .flights import (
@@ -31,7 +31,6 @@ from .flights import (
     Refused,
     Walk,
     absorbing_strip,
-    check_grid,
 )
 
 Cell = tuple[int, int, int]  # how often its like are cut from the grid; column; row
@@ -104,12 +103,9 @@ class Graph:
     def level(self, number: int) -> Grid:
         """The grid of cells that are cut so often."""
         if number == len(self.grids):
-            wide = self.grids[-1]
-            sides = {name: 2 * getattr(wide, name) for name in ("columns", "per_unit", "rows")}
-            grid = wide._replace(**sides)
-            check_grid(grid)
-            self.grids.append(grid)
+            grid = halved(self.grids[-1])
             self.flights.append(Flights(grid, Work(MAX_STEPS)))
+            self.grids.append(grid)
         return self.grids[number]
 
     def lands(self, cell: Cell) -> list[Landing]:
@@ -266,10 +262,8 @@ def centred(i: int, grid: Grid) -> int:
 
 def finer(trapped: Certificate) -> Certificate:
     """The same trap, in cells of half the width."""
-    grid = trapped.grid
-    grid = Grid(grid.alpha, grid.g, 2 * grid.columns, 2 * grid.per_unit, 2 * grid.rows)
     width, low, high = 2 * trapped.width, 2 * trapped.low, 2 * trapped.high
-    return trapped._replace(grid=grid, width=width, low=low, high=high)
+    return trapped._replace(grid=halved(trapped.grid), width=width, low=low, high=high)
 
 
 def rows_of_bounce(grid: Grid) -> tuple[int, int]:
