@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import takewhile
 from pathlib import Path
@@ -13,8 +14,9 @@ from rich.console import Console
 
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.sine.cells import read_levels
+from juggleproof.certificates.sine.cells import Attraction, Level, read_levels
 from juggleproof.certificates.sine.checker import check_line
+from juggleproof.certificates.sine.cover import BASIN
 from juggleproof.certificates.sine.flights import MAX_STEPS, Interval
 from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.store import write_file
@@ -27,6 +29,7 @@ from juggleproof.scenes.table.motion import Table, events
 LARGE = 10**9
 MOST_EVENTS = 200  # shown
 GRID = 256, 16  # of the certificate beside a basin
+SEEN = 2  # how often cells are cut that are drawn
 TOP = 21 / 16  # closing speeds of a basin without one
 CLOSE = Fraction(1, 10**6)  # half the width in g of the certificate
 
@@ -112,24 +115,42 @@ def _picture(options: TableOptions, under: Table, starts: list[tuple[float, floa
     elif under.wave != (1.0,):
         raise ClaimError("--picture basin: is for --wave sine")
     else:
-        ranks = ranks_for(under)
-        top = TOP if ranks is None else len(ranks) / GRID[1]
+        certified = certified_for(under)
+        top = TOP if certified is None else float(certified[0])
+        ranks = None if certified is None else certified[1:]
         write_file(options.output, pictures.basin(under, top, ranks))
     print(f"wrote {options.output}")
     return 0
 
 
-def ranks_for(under: Table) -> np.ndarray | None:
-    """The ranks of a certificate for the parameters, shape (rows, columns), the greatest of its
-    parts for a cell that is cut; None where none is found, which says nothing.
+def certified_for(under: Table) -> tuple[Fraction, np.ndarray, Fraction] | None:
+    """(top, ranks, share) of a certificate for the parameters: closing speeds below top; ranks in
+    cells of phase and speed, UNRANKED where there are none; the share of states with one.  None
+    where no certificate is found, which says nothing.
     """
     if not under.gamma > birth(under.alpha) or not math.isfinite(under.gamma):
         return None
     alpha, g = Fraction(str(under.alpha)), g_of(under.alpha, under.gamma)
     middle = Fraction(round(g * 10**9), 10**9)
     between: Interval = (middle - CLOSE, middle + CLOSE)
-    found = find_certificate((alpha, alpha), between, *GRID).certificate
-    if found is None or check_line(line_of(found))[0] is None:
-        return None  # only what the checker takes is called certified
-    widest = read_levels(found, Work(MAX_STEPS))[0]
-    return np.array([list(column) for column in widest.ranks.values()]).T
+    for basin in (0, BASIN):
+        found = find_certificate((alpha, alpha), between, *GRID, basin).certificate
+        proved = found and check_line(line_of(found))[0]
+        if found and isinstance(proved, Attraction):  # only what the checker takes is certified
+            top = Fraction(found.grid.rows, found.grid.per_unit)
+            return top, ranks_of(read_levels(found, Work(MAX_STEPS))), proved.share_below(top)
+    return None
+
+
+def ranks_of(levels: Sequence[Level]) -> np.ndarray:
+    """The ranks of cells cut as often as can be seen, shape (rows, columns), the greatest of its
+    parts for a cell that is cut more often.
+    """
+    shown = min(SEEN, len(levels) - 1)
+    grid = levels[shown].grid
+    ranks = np.zeros((grid.rows, grid.columns), dtype=np.int64)
+    for number, level in enumerate(levels[: shown + 1]):
+        wide = 2 ** (shown - number)
+        for i, column in level.ranks.items():
+            ranks[:, i * wide : (i + 1) * wide] = np.repeat(list(column), wide)[:, None]
+    return ranks

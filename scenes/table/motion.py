@@ -22,6 +22,7 @@ CLOSE = 1e-13  # a height above the table that counts as an impact
 REST = 1e-9  # of velocities: slower, a ball rests, or is launched where the table falls away
 LEAVE = 1e-3  # how long after a launch floats see the ball above the table
 MOST_ADVANCES = 10_000
+NEAR, MOST = 0.01, 200  # what counts as at the bounce; flights, after which nothing is said
 SAMPLES = 4096  # of a period, between which launches are looked for
 
 Floats = NDArray[np.float64]
@@ -175,3 +176,13 @@ def flights_to_bounce(
         if not len(going):
             break
     return count
+
+
+def flights_by_state(table: Table, top: float, rows: int, columns: int) -> NDArray[np.int64]:
+    """`flights_to_bounce` from the middles of cells of phase and closing speed up to `top`, shape
+    (rows, columns).
+    """
+    phase, speed = np.meshgrid(
+        (np.arange(columns) + 0.5) / columns, (np.arange(rows) + 0.5) / rows * top
+    )
+    return flights_to_bounce(table, phase.ravel(), speed.ravel(), NEAR, MOST).reshape(phase.shape)
