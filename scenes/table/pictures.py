@@ -26,7 +26,7 @@ from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 BALLS = tuple(look.colour for look in (B1, KEPT, R, BAND))
 A_PERIOD = 64  # points of a curve in one period
 COLUMNS, ROWS = 160, 120  # of a raster
-NEAR, MOST = 0.01, 200  # what counts as at the bounce; flights, after which nothing is said
+MOST = 200  # flights, after which nothing is said
 DARK, LIGHT = np.array([8, 48, 107]), np.array([222, 235, 247])  # few flights, many
 NEVER = np.array([230, 159, 0])
 Start = tuple[float, float]  # phase, closing speed at the impact it begins with
@@ -96,7 +96,7 @@ def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
     phase, speed = np.meshgrid(
         (np.arange(COLUMNS) + 0.5) / COLUMNS, (np.arange(ROWS) + 0.5) / ROWS * top
     )
-    counts = flights_to_bounce(table, phase.ravel(), speed.ravel(), NEAR, MOST)
+    counts = flights_to_bounce(table, phase.ravel(), speed.ravel(), MOST)
     there = (counts >= 0) & (counts <= MOST)
     longest = int(counts[there].max()) if there.any() else 1
     bounce = bounce_phase(table.alpha, table.gamma)

@@ -75,9 +75,9 @@ def test_a_ball_rests_and_is_launched_where_the_table_falls_away() -> None:
 
 def test_all_states_come_to_the_bounce_where_it_is_certified_and_not_where_it_is_refuted() -> None:
     phase, speed = (one.ravel() for one in np.meshgrid(np.arange(24) / 24, np.arange(9) / 7))
-    counts = flights_to_bounce(Table(0.05, 3.1), phase, speed, 0.01, 60)
+    counts = flights_to_bounce(Table(0.05, 3.1), phase, speed, 60)
     assert 0 < counts.min() and counts.max() <= 12
-    counts = flights_to_bounce(Table(0.3, 1.8785), phase, speed, 0.01, 60)
+    counts = flights_to_bounce(Table(0.3, 1.8785), phase, speed, 60)
     assert 0.05 < ((counts >= 0) & (counts <= 60)).mean() < 0.5
 
 
@@ -127,7 +127,7 @@ def test_ranks_that_the_checker_does_not_take_are_not_shown(
         (["--alpha", "0", "--gamma", "3", "--picture", "orbit"], "--picture: needs -o F.svg"),
         (
             ["--alpha", "0", "--gamma", "3", "--picture", "film", "-o", "a.svg"],
-            "draw orbit or basin",
+            "draw orbit, basin or attractors",
         ),
     ],
 )
