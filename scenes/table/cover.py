@@ -51,10 +51,9 @@ def cover(asked: Sequence[Asked], certified: Sequence[Box], left: Sequence[Box])
     with style():
         plane = _plane([point for one in outlines for point in one], len(certified), len(left))
         for name, boxes, look in ("certified", certified, CERTIFIED), ("left", left, OPEN):
-            for number, box in enumerate(boxes):
-                outline = joined(_outline(box))
-                plane.area(outline, f"{name}-{number}", look)
-                plane.line(outline, f"{name}-{number}-edge", look, linewidth=0.5)
+            if boxes:
+                plane.area(_outlines(boxes), name, look)
+                plane.line(_outlines(boxes), f"{name}-edge", look, linewidth=0.5)
         key = [entry for curve in CURVES for entry in _draw_curve(plane, *curve)]
         for number, one in enumerate(outlines):
             plane.line(joined(one), f"asked-{number}", linewidth=1.2)
@@ -88,8 +87,7 @@ def attractor_map(alpha: Sides, gamma: Sides, certified: Sequence[Box]) -> bytes
         title = "What balls come to on a table that moves as a sine"
         plane = _framed(alpha, gamma, (title, counts))
         raster(plane, palette[found.kinds.reshape(ROWS, COLUMNS)])
-        edges = [arc for box in inside for arc in joined(_outline(box))]
-        plane.line(edges, "certified", WHITE, linewidth=0.3)
+        plane.line(_outlines(inside), "certified", WHITE, linewidth=0.3)
         if inside:
             key.append(("box", _filled(0), f"certified, every motion: {len(inside)} boxes"))
         for curve in CURVES:
@@ -144,6 +142,11 @@ def _outline(box: Box) -> list[Place]:
     points = [(x, gamma_of(x, g[0])) for x in along]
     points += [(x, gamma_of(x, g[1])) for x in reversed(along)]
     return [*points, points[0]]
+
+
+def _outlines(boxes: Sequence[Box]) -> list[Arc]:
+    """Those of all boxes."""
+    return [arc for box in boxes for arc in joined(_outline(box))]
 
 
 def _draw_curve(
