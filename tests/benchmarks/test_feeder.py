@@ -1,6 +1,4 @@
-"""The drives and amplitudes that docs/sine.md tells an engineer are those that are certified, and no
-fewer.
-"""
+"""The drives and amplitudes that docs/sine.md tells are those that are certified, and no fewer."""
 
 from __future__ import annotations
 

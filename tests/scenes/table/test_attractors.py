@@ -62,6 +62,9 @@ def test_balls_of_many_pairs_come_to_what_each_comes_to_alone_holds() -> None:
     balls = [
         (*pair, phase, 2 * speed) for pair in PAIRS for phase, speed in rng.uniform(0, 1, (6, 2))
     ]
+    # where the table is in the way of the bounce: one that begins so, one that lands so
+    bounce = bounce_phase(0.002, 3.15)
+    balls += [(0.002, 3.15, bounce, 1 / 1.002), (0.002, 3.15, bounce + 0.04, 0.5)]
     bounces = [many.stable_phase(alpha, gamma) for alpha, gamma, _, _ in balls]
     alpha, gamma, phase, speed = np.array(balls).T
     found, flights = many.find_fates(np.array([alpha, gamma, bounces, phase, speed]))
