@@ -20,6 +20,7 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.table.curves import birth
 
 CLOSE = 1e-13  # a height above the table that counts as an impact
+FAST = 30.0  # the square of a speed, or an acceleration: in proportion to more, CLOSE is raised
 NEAR = 0.01  # what counts as at the bounce, in phase and speed
 REST = 1e-9  # of velocities: slower, a ball rests, or is launched where the table falls away
 LEAVE = 1e-3  # how long after a launch floats see the ball above the table
@@ -89,23 +90,25 @@ def landing(
     Conservative advancement: from a time with F > 0 on by the least time in which F can vanish,
     since F'' >= -fall; above all of the table, to where the ball comes down to its top.  So no zero
     is passed over, and steps shrink as Newton's before one.  The height at the end is at most
-    CLOSE, so that the time is wrong by about CLOSE/speed.  A ball that leaves with the velocity of
-    a table that falls away is looked at after LEAVE.
+    CLOSE, raised for what is fast, so that the time is wrong by about CLOSE/speed.  A ball that
+    leaves with the velocity of a table that falls away is looked at after LEAVE.
     """
     times = np.broadcast_to(drive, start.shape)
     slope = velocity - times * table.derivative(start, 1)
     fall = 1 + times * (table.fall - 1)
     wait = np.where(slope < REST, LEAVE, 2 * slope / fall)
-    flights = np.array([start, velocity, times, times * table.derivative(start, 0), fall, wait])
+    close = CLOSE * np.maximum(1.0, (velocity**2 + fall) / FAST)
+    height = times * table.derivative(start, 0)
+    flights = np.array([start, velocity, times, height, fall, close, wait])
     flying = np.arange(len(start))
     durations, speeds = np.zeros((2, len(start)))
     for _ in range(MOST_ADVANCES):
-        start, velocity, times, height, fall, duration = flights
+        start, velocity, times, height, fall, close, duration = flights
         upward = velocity - duration
         ball = height + (velocity - duration / 2) * duration
         low = ball - times * table.derivative(start + duration, 0)
         slope = upward - times * table.derivative(start + duration, 1)
-        up = low > CLOSE
+        up = low > close
         if not up.all():
             ends = flying[~up]
             durations[ends], speeds[ends] = duration[~up], np.maximum(0.0, -slope[~up])
@@ -117,7 +120,7 @@ def landing(
         above = np.maximum(0.0, ball - times * table.top)
         steps = (slope + np.sqrt(slope * slope + 2 * fall * low)) / fall
         down = np.where(above > 0, upward + np.sqrt(upward * upward + 2 * above), 0.0)
-        flights[5] += np.maximum(steps, down)
+        flights[-1] += np.maximum(steps, down)
     raise SceneError("a flight does not end: the ball comes too close to the table too often")
 
 

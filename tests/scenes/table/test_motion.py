@@ -47,6 +47,15 @@ def test_a_flight_ends_at_the_first_zero_of_the_height(
     assert speed == pytest.approx(max(0.0, duration - velocity + own), abs=1e-9)
 
 
+def test_flights_of_fast_balls_on_a_fast_table_end_holds() -> None:
+    table, start = Table(0.9, 1000.0), np.linspace(0, 1, 60)
+    velocity = table.derivative(start, 1) + np.linspace(0, 400, 60)
+    durations, speeds = landing(table, start, velocity)
+    for one, up, duration in zip(start, velocity, durations):
+        assert abs(heights(table, one, up, np.array(duration))) < 1e-8
+    assert durations.max() > 1000 and speeds.max() > 500
+
+
 @pytest.mark.parametrize(("alpha", "gamma"), [(0.05, 3.1), (0.3, 1.8785), (0.0, 3.3)])
 def test_the_bounce_of_one_period_is_an_orbit(alpha: float, gamma: float) -> None:
     table, phase = Table(alpha, gamma), bounce_phase(alpha, gamma)
