@@ -55,7 +55,7 @@ def _add_table(scenes: Commands) -> None:
         help=(
             "orbit (ball and table over time), basin (flights to the bounce, and ranks) or"
             " attractors (what balls come to over --alpha 0:0.3 and --gamma 1.8:4.2, or others:"
-            " 19,200 points, 33 starts each; some 15 s)"
+            " 19,200 points, 33 starts each; some 15 s, a minute at large alpha)"
         ),
     )
     table.add_argument("-o", "--output", type=Path, metavar="F", help="with --picture F.svg")
