@@ -1,4 +1,6 @@
-"""The curves between which the bounce of one period may attract every motion."""
+"""The curves between which the bounce of one period may attract every motion, and the picture of
+boxes between them.
+"""
 
 from __future__ import annotations
 
@@ -65,3 +67,14 @@ def test_the_ball_of_the_bounce_touches_the_table_on_the_curve_holds(alpha: floa
         for gamma in (edge - 1e-4, edge + 1e-4)
     ]
     assert flights[0] < 0.9 and flights[1] == pytest.approx(1)
+
+
+def test_a_cover_is_drawn_with_and_without_boxes_holds() -> None:
+    cover = pytest.importorskip("juggleproof.scenes.table.cover").cover
+    asked, box = [((0.0, 0.06), "g", (0.18, 0.2))], ((0.0, 0.005), (0.18, 0.19))
+    for certified, left in ([box], []), ([], [box]), ([], []):
+        drawn = cover(asked, certified, left)
+        for name, there in ("certified", certified), ("left", left), ("own-grazing", True):
+            assert (f'id="cover-{name}"'.encode() in drawn) == bool(there)
+    # of curves that run together one is drawn: that of the bounce's own flight is the birth here
+    assert b'id="cover-own-grazing"' not in cover([((0.1, 0.2), "Gamma", (2.6, 2.7))], [], [])
