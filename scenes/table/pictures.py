@@ -10,7 +10,6 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from juggleproof.certificates.sine.cells import UNRANKED
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.arcs import joined
 from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, ticks
@@ -31,7 +30,7 @@ A_PERIOD = 64  # points of a curve in one period
 COLUMNS, ROWS = 160, 120  # of a raster
 DARK, LIGHT = np.array([8, 48, 107]), np.array([222, 235, 247])  # few flights, many
 NEVER = np.array([230, 159, 0])
-Certified = tuple[NDArray[np.int64], Fraction]  # ranks, the share of states that have one
+Certified = tuple[NDArray[np.int64], Fraction]  # ranks, -1 for none; the share that has one
 Start = tuple[float, float]  # phase, closing speed at the impact it begins with
 
 
@@ -132,7 +131,7 @@ def _ranks(beside: Plane, certified: Certified, top: float, bounce: float) -> Pl
     plane.frame(ticks(spaced(0, 1)), ticks(spaced(0, top)), "phase", "", 30)
     columns = ranks.shape[1]
     moved = np.roll(ranks, round(bounce * columns), axis=1)
-    raster(plane, _shaded(moved, moved < UNRANKED))
+    raster(plane, _shaded(moved, moved >= 0))
     words = f"certified, by ranks: {float(share):.1%} of states come to it"
     plane.words((left, height - 26), words, ha="left", fontsize=LETTERS)
     return plane

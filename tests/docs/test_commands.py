@@ -85,6 +85,10 @@ ELSEWHERE = {
         "tests/benchmarks/bench/test_bench.py",
         '"--question",',
     ),
+    "juggleproof simulate table --wave sine --picture attractors -o attractors.svg": (
+        "tests/scenes/table/test_attractors.py",
+        '"--picture", "attractors"',
+    ),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof certify --only eq-37": (

@@ -65,7 +65,7 @@ def test_states_of_ranked_cells_come_to_the_bounce_when_simulated_holds(
     speeds = np.array([(row + source.random()) / grid.per_unit for grid, _, row in drawn])
     table = Table(float(ALPHA), gamma_of(float(ALPHA), float(G)))
     phases = (phases + bounce_phase(table.alpha, table.gamma)) % 1
-    counts = flights_to_bounce(table, phases, speeds, 0.01, 200)
+    counts = flights_to_bounce(table, phases, speeds, 200)
     assert ((counts >= 0) & (counts <= 200)).all()
 
 
