@@ -286,6 +286,16 @@ def _of_sharpness(f: Lines) -> str:
     )
 
 
+def _of_settling(f: Lines) -> str:
+    ends = [Lines(name, f.texts) for name in f.all("contraction")]
+    points = [f"e_{k} = {_vector(end.one('point'))}" for k, end in enumerate(ends, 1)]
+    one_of = f"one of {', '.join(points)}" if len(points) > 1 else points[0]
+    return (
+        f"{f.named('descent').for_domain()}f^n(s) tends to {one_of} for every state s of the space,"
+        f" and {'each' if len(points) > 1 else 'e_1'} is stable"
+    )
+
+
 # -------------------------------------------------------------------------------------------------
 # The table of the rules.
 
@@ -424,6 +434,16 @@ RULES = {
         {
             "covers": "the domains of the rules make up the map's domain",
             "same-point": "the attraction and refutation {0} are about the same point",
+        },
+    ),
+    "settles": Rule(
+        "descent (never )*(contraction word )+",
+        _of_settling,
+        {
+            "never": "no state of the last stage follows word {0} of those that none follows",
+            "inside": "the domain of the descent is part of that of contraction {0}",
+            "ends": "a state of the last stage that follows the word of contraction {0} is in its"
+            " set `on`",
         },
     ),
 }

@@ -102,7 +102,8 @@ class Kind(Enum):
     STATE_TERMS = "one term in the parameters for each state variable is expected"
     EARLIER = "no earlier certified statement of this kind and name"
     OTHER_MAP = "two statements about different maps are joined"
-    WORD = "a periodic orbit has at least one step"
+    WORD = "a word has at least one piece"
+    WORDS = "words of every length hold none of these"
     PREMISES = "the premises of a rule are missing or left over"
     # certificates and files
     KEYS = "a certificate with missing or left over keys"

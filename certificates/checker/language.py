@@ -387,7 +387,7 @@ LINES = {  # how what follows each keyword is read
     ),
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
     **dict.fromkeys(("value", "rank"), guarded),
-    "word": lambda text, read: [int(k) for k in text.split()],
+    **dict.fromkeys(("word", "never"), lambda text, read: [int(k) for k in text.split()]),
     **dict.fromkeys(NAMED, lambda text, read: text),
     **dict.fromkeys(
         ("space", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
@@ -416,6 +416,7 @@ ORDERS = {
     "escapes": r"map domain (root )*point start word ",
     "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "exactly": r"attraction (escape |unstable )+",
+    "settles": r"descent (never )*(contraction word )+",
 }
 
 

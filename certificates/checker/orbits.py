@@ -5,7 +5,7 @@ Each rule writes its premises itself, as text, and a certificate has to prove ex
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from .algebra import Kind, Rejected, Work, require
 from .language import NAMED, Known, Statement, read_statements
@@ -133,6 +133,17 @@ class Orbits:
         image = self.let_next(images)
         every = [*extra, *self.inputs]
         return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=every)
+
+    def follow(self, word: Sequence[int]) -> Iterator[tuple[Mapping[str, str], str, list[str]]]:
+        """For each piece of a word: NAME_k for the names of what moves, after k steps, and the
+        piece's guard and images in these.
+        """
+        require(word, Kind.WORD, self.own.name)  # after no step, every start is back
+        for count, piece in enumerate(word):
+            (guard,), images = at(self.pieces, piece - 1)
+            self.work.spend(PER_LETTER * sum(map(len, [guard, *images])))
+            now = {name: f"{name}_{count}" for name in self.moving}
+            yield now, put(guard, now), [put(image, now) for image in images]
 
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
@@ -479,21 +490,15 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
     """
     f = Orbits(statement, known, work)
     (word,) = statement.get("word")
-    require(word, Kind.WORD, statement.name)  # after no step, every start is back
     here = f.terms("start")
     rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
-    first = {name: f"{name}_0" for name in f.state}
     apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
-    shown = [put(f.space, first)]
-    for count, piece in enumerate(word):
-        (guard,), images = at(f.pieces, piece - 1)
-        now = {name: f"{name}_{count}" for name in f.state}
-        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
+    shown = [put(f.space, {name: f"{name}_0" for name in f.state})]
+    for now, guard, images in f.follow(word):
         rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
-        shown.append(put(guard, now))
-        if count == 0:
-            shown.append(apart)
-        here = [put(image, now) for image in images]
+        shown.append(guard)
+        here = images
+    shown.insert(2, apart)
     shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
     return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
@@ -563,6 +568,77 @@ def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Pre
     return premises
 
 
+def premises_of_settling(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent of a map f with the last stage A; words of pieces `never`; and ends, each a
+    contraction of the same map and a word.  s follows a word where its pieces apply to s, f(s), and
+    so on.  For all parameters in the descent's domain and all states s of the space, f^n(s) tends
+    to the point of one of the contractions; and each of the points is stable.
+
+    Premises: the descent's domain is part of that of each contraction; no state of A follows a word
+    `never`, where all states on the way are in A and in the space; and such a state that follows
+    the word of an end is in the set `on` of its contraction.  Checked here: every word of some
+    length N holds one of these words.
+
+    f^n(s) is in A for all n >= M, by the descent, and the N pieces that apply from f^M(s) on hold
+    one of the words.  It is no word `never`, as all these states are in A and in the space; so it
+    is that of an end, and some f^(M+j)(s) with 0 <= j < N is in the set `on`, where |f^(M+j+k)(s) -
+    e| <= rate^k size for all k >= 0.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    # a relation may lead on by another piece than the one whose guard holds
+    require(f.map.kind == "map", Kind.EARLIER, f"map {f.map.name}")
+    never, words = statement.get("never"), statement.get("word")
+    require_one_in_all([*never, *words], len(f.pieces), statement.name, work)
+    stage = f.own.get("stage")[-1]
+    f.roots = f.roots if names_in(stage) & (f.moving - {*f.state}) else []
+
+    def following(word: Sequence[int], *rows: str) -> list[str]:
+        """For all states of the last stage that follow a word, NAME_0 in place of NAME."""
+        along: list[str] = []
+        here: list[str] = []
+        for now, guard, images in f.follow(word):
+            along += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+            along += [put(row, now) for row in (f"given {f.space}", *f.roots, f"given {stage}")]
+            along.append(f"given {guard}")
+            here = images
+        return f.for_all(*along, *rows, extra=[f"{name}_0" for name in f.state])
+
+    premises = {}
+    for i, word in enumerate(never):
+        premises[f"never-{i + 1}"] = following(word, "show 0 = 1")
+    for i, (one, word) in enumerate(zip(all_earlier(statement, known, "contraction"), words)):
+        end = Orbits(one, known, work)
+        require(f.map is end.map, Kind.OTHER_MAP, statement.name)
+        roots = [root for root in end.fixed + end.roots if root not in f.fixed + f.roots]
+        # by its own names: what moves here may be a root of parameters there
+        first = {name: f"{name}_0" for name in end.moving}
+        on = [put(row, first) for row in (*roots, f"show {end.own.get('on')[0]}")]
+        premises[f"inside-{i + 1}"] = f.for_all(f"show {end.domain}")
+        premises[f"ends-{i + 1}"] = following(word, *on)
+    return premises
+
+
+def require_one_in_all(words: Sequence[Sequence[int]], letters: int, name: str, work: Work) -> None:
+    """Every word of some length, in letters from 1 on, holds one of these words.
+
+    Words are read a letter at a time.  Of one that holds none only its longest end is kept with
+    which one of these begins; where one is left after as many letters as there are such ends, an
+    end has come back, and there are words of every length.
+    """
+    longest = max(map(len, words))
+    work.spend(sum(len(word) ** 2 for word in words))
+    held = {tuple(word) for word in words}
+    begun = {word[:n] for word in held for n in range(len(word))}
+    left: Collection[tuple[int, ...]] = {()}
+    for _ in begun:
+        # to cut off an end and to look it up takes time that grows with its length
+        work.spend(len(left) * letters * longest * (1 + longest // 8))
+        read = [(*end, k) for end in left for k in range(1, letters + 1)]
+        ends = ([word[n:] for n in range(len(word) + 1)] for word in read)
+        left = {next(filter(begun.__contains__, each)) for each in ends if held.isdisjoint(each)}
+    require(not left, Kind.WORDS, name)
+
+
 ORBIT_RULES = {
     "iterates": premises_of_iterates,
     "map": premises_of_map,
@@ -575,6 +651,7 @@ ORBIT_RULES = {
     "escapes": premises_of_escape,
     "unstable": premises_of_instability,
     "exactly": premises_of_sharpness,
+    "settles": premises_of_settling,
 }
 
 

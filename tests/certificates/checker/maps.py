@@ -765,6 +765,29 @@ attraction asked/attracts
 unstable asked/unstable
 escape asked/escapes
 
+statement asked/descends-in-roots
+map asked/map
+domain a > 9
+root c = sqrt(a)
+root d = sqrt(c*x)
+rank d
+stage d < c
+
+statement asked/ends
+descent asked/descends
+never 2 2
+never 1 1 2
+contraction asked/contracts
+word 2 1
+contraction asked/contracts
+word 1 1
+
+statement asked/ends-in-roots
+descent asked/descends-in-roots
+never 2
+contraction asked/contracts
+word 1 1
+
 statement asked/powers
 forall x y w n
 integer n

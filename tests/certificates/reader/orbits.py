@@ -511,6 +511,77 @@ def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     }
 
 
+def require_no_way_on(words: Iterable[tuple[int, ...]], pieces: int) -> None:
+    """No infinite word is without these: what is left of the words with none, by their last
+    letters, is empty when those that nothing follows are taken away.
+    """
+    apart = {*words}
+    size = max(map(len, apart)) - 1
+    left: set[tuple[int, ...]] = {()}
+    for _ in range(size):
+        left = {(*end, k) for end in left for k in range(1, pieces + 1)}
+        left = {end for end in left if not holds(end, apart)}
+    ways = {
+        end: {(*end, k)[1:] for k in range(1, pieces + 1) if not holds((*end, k), apart)}
+        for end in left
+    }
+    while True:
+        closed = {end for end, after in ways.items() if not any(one in ways for one in after)}
+        require(bool(closed) or not ways, "words of every length hold none of these")
+        if not ways:
+            return
+        ways = {end: after for end, after in ways.items() if end not in closed}
+
+
+def holds(word: tuple[int, ...], apart: set[tuple[int, ...]]) -> bool:
+    return any(word[-len(one) :] == one for one in apart)
+
+
+def of_settles(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    descent = statements[statement.one("descent")]
+    first, last = Setting(descent, statements), descent.all("stage")[-1]
+    require(first.map.kind == "map", "a map")
+    never, words = statement.all("never"), statement.all("word")
+    require(max(max(word) for word in (*never, *words)) <= len(first.pieces), "a word of pieces")
+    require_no_way_on([*never, *words], len(first.pieces))
+    in_roots = bool(names_in(last) & {line.says[0] for line in first.moving})
+
+    def named(setting: Setting, n: int, roots: bool = True) -> dict[str, str]:
+        own = [*setting.state, *(line.says[0] for line in setting.moving if roots)]
+        return {name: f"{name}_{n}" for name in own}
+
+    def moved(lines: Iterable[Line], names: dict[str, str]) -> list[Line]:
+        return [Line("root", (names[name], renamed(term, names))) for _, (name, term) in lines]
+
+    def follows(word: tuple[int, ...], rest: list[Line]) -> Statement:
+        lines = [*first.params(*named(first, 0, False).values())]
+        terms: list[Tree] = []
+        for n, k in enumerate(word):
+            names = named(first, n)
+            lines += [Line("let", (names[x], term)) for x, term in zip(first.state, terms)]
+            lines.append(Line("given", renamed(first.space, names)))
+            lines += moved(first.moving, names) if in_roots else []
+            guard, images = first.pieces[k - 1]
+            lines += [Line("given", renamed(one, names)) for one in (last, guard)]
+            terms = [renamed(image, names) for image in images]
+        return Statement("", "universal", (*lines, *rest))
+
+    premises = {}
+    for i, word in enumerate(never, 1):
+        premises[f"never-{i}"] = follows(word, [Line("show", ("=", ZERO, ONE))])
+    for i, (name, word) in enumerate(zip(statement.all("contraction"), words), 1):
+        end = Setting(statements[name], statements)
+        require(end.map.name == first.map.name, "another map")
+        fixed, moving = other_roots(first, end)
+        names = named(end, 0)
+        on = renamed(statements[name].one("on"), names)
+        roots = moved(moving if in_roots else end.moving, names)
+        lines = (*first.params(), Line("show", end.domain))
+        premises[f"inside-{i}"] = Statement("", "universal", lines)
+        premises[f"ends-{i}"] = follows(word, [*fixed, *roots, Line("show", on)])
+    return {name: one._replace(name=f"{statement.name}.{name}") for name, one in premises.items()}
+
+
 PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = {
     "map": of_map,
     "relation": of_map,
@@ -523,4 +594,5 @@ PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = 
     "into": of_into,
     "escapes": of_escape,
     "exactly": of_exactly,
+    "settles": of_settles,
 }

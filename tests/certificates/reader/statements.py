@@ -35,6 +35,7 @@ ORDERS = {
     "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
     "exactly": "attraction (escape |unstable )+",
+    "settles": "descent (never )*(contraction word )+",
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
@@ -206,7 +207,8 @@ class Scope:
             before, after = self._arrow(text)
             return require_formula(self._tree(before)), self._parts(after)
         require(
-            word == "word" and re.fullmatch(r"[1-9]\d{0,8}( [1-9]\d{0,8})*", text) is not None,
+            word in ("word", "never")
+            and re.fullmatch(r"[1-9]\d{0,8}( [1-9]\d{0,8})*", text) is not None,
             "pieces",
         )
         return tuple(map(int, text.split()))
