@@ -625,17 +625,16 @@ def require_one_in_all(words: Sequence[Sequence[int]], letters: int, name: str, 
     which one of these begins; where one is left after as many letters as there are such ends, an
     end has come back, and there are words of every length.
     """
-    longest = max(map(len, words))
     work.spend(sum(len(word) ** 2 for word in words))
     held = {tuple(word) for word in words}
     begun = {word[:n] for word in held for n in range(len(word))}
     left: Collection[tuple[int, ...]] = {()}
     for _ in begun:
         # to cut off an end and to look it up takes time that grows with its length
-        work.spend(len(left) * letters * longest * (1 + longest // 8))
+        work.spend(len(left) * letters * max(len(word) + len(word) ** 2 // 8 for word in words))
         read = [(*end, k) for end in left for k in range(1, letters + 1)]
-        ends = ([word[n:] for n in range(len(word) + 1)] for word in read)
-        left = {next(filter(begun.__contains__, each)) for each in ends if held.isdisjoint(each)}
+        ends = ([word[n:] for n in range(len(word))] for word in read)
+        left = {next(filter(begun.__contains__, one), ()) for one in ends if held.isdisjoint(one)}
     require(not left, Kind.WORDS, name)
 
 

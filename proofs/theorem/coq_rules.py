@@ -32,6 +32,11 @@ from juggleproof.proofs.theorem.coq_ranks import (
     times,
 )
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
+from juggleproof.proofs.theorem.coq_settles import (
+    end_module,
+    settling_definitions,
+    settling_proofs,
+)
 from juggleproof.proofs.theorem.coq_terms import coq_term
 from juggleproof.proofs.theorem.coq_values import (
     CHETAEV,
@@ -88,7 +93,7 @@ def _frame(name: str, known: Known, around: str = "map") -> Frame:
 
 def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) -> Iterator[str]:
     """What a statement rests on, and the statement."""
-    refuted = _refutations(f.known[name])
+    within = _modules(f.known[name])
     for one in _chain(name, f.known):
         own = f.known[one]
         if own.kind == "into":
@@ -98,13 +103,22 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
             yield "End Inner.\n"
         define, prove = RULES[f.kind if own.kind in ("map", "relation") else own.kind]
         yield f"(* {'-' * 60} {one} *)\n"
-        if one in refuted:
-            yield f"Module Refuted_{refuted.index(one) + 1}.\n"
+        if one in within:
+            yield f"Module {within[one]}.\n"
         yield from define(f, own)
         yield "\n" + readings(own, certificates[one], f.known)
         yield from prove(f, own)
-        if one in refuted:
-            yield f"End Refuted_{refuted.index(one) + 1}.\n"
+        if one in within:
+            yield f"End {within[one]}.\n"
+
+
+def _modules(own: checker.Statement) -> dict[str, str]:
+    """The modules of what a statement names several of."""
+    refuted = _refutations(own)
+    modules = {name: f"Refuted_{refuted.index(name) + 1}" for name in refuted}
+    if own.kind == "settles":
+        modules = {name: end_module(own, name) for name in own.get("contraction")}
+    return modules
 
 
 def _refutations(own: checker.Statement) -> list[str]:
@@ -140,6 +154,8 @@ def _theory(statements: Sequence[checker.Statement]) -> str:
     has_ranks = any(one.kind == "descends" and not has_one_term(one) for one in statements)
     if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
         modules["Lyapunov"] = "Lyapunov.v"
+    if "settles" in rules:
+        modules["Attractors"] = "Settling.v"
     if has_ranks:
         modules["Ranks"] = "Ranks.v"
     if "relation" in rules:
@@ -494,4 +510,5 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "into": (into_definitions, into_proofs),
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),
+    "settles": (settling_definitions, settling_proofs),
 }

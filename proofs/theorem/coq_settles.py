@@ -1,0 +1,189 @@
+"""That every orbit of a map tends to one of several points, as a theorem of Coq by Settling.v."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
+from juggleproof.proofs.theorem.coq_frame import Frame, theorem_name
+from juggleproof.proofs.theorem.coq_readings import reading_name
+
+# `$words` are all words and `$letters` those that they are written in; a word of `$long` letters
+# holds one of them. `$known` is what a state has along a word, in the order of the premises.
+FOLLOWED = """\
+Lemma $lemma : ${all}Descent.domain$a -> forall of_s,
+  Settling.follows$a $word of_s -> $shown.
+Proof.
+  intros$a of_dom of_s of_along. destruct of_along as $along.
+  assert (of_map : Map.domain$a) by exact (${descent}_inside$a of_dom).
+  $steps
+  $then_
+Qed.
+"""
+
+SETTLES = """\
+Lemma of_words : Attractors.left_after $words $letters $long = nil.
+Proof. vm_compute. reflexivity. Qed.
+
+(* Each of the points is stable, and every orbit tends to one of them. *)
+Theorem $theorem : ${all}Descent.domain$a ->
+  ($stable) /\\
+  forall of_s, Map.space$a of_s -> exists of_e, In of_e (Settling.points$a) /\\
+  Rules.converges (Map.f$a) States.coordinate (fun of_j => States.coordinate of_j of_e) of_s.
+Proof.
+  intros$a of_dom.
+  assert (of_map : Map.domain$a) by exact (${descent}_inside$a of_dom).
+  $near
+  split; [exact $stables|]. intros of_s of_there.
+  destruct (Attractors.settles (End := Settling.End) (Map.f$a) States.coordinate
+    (Map.space$a) (Descent.stage_$last$a) (Settling.guards$a) $letters (fun of_t => of_map_keeps$a of_t of_map)
+    (of_stage_$last$a of_dom)) with (s := of_s)
+    (never := $never) (ends := Settling.ends$a)
+    (word := fun of_e : Settling.End => fst of_e) (n := $long)
+    (on := fun of_e : Settling.End => snd (snd of_e))
+    (point := fun (of_e : Settling.End) of_j => States.coordinate of_j (fst (snd of_e)))
+    as (of_e & of_in & of_tends).
+  { intros of_t of_here. destruct (of_map_moves$a of_t of_map of_here) as $one_piece; [$pieces]. }
+  { exact (Attractors.none_is_left $words $letters $long of_words). }
+  { intros of_u of_in of_t of_along. destruct of_in as $never_in$no_word. }
+  { intros of_e of_in of_t of_along. destruct of_in as $end_in; [$ends]. }
+  { exact (of_last_stage_reached$a of_dom). }
+  { intros of_e of_in of_t _ of_on. destruct of_in as $end_in; [$tends]. }
+  { exact of_there. }
+  exists (fst (snd of_e)). split; [|exact of_tends].
+  exact (in_map (fun of_e : Settling.End => fst (snd of_e)) _ _ of_in).
+Qed.
+"""
+
+
+def end_module(own: checker.Statement, name: str) -> str:
+    """The module with the point of a contraction that the statement names."""
+    return f"End_{own.get('contraction').index(name) + 1}"
+
+
+def _word(pieces: Sequence[int]) -> str:
+    return f"({''.join(f'{k} :: ' for k in pieces)}nil)%nat"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return f"({''.join(f'{part} :: ' for part in parts)}nil)"
+
+
+def _last(f: Frame, own: checker.Statement) -> int:
+    return len(f.known[own.get("descent")[0]].get("stage"))
+
+
+def settling_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """The pieces by their numbers, what follows a word, and the ends: a word, a point and a set."""
+    ends = [
+        f"({_word(word)}, ({at}.point$a, {at}.set$a))"
+        for word, at in zip(own.get("word"), _ends(own))
+    ]
+    cases = "".join(f"{k}%nat => Map.guard_{k}$a | " for k in f.pieces)
+    yield "Module Settling.\nImport States."
+    yield "Definition End : Type := list nat * (State * (State -> Prop))."
+    rows = [
+        f"Definition guards{f.bound} (of_k : nat) : State -> Prop :=",
+        f"  match of_k with {cases}_ => fun _ => False end.",
+        f"Definition follows{f.bound} : list nat -> State -> Prop :=",
+        "  Attractors.follows (Map.f$a) (Map.space$a)",
+        f"    (Descent.stage_{_last(f, own)}$a) (guards$a).",
+        f"Definition ends{f.bound} : list End :=",
+        f"  {_listed(ends)}%list.",
+        f"Definition points{f.bound} : list State :=",
+        "  map (fun of_e : End => fst (snd of_e)) (ends$a).",
+    ]
+    yield f.fill("\n".join(rows), own)
+    yield "End Settling."
+
+
+def _ends(own: checker.Statement) -> list[str]:
+    return [f"{end_module(own, name)}.Contraction" for name in own.get("contraction")]
+
+
+def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """Each point is stable, and every orbit tends to one of them."""
+    never, words = own.get("never"), own.get("word")
+    numbers = range(1, len(words) + 1)
+    for k, word in enumerate(never, 1):
+        then = f"${{open}}exact (R1_neq_R0 (eq_sym ({_premise(f, own, f'never_{k}', word)})))."
+        yield _followed(f, own, f"of_never_{k}", word, "False", then)
+    for k, (word, at) in enumerate(zip(words, _ends(own)), 1):
+        then = f"${{open}}exact ({_premise(f, own, f'ends_{k}', word)})."
+        then = f"split; [exact of_there_0|].\n  {then}"
+        yield _followed(f, own, f"of_end_{k}", word, f"{at}.set$a of_s", then)
+    near = [
+        f"assert (of_near_{k} : {at}.domain$a) by exact (${{P}}_inside_{k}$a of_dom)."
+        for k, at in zip(numbers, _ends(own))
+    ]
+    concluded = [
+        f"({end_module(own, name)}.{theorem_name(name)}$a of_near_{k})"
+        for k, name in zip(numbers, own.get("contraction"))
+    ]
+    impossible = [f"exact (of_never_{k}$a of_dom of_t of_along)" for k in range(1, len(never) + 1)]
+    letter = "split; [repeat (first [left; reflexivity|right])|exact of_g]"
+    yield f.fill(
+        SETTLES,
+        own,
+        words=_listed([_word(word) for word in (*never, *words)]) + "%list",
+        never=_listed([_word(word) for word in never]) + "%list",
+        letters=_word(f.pieces),
+        long=f"{sum(map(len, (*never, *words)))}%nat",
+        stable=f.fill(
+            " /\\\n  ".join(
+                f"States.stable (Map.space$a) (Map.f$a) ({at}.point$a)" for at in _ends(own)
+            ),
+            own,
+        ),
+        stables=conjoined([f"(proj1 (proj2 (proj2 {one})))" for one in concluded]).replace(
+            "$a", f.words["a"]
+        ),
+        near=f.fill("\n  ".join(near), own),
+        descent=reading_name(own.get("descent")[0]),
+        last=_last(f, own),
+        one_piece=f.one_piece(),
+        pieces="|".join(f"exists {k}%nat; {letter}" for k in f.pieces),
+        never_in=disjunctive(["<-"] * len(never) + ["[]"]),
+        no_word=f.fill(f"; [{'|'.join(impossible)}]" * bool(never), own),
+        end_in=disjunctive(["<-"] * len(words) + ["[]"]),
+        ends=f.fill("|".join(f"exact (of_end_{k}$a of_dom of_t of_along)" for k in numbers), own),
+        tends=f.fill(
+            "|".join(
+                f"exact (proj1 (proj2 (proj2 (proj2 {one}))) of_t of_on)" for one in concluded
+            ),
+            own,
+        ),
+    )
+
+
+def _premise(f: Frame, own: checker.Statement, name: str, word: Sequence[int]) -> str:
+    """A premise for a state that follows a word."""
+    known = [f"of_there_{n} of_in_{n} of_g_{n}" for n in range(len(word))]
+    return f"${{P}}_{name}$a $s of_dom {' '.join(known)}"
+
+
+def _followed(
+    f: Frame, own: checker.Statement, lemma: str, word: Sequence[int], shown: str, then: str
+) -> str:
+    """What holds of a state that follows a word: the states on the way are the images."""
+    state, steps, rewrites = "of_s", list[str](), list[str]()
+    for n, piece in enumerate(word[:-1]):
+        rewrites.append(f"of_step_{n}")
+        known = ", ".join(f"of_{one}_{n + 1}" for one in ("there", "in", "g"))
+        applied = f"of_map_is_{piece}$a {state} of_map of_there_{n} of_g_{n}"
+        steps.append(f"pose proof ({applied}) as of_step_{n}.")
+        steps.append(f"rewrite {', '.join(rewrites)} in {known}.")
+        state = f"(Map.image_{piece}$a {state})"
+    names = [f"of_{one}_{n}" for n in range(len(word)) for one in ("there", "in", "g")]
+    return f.fill(
+        FOLLOWED,
+        own,
+        lemma=lemma,
+        word=_word(word),
+        shown=f.fill(shown, own),
+        along=conjunctive([*names, "_"]),
+        descent=reading_name(own.get("descent")[0]),
+        steps=f.fill("\n  ".join(steps), own),
+        then_=f.fill(then, own),
+    )
