@@ -289,10 +289,10 @@ def _of_sharpness(f: Lines) -> str:
 def _of_settling(f: Lines) -> str:
     ends = [Lines(name, f.texts) for name in f.all("contraction")]
     points = [f"e_{k} = {_vector(end.one('point'))}" for k, end in enumerate(ends, 1)]
-    one_of = f"one of {', '.join(points)}" if len(points) > 1 else points[0]
+    to, each = (f"one of {', '.join(points)}", "each") if len(ends) > 1 else (ends[0].point(), "e")
     return (
-        f"{f.named('descent').for_domain()}f^n(s) tends to {one_of} for every state s of the space,"
-        f" and {'each' if len(points) > 1 else 'e_1'} is stable"
+        f"{f.named('descent').for_domain()}f^n(s) tends to {to} for every state s of the space,"
+        f" and {each} is stable"
     )
 
 

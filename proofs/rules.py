@@ -10,14 +10,14 @@ from juggleproof.certificates.language import NO_ROLES, End, Roles, bounds_of, i
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
-    """The domain of a map rule's conclusion as text, and whether the rule refutes the
-    conclusion outside of it.
+    """The domain of a map rule's conclusion as text, nothing where it has none, and whether the
+    rule refutes the conclusion outside of it.
     """
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
     for inner in ("attraction", "descent"):
         if inner in rows:
             return rule_domain(rows[inner], texts)[0], inner == "attraction"
-    return rows["domain"], False
+    return rows.get("domain", ""), False
 
 
 def range_of_rule(

@@ -54,6 +54,7 @@ KINDS = {  # kind of rule -> what it says, in a few words
     "exactly": "stable and attracting for these alpha only",
     "attracts": "every orbit tends to the point",
     "escapes": "a periodic orbit stays away",
+    "settles": "every orbit tends to one of several points",
     "descends": "a falling rank leads to the trap",
     "into": "a falling rank leads to a smaller space, where every orbit tends to the point",
     "contracts": "orbits in the trap close in on the point",

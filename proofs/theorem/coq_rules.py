@@ -155,7 +155,7 @@ def _theory(statements: Sequence[checker.Statement]) -> str:
     if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
         modules["Lyapunov"] = "Lyapunov.v"
     if "settles" in rules:
-        modules["Attractors"] = "Settling.v"
+        modules["Attractors"] = "Attractors.v"
     if has_ranks:
         modules["Ranks"] = "Ranks.v"
     if "relation" in rules:

@@ -1,4 +1,4 @@
-"""That every orbit of a map tends to one of several points, as a theorem of Coq by Settling.v."""
+"""That every orbit of a map tends to one of several points, as a theorem of Coq by Attractors.v."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ Proof.
   $near
   split; [exact $stables|]. intros of_s of_there.
   destruct (Attractors.settles (End := Settling.End) (Map.f$a) States.coordinate
-    (Map.space$a) (Descent.stage_$last$a) (Settling.guards$a) $letters (fun of_t => of_map_keeps$a of_t of_map)
+    (Map.space$a) (Descent.stage_$last$a) (Settling.guards$a)
+    $letters (fun of_t => of_map_keeps$a of_t of_map)
     (of_stage_$last$a of_dom)) with (s := of_s)
     (never := $never) (ends := Settling.ends$a)
     (word := fun of_e : Settling.End => fst of_e) (n := $long)

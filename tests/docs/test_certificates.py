@@ -123,6 +123,10 @@ CHANGES = [
     ("example/unstable", "rate 2", "rate 3", "grows less"),
     ("example/unstable", "upper 1", "upper 1/2", "1 is reached at a distance of 1"),
     ("example/exactly", '"covers"', '"cover"', "a premise is missing"),
+    ("example/settles", "never 1\n", "", "1 1 1 .. holds no word"),
+    ("example/settles", "never 1", "never 1 2", "1 1 1 .. holds no word"),
+    ("example/settles", "never 1", "never 2", "1/2 follows it"),
+    ("example/settles", "word 2", "word 3", "no piece 3"),
 ]
 
 

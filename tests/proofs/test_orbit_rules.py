@@ -38,9 +38,10 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_INTO,
     FAILING_WITH_GUARDS,
 )
+from tests.certificates.checker.test_settles import TWO
 
 STATEMENTS_OF = [
-    read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, ASKED)
+    read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, TWO, ASKED)
 ]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
@@ -88,6 +89,10 @@ CONCLUSIONS = {
     " of the space if and only if n != 0 and n^2 > 1",
     "scale/exactly": "for all a: e = 0 is stable and attracts every state of the space"
     " if and only if -1 < a < 1",
+    "two/settles": "for 0 < a < 1: f^n(s) tends to one of e_1 = 2, e_2 = -2 for every state s of"
+    " the space, and each is stable",
+    "asked/ends-in-roots": "for a > 9, every b: f^n(s) tends to e = (c, b) for every state s of the"
+    " space, and e is stable; c = sqrt(a)",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",

@@ -91,6 +91,17 @@ def test_what_is_asked_of_other_parameters_is_part_of_the_range_holds() -> None:
     assert range_of_rule("t/exactly", within) == "0 < a < 1/3"
 
 
+def test_the_range_of_several_attractors_is_that_of_the_descent_holds() -> None:
+    ends = "never 1\ncontraction t/closes\nword 2"
+    texts = SHARP | {"t/settles": f"statement t/settles\ndescent t/falls\n{ends}"}
+    assert range_of_rule("t/settles", texts) == "at least 0 < a < 1/3"
+
+
+def test_a_rule_without_a_domain_has_no_range_holds() -> None:
+    text = "statement t/sum\nforall x K\ninteger K\niterates x -> x + 2\nafter K -> x + 2*K"
+    assert range_of_rule("t/sum", {"t/sum": text}) == ""
+
+
 def test_a_map_without_parameters_has_no_range_holds() -> None:
     texts = {
         "t/map": "statement t/map\nover \ndomain 0 < 1\nstate x",

@@ -271,6 +271,32 @@ def zero_attracts_executions_from_both_sides() -> list[MapRule]:
     ]
 
 
+@claim("parted")
+def two_points_attract() -> list[MapRule]:
+    """What is within 1 of 0 moves up; the rest contracts to 2 or to -2."""
+    pieces = (
+        ("piece", "x >= 1 -> a*(x - 2) + 2"),
+        ("piece", "x > -1 and x < 1 -> x + 2"),
+        ("piece", "x <= -1 -> a*(x + 2) - 2"),
+    )
+    over = (("over", "a"), ("domain", BELOW_1))
+    of = (("map", "parted/map"), ("domain", BELOW_1))
+    numbers = norm("1", rate="a", radius="1/2", size="8")
+    stages = (("stage", "0 = 0"), ("stage", "u >= 1"))
+    words = (
+        *(("never", "2"), ("never", "1 3")),
+        *(("contraction", "parted/up"), ("word", "1 1")),
+        *(("contraction", "parted/down"), ("word", "3")),
+    )
+    return [
+        MapRule("map", (*over, ("state", "x"), ("space", "x >= -9 and x <= 9"), *pieces)),
+        MapRule("outside", (*of, ("root", "u = sqrt(x^2)"), ("rank", "0"), *stages)),
+        MapRule("up", (*of, ("on", "x >= 1"), ("point", "2"), *numbers)),
+        MapRule("down", (*of, ("on", "x <= -1"), ("point", "-2"), *numbers)),
+        MapRule("ends", (("descent", "parted/outside"), *words)),
+    ]
+
+
 # Words of Coq, and names that the files use, which are names of parameters in a claim.
 WORDS = (
     "Axiom CoFixpoint Definition Fixpoint Hypothesis IF Parameter Prop SProp Set Theorem Variable"

@@ -34,6 +34,7 @@ SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "gr
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
+PARTED = "parted/ends"
 ALONE = (SHARP,)  # compiled as it is written; tests of examples do that as well
 
 
@@ -65,10 +66,14 @@ CONCLUSIONS = {
     COUNTED: f"Map.domain n -> (Descent.domain n <-> {settles('Contraction.point', 'n')}).",
     WALKED: f"Descent.domain a -> {settles('Inner.Contraction.point')}.",
     DRAWN: f"Descent.domain a -> {all_settle('Inner.Contraction.point')}.",
+    PARTED: "Descent.domain a -> (States.stable (Map.space a) (Map.f a) (End_1.Contraction.point a)"
+    " /\\ States.stable (Map.space a) (Map.f a) (End_2.Contraction.point a)) /\\ forall of_s,"
+    " Map.space a of_s -> exists of_e, In of_e (Settling.points a) /\\ Rules.converges (Map.f a)"
+    " States.coordinate (fun of_j => States.coordinate of_j of_e) of_s.",
     NAMED: f"Descent.domain {WORDS} -> {settles('Contraction.point', WORDS)} /\\",
 }
 # A contraction, a Lyapunov function, one of instability, an escape, and the orbits of a relation.
-COMPILED = [*CONCLUSIONS] if ALL else [SHARP, SHIFTED, TURNED, CYCLE, INPUT]
+COMPILED = [*CONCLUSIONS] if ALL else [SHARP, SHIFTED, TURNED, CYCLE, INPUT, PARTED]
 
 
 def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
