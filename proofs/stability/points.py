@@ -145,6 +145,10 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
     """The terms as text, with square roots named; None where there are others."""
     roots: list[tuple[str, str]] = []
     names: dict[Expr, str] = {}
+    terms = tuple(  # what is under a root is written in one way
+        t.replace(lambda e: e.is_Pow and not e.exp.is_Integer, lambda e: sympy.expand(e.base)**e.exp)
+        for t in terms
+    )
     for root in sorted(set().union(*(t.atoms(sympy.Pow) for t in terms)), key=str):
         if root.exp.is_Integer:
             continue

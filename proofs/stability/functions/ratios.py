@@ -52,6 +52,8 @@ MOST_STATES = 3
 MOST_SHIFTS = 2
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
 MOST_RULES = 2  # that are tried
+FAR, NEAR = 64.0, 1e-3  # times the distance of two samples; of the way to an end
+HALVINGS = 30  # of it
 LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are too large
 
 
@@ -194,6 +196,28 @@ def at_parameters(setting: Setting, term: Expr) -> Floats:
     with np.errstate(all="ignore"):
         found = sympy.lambdify(symbols(known), term, "numpy")(*known.values())
     return np.broadcast_to(np.asarray(found, float), (setting.count,))
+
+
+def with_ends(setting: Setting) -> Setting:
+    """The same with parameters close to the ends of the domain, which constants have to follow."""
+    names = setting.system.parameters
+    if not names:
+        return setting
+    rng, inside = np.random.default_rng(SEED), setting.parameters
+    size = setting.count
+    chosen = rng.integers(0, size, size)
+    known, far = np.zeros(size), np.full(size, FAR)
+    steps = {name: inside[name] - inside[name][chosen] for name in names}
+    for _ in range(HALVINGS):
+        middle = (known + far) / 2
+        here = {name: inside[name] + middle * steps[name] for name in names}
+        holding = np.broadcast_to(holds(setting.domain, here), (size,))
+        known, far = np.where(holding, middle, known), np.where(holding, far, middle)
+    near = {name: inside[name] + (1 - NEAR) * known * steps[name] for name in names}
+    with np.errstate(all="ignore"):
+        holding = np.broadcast_to(holds(setting.domain, near), (size,)) & (known < FAR / 2)
+    every = {name: np.concatenate([inside[name], near[name][holding]]) for name in names}
+    return replace(setting, parameters=every)
 
 
 def point_names(setting: Setting) -> list[Expr]:
@@ -411,7 +435,8 @@ def _losses(
     if not len(before) or (now > before * (1 + CLOSE)).any():
         return
     factors = factors_of(setting, falls)
-    products = products_of(setting, factors)
+    wide = with_ends(setting)
+    products = products_of(wide, factors)
     # the least of positive numbers is above 1/(the sum of 1/each), and the greatest below the sum
     sizes = sizes_of(setting, put, origin)
     total = sympy.factor(sum(size * weight for size, weight in zip(sizes, weights)))
@@ -425,9 +450,9 @@ def _losses(
             for row, weight in zip(rows, weights)
         )
     )
-    fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
+    fall = np.min([at_parameters(wide, one) for one in falls], axis=0)
     for power in POWERS:
-        least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
+        least = samples.least((before - now) / before * (1 + before) ** power, wide.count)
         constants = bounded_below(np.minimum(least + CLOSE, fall), products)
         for rank, constant in constants:
             over = "/(1 + {})" if power else ""
