@@ -26,6 +26,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.few_facts import proof_from_few_facts
 from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
@@ -103,19 +104,27 @@ def _rules(
                 rank += len(" ".join(terms)) / 50
                 positive = [*factors, *factors_of(setting, weights)]
                 rule = _rule(setting, name, origin, positive, terms, lines)
-                found.append((rank, rule))
+                found.append((rank, rule, weights))
         if found:
             best = sorted(found, key=lambda one: one[0])[:MOST_RULES]
-            searches = _searches(setting, put, rows, sums)
-            return [(rule, searches) for _, rule in best]
+            return [
+                (rule, _searches(setting, put, rows, origin, weights, sums))
+                for _, rule, weights in best
+            ]
     return []
 
 
 def _searches(
-    setting: Setting, put: dict[Expr, Expr], rows: Sequence[Row], sums: Sums
+    setting: Setting,
+    put: dict[Expr, Expr],
+    rows: Sequence[Row],
+    origin: Sequence[Expr],
+    weights: Sequence[Expr],
+    sums: Sums,
 ) -> dict[str, Search]:
     """For some premises, the facts that are used, and squares and signs."""
     unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
+    corners = _slopes_at_corners(setting, put, origin, rows, weights)
     gaps = _gaps(setting)
     squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
     found: dict[str, Search] = {
@@ -124,10 +133,31 @@ def _searches(
             terms=sums.used(k),
             unknowns=unknowns,
             squares=squares,
-            signs=gaps,
+            signs=[*gaps, *corners],
         )
         for k in range(2 * len(rows))
     }
+    sizes = sizes_of(setting, put, origin)
+    halves = [
+        f"2*{name}_gap + {as_factor(written(size))}"
+        for name, size in zip(setting.system.state, sizes)
+    ]
+    points = point_names(setting) if setting.have else [put[one] for one in point_names(setting)]
+    names = setting.system.state
+    own = symbols([f"{name}_gap" for name in names])
+    moved = {one: e + gap for one, e, gap in zip(symbols(names), points, own)}
+    terms = [one.subs(moved) for one in origin]
+    used = [written(one) for one in [*terms, *factors_of(setting, [*sizes, *weights])]]
+    for k, (_, row) in enumerate(itertools.product((1, -1), rows)):
+        half = halves[row.index(1)] if k >= len(rows) and sum(map(abs, row)) == 1 else ""
+        found[f"small-{k + 1}"] = partial(proof_from_few_facts, used=used, sign=half)
+    found["bounded"] = partial(
+        proof_by_products,
+        terms=[0, len(rows)],
+        unknowns=unknowns,
+        squares=(),
+        signs=[f"{setting.system.state[rows[0].index(1)]}_gap"],
+    )
     found["least"] = partial(
         proof_by_products,
         terms=[k for k, row in enumerate([*rows, *rows]) if sum(map(abs, row)) == 1],
@@ -249,13 +279,15 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
                 break
     have = [line for line in setting.have if ">" in line]
     conditions = [
-        one.subs(put)
+        (one.subs(put), strict)
         for one, strict in atoms(setting.domain)
-        if strict and one.free_symbols & put.keys()
+        if one.free_symbols & put.keys()
     ]
-    for factor in factors_of(setting, [one for one in conditions if one.free_symbols]):
-        if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
-            have.append(f"{written(factor)} > 0")
+    for strict in (True, False):
+        terms = [one for one, is_strict in conditions if one.free_symbols and is_strict == strict]
+        for factor in factors_of(setting, terms):
+            if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
+                have.append(f"{written(factor)} {'>' if strict else '>='} 0")
     for one, term in put.items():
         above, below = map(written, sympy.fraction(sympy.together(term)))
         have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
@@ -488,6 +520,37 @@ def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
     }
     which = np.concatenate([samples.which, corners.which])
     return replace(setting, states=Samples(both, which))
+
+
+def _slopes_at_corners(
+    setting: Setting,
+    put: dict[Expr, Expr],
+    origin: Sequence[Expr],
+    rows: Sequence[Row],
+    weights: Sequence[Expr],
+) -> list[str]:
+    """Of images that are linear in each variable, what the slope in one of them may have as its
+    sign at the upper corner of a box V <= value.
+    """
+    state, images = symbols(setting.system.state), setting.system.images[setting.piece]
+    if len(rows) > len(state):  # the set is no box
+        return []
+    (above,) = symbols(["value"])
+    corner = {
+        one: e + size * weight * above
+        for one, e, size, weight in zip(
+            state, point_names(setting), sizes_of(setting, put, origin), weights
+        )
+    }
+    found: dict[str, None] = {}
+    for image, one in itertools.product(images, state):
+        slope = sympy.diff(image, one)
+        if slope.free_symbols & set(state) and slope.is_polynomial(*state):
+            at_corner = sympy.numer(sympy.together(slope.subs(corner, simultaneous=True)))
+            for factor, _ in sympy.factor_list(at_corner)[1]:
+                if above in factor.free_symbols and not set(put) & factor.free_symbols:
+                    found[written(factor)] = None
+    return list(found)
 
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
