@@ -40,6 +40,7 @@ from juggleproof.proofs.stability.given import (
     Side,
     as_factor,
     atoms,
+    column,
     conjunction,
     ends_of_space,
     expression,
@@ -217,12 +218,17 @@ def box_of(setting: Setting) -> Ends | None:
     if len(still) < len(every):
         return None
     found: Ends = {}
-    for _ in every:
-        for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
-            limit = limit_of(setting, found, side) if side[1] == HIGH else None
-            limit = given.get(side) if limit is None else limit
-            if side not in found and limit is not None:
-                found[side] = sympy.factor((still[side] + limit) / 2)
+    lower = ends_of_space(setting.system)
+    for free in (False, True):
+        for _ in every:
+            for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
+                limit = limit_of(setting, found, side) if side[1] == HIGH else lower.get(side)
+                limit = given.get(side) if limit is None else limit
+                if limit is None and free:  # nothing limits it: as far as the space below
+                    reach = still[side] - lower.get((side[0], LOW), still[side] - 1)
+                    limit = still[side] + (reach if reach != 0 else 1)
+                if side not in found and limit is not None:
+                    found[side] = sympy.factor((still[side] + limit) / 2)
     return {side: found[side] for side in still} if len(found) == len(every) else None
 
 
@@ -341,45 +347,55 @@ def condition(setting: Setting, side: Side, end: Expr) -> str:
 
 
 def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
-    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: the
-    distance to the lower end of the space, or its inverse, times a term in the parameters; nothing
-    where samples fall by less.
+    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: a
+    height times a term in the parameters; nothing where samples fall by less.
     """
     (k, direction), system = side, setting.system
-    name, lower = system.state[k], ends_of_space(setting.system)[k, LOW]
+    height, one = height_of(setting, entered, side), symbols(system.state)[k]
+    if height is None:
+        return ""
     limit = entered.get(side)
     samples = states_of(setting, {**entered, (k, -direction): end, side: limit})
     points = samples.points
-    image = system.next({one: points[one] for one in system.names})[k]
-    start = at_parameters(setting, lower)[samples.which]
+    image = system.next({name: points[name] for name in system.names})[k]
+    text, count = written(height), len(samples.which)
     with np.errstate(all="ignore"):
-        if direction == HIGH:
-            falls = points[name] - image
-        else:
-            falls = 1 / (points[name] - start) - 1 / (image - start)
+        falls = column(text, points, count) - column(text, points | {str(one): image}, count)
     fits = np.isfinite(falls)
     least = samples.where(fits).least(falls[fits], setting.count)
     found = bounded_below(least, products_of(setting), 1)
     if not found:
         return ""
-    distance = as_factor(written(symbols([name])[0] - lower))
     factor = as_factor(inverse(found[0][1]))
     if found[0][0] > LOOSE:
         factor = fall_at(setting, entered, side, end) or factor
-    return f"{factor}*{distance}" if direction == HIGH else f"{factor}/{distance}"
+    above, below = map(written, sympy.fraction(height))
+    return f"{factor}*{as_factor(above)}" if below == "1" else f"{factor}/{as_factor(below)}"
+
+
+def height_of(setting: Setting, entered: Ends, side: Side) -> Expr | None:
+    """The distance of a variable to the lower end of the space; on the lower side its inverse, or,
+    where states are at that end, the distance to an upper end that is entered.
+    """
+    k, direction = side
+    one, low = symbols(setting.system.state)[k], (k, LOW)
+    lower = ends_of_space(setting.system)[low]
+    if direction == HIGH:
+        return one - lower
+    if low in ends_of_space(setting.system, strict=True):
+        return 1 / (one - lower)
+    return entered[k, HIGH] - one if (k, HIGH) in entered else None
 
 
 def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     """1 over the fall of a step from the end itself, without factors that are 1 at least; nothing
     where the domain does not say that the others are positive.
     """
-    image, lower = (
-        worst(setting, entered, side, end),
-        ends_of_space(setting.system)[side[0], LOW],
-    )
-    if image is None:
+    image, height = worst(setting, entered, side, end), height_of(setting, entered, side)
+    if image is None or height is None:
         return ""
-    fall = end - image if side[1] == HIGH else 1 / (end - lower) - 1 / (image - lower)
+    one = symbols(setting.system.state)[side[0]]
+    fall = height.subs(one, end) - height.subs(one, image)
     above, below = sympy.fraction(sympy.factor(fall))
     constant, factors = sympy.factor_list(above)
     known = {poly for poly, strict in atoms(setting.domain) if strict}
@@ -399,7 +415,8 @@ def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:
     """States between the ends, many of them at one, with the number of the parameters that each
     comes with.
     """
-    ends = {**ends_at_point(setting), **ends}
+    known = {side: end for side, end in ends.items() if end is not None}
+    ends = {**ends_of_space(setting.system), **known}
     rng = np.random.default_rng(SEED + 3)
     which = np.repeat(np.arange(setting.count), EACH)
     points = {name: values[which] for name, values in setting.constants.items()}

@@ -39,6 +39,7 @@ from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     bounds,
+    column,
     conjunction,
     expression,
     holds,
@@ -138,13 +139,10 @@ def _searches(
         for k in range(2 * len(rows))
     }
     sizes = sizes_of(setting, put, origin)
-    halves = [
-        f"2*{name}_gap + {as_factor(written(size))}"
-        for name, size in zip(setting.system.state, sizes)
-    ]
     points = point_names(setting) if setting.have else [put[one] for one in point_names(setting)]
     names = setting.system.state
     own = symbols([f"{name}_gap" for name in names])
+    halves = [written(sympy.numer(sympy.together(2 * gap + size))) for gap, size in zip(own, sizes)]
     moved = {one: e + gap for one, e, gap in zip(symbols(names), points, own)}
     terms = [one.subs(moved) for one in origin]
     used = [written(one) for one in [*terms, *factors_of(setting, [*sizes, *weights])]]
@@ -467,8 +465,6 @@ def _losses(
     if not len(before) or (now > before * (1 + CLOSE)).any():
         return
     factors = factors_of(setting, falls)
-    wide = with_ends(setting)
-    products = products_of(wide, factors)
     # the least of positive numbers is above 1/(the sum of 1/each), and the greatest below the sum
     sizes = sizes_of(setting, put, origin)
     total = sympy.factor(sum(size * weight for size, weight in zip(sizes, weights)))
@@ -482,10 +478,9 @@ def _losses(
             for row, weight in zip(rows, weights)
         )
     )
-    fall = np.min([at_parameters(wide, one) for one in falls], axis=0)
     for power in POWERS:
-        least = samples.least((before - now) / before * (1 + before) ** power, wide.count)
-        constants = bounded_below(np.minimum(least + CLOSE, fall), products)
+        least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
+        constants = _constants(setting, factors, falls, least)
         for rank, constant in constants:
             over = "/(1 + {})" if power else ""
             lines = [
@@ -497,6 +492,24 @@ def _losses(
             yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
         if constants and is_plain(origin):
             return
+
+
+def _constants(
+    setting: Setting, factors: Sequence[Expr], falls: Sequence[Expr], least: Floats
+) -> list[tuple[float, str]]:
+    """Terms below what is least at samples and the falls close to the point, also where parameters
+    are close to an end; those that follow both there, where no others are.
+    """
+    wide = with_ends(setting)
+    fall = np.min([at_parameters(wide, one) for one in falls], axis=0)
+    least = np.append(least + CLOSE, np.full(wide.count - setting.count, np.inf))
+    below = np.minimum(least, fall)
+    found = [
+        (rank, text)
+        for rank, text in bounded_below(below[: setting.count], products_of(setting, factors))
+        if (column(text, wide.constants, wide.count) < fall).all()
+    ]
+    return found or bounded_below(below, products_of(wide, factors))
 
 
 def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
