@@ -22,8 +22,9 @@ import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search, beyond
+from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
 from juggleproof.proofs.stability.functions.part_metric import CLOSE
-from juggleproof.proofs.stability.functions.ratios import at_parameters, distance_rules, with_ends
+from juggleproof.proofs.stability.functions.ratios import distance_rules
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
     FEW_FOLD,
