@@ -396,8 +396,10 @@ def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     if image is None or height is None:
         return ""
     one = symbols(setting.system.state)[side[0]]
-    fall = height.subs(one, end) - height.subs(one, image)
-    above, below = sympy.fraction(sympy.factor(fall))
+    fall = sympy.factor(height.subs(one, end) - height.subs(one, image))
+    if fall == 0 or not fall.is_rational_function():
+        return ""
+    above, below = sympy.fraction(fall)
     constant, factors = sympy.factor_list(above)
     known = {poly for poly, strict in atoms(setting.domain) if strict}
     below, kept = below / abs(constant), []
