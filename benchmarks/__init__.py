@@ -12,6 +12,7 @@ it but `juggleproof bench`.
     part       the part on the vibrating table
     stability  the maps in examples: what is proved, and by a semidefinite program
     sine       the table that moves as a sine: growth with width, distance to the edges, processes
+    feeder     drives and amplitudes that the certificates of that table hold for
     speed      whole commands: seconds and memory
 
 Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.

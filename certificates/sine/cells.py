@@ -1,4 +1,4 @@
-"""Cells of states, cut where that is needed, and the rules on them: every motion comes to the trap.
+"""Cells of states, cut where that is needed, and the rules on them: what comes to the trap.
 
 Of the second checker, whose theorem stands in `checker.py`.
 """
@@ -23,6 +23,7 @@ from .flights import (
 )
 
 CUT = 255  # in place of the rank of a cell that is cut
+UNRANKED = 254  # of a cell of which nothing is said
 WHOLE, PARTED = 1, 2  # what a row of a column is, or 0
 
 
@@ -41,6 +42,32 @@ class Certificate(NamedTuple):
     weight: Fraction
     arc: tuple[int, int]
     ranks: bytes
+
+
+class Attraction(NamedTuple):
+    """What a certificate proves: for all alpha and g of a box the bounce is stable, and of all
+    states (x, s) with row/K <= s < (row + 1)/K at least a share tends to it, for each row.  Where
+    each share is 1 every motion tends to it.
+    """
+
+    alpha: Interval
+    g: Interval
+    per_unit: int
+    shares: tuple[Fraction, ...]
+
+    def everywhere(self) -> bool:
+        return all(share == 1 for share in self.shares)
+
+    def share_below(self, speed: Fraction) -> Fraction:
+        """A lower bound of the share of the states with s < speed that tend to the bounce: of a row
+        across that speed, what tends elsewhere may all be below it.
+        """
+        rows = speed * self.per_unit
+        whole = int(rows)
+        total = sum(self.shares[:whole], Fraction())
+        if whole < len(self.shares):
+            total += max(Fraction(), self.shares[whole] - (1 - rows + whole))
+        return total / rows
 
 
 class Level(NamedTuple):
@@ -220,14 +247,15 @@ def check_rest_arc(certificate: Certificate, levels: Sequence[Level], flights: F
 def check_cells(
     certificate: Certificate, levels: Sequence[Level], flights: Sequence[Flights]
 ) -> None:
-    """Descent of a rank: every motion below the strip's top comes to the trap.
+    """Descent of a rank: every motion from a ranked cell below the strip's top comes to the trap.
 
-    Each cell has a rank, those of R the same.  What starts in a cell outside R and the trap has its
-    next impact in a cell of smaller rank, or in the trap; what starts in R leaves it
-    (`check_rest_arc`) to a cell of smaller rank, or to the trap, in which all stays.  Ranks are
-    whole numbers >= 0: so the trap is reached.  With alpha = 0 the ball rests after an impact where
-    S <= 1 and leaves in R: such cells have ranks above that of R.  A cell may be cut, and its parts
-    have ranks instead; none is cut by the border of the trap.
+    Each cell has a rank, those of R the same, or is unranked.  What starts in a ranked cell outside
+    R and the trap has its next impact in a cell of smaller rank, or in the trap; what starts in R,
+    where that is ranked, leaves it (`check_rest_arc`) to a cell of smaller rank, or to the trap, in
+    which all stays.  Ranks are whole numbers >= 0: so the trap is reached.  With alpha = 0 the ball
+    rests after an impact where S <= 1 and leaves in R: such cells have ranks above that of R.
+    UNRANKED is above all ranks: no flight from a ranked cell leads there.  A cell may be cut, and
+    its parts have ranks instead; none is cut by the border of the trap.
     """
     start, end = certificate.arc
     at_rest = levels[0].ranks[start][0]
@@ -239,25 +267,40 @@ def check_cells(
             in_arc = not number and lifted < end
             x = i if i < columns // 2 else i - columns
             may_stay = level.grid.alpha[0] == 0 and flown.S_low[i] <= ONE
-            for row, landings in flown.column(i, level.rows(i, WHOLE)):
-                rank = level.ranks[i][row]
+            for row in level.rows(i, WHOLE):
+                rank, rests = level.ranks[i][row], in_arc and row == 0
                 if in_trap(certificate, shift, x, row, row):
                     require(rank == 0, "a cell of the trap has a rank")
-                    for m, lowest, highest in landings:
-                        lands = in_trap(certificate, shift, m - i + x - columns, lowest, highest)
-                        require(lands, "a flight leaves the trap")
                     continue
-                rests = in_arc and row == 0
                 require(rank == at_rest if rests else rank > 0, "a rank does not fit its cell")
                 require(not meets_trap(certificate, shift, x, row), "the trap cuts a cell")
-                if may_stay and not rests:
+                if may_stay and not rests and rank != UNRANKED:
                     higher = rank > at_rest
                     require(higher, "a cell where the ball may rest has no higher rank than R")
+            ranked = (row for row in level.rows(i, WHOLE) if level.ranks[i][row] != UNRANKED)
+            for row, landings in flown.column(i, ranked):
+                rank = level.ranks[i][row]
                 for m, lowest, highest in landings:
-                    if rests and lowest == 0:
+                    if rank == 0:
+                        lands = in_trap(certificate, shift, m - i + x - columns, lowest, highest)
+                        require(lands, "a flight leaves the trap")
+                        continue
+                    if in_arc and row == lowest == 0:
                         lowest += m - i + lifted < end  # in R, in the same copy
                     reached = greatest_rank(levels[: number + 1], (m, lowest, highest))
                     require(reached < rank, "a rank does not fall")
+
+
+def shares_of(levels: Sequence[Level]) -> tuple[Fraction, ...]:
+    """For each row of the grid, the share of its states that lie in ranked cells."""
+    grid, last = levels[0].grid, len(levels) - 1
+    ranked = [0] * grid.rows  # in cells of the narrowest
+    for number, level in enumerate(levels):
+        for i in level.cells:
+            for row in level.rows(i, WHOLE):
+                if level.ranks[i][row] != UNRANKED:
+                    ranked[row >> number] += 4 ** (last - number)
+    return tuple(Fraction(count, grid.columns * 4**last) for count in ranked)
 
 
 def in_trap(one: Certificate, shift: int, x: int, lowest: int, highest: int) -> bool:
@@ -272,11 +315,13 @@ def meets_trap(one: Certificate, shift: int, x: int, row: int) -> bool:
     return inside and one.low < row + 1 << shift and row << shift < one.high
 
 
-def check_box(certificate: Certificate, work: Work) -> None:
-    """The theorem for the box of a certificate; raises Refused where this does not prove it."""
+def check_box(certificate: Certificate, work: Work) -> Attraction:
+    """What a certificate proves for its box; raises Refused where it proves nothing."""
     levels = read_levels(certificate, work)
     flights = [Flights(level.grid, work) for level in levels]
     absorbing_strip(flights[0])
     check_trap(certificate, levels[-1].grid, flights[-1])
     check_rest_arc(certificate, levels, flights[0])
     check_cells(certificate, levels, flights)
+    grid = certificate.grid
+    return Attraction(grid.alpha, grid.g, grid.per_unit, shares_of(levels))

@@ -17,7 +17,10 @@ starts on or above the table tends to the period-one bounce x = 0, s = 1/(1 + al
 take one period, and which is a stable fixed point of the map from impact to impact.
 
 A statement is this theorem for a rectangle of pairs; it is refuted by one pair where a motion tends
-elsewhere, or where the bounce is not stable.
+elsewhere, or where the bounce is not stable.  Or it says, for each pair of the rectangle, that the
+bounce is stable and at least a stated share of the impacts below a closing speed tends to it: the
+share of the area of all (x, s) with 0 <= x < 1 and 0 <= s < that speed; it is refuted by one pair
+where the bounce is not stable.
 
 A motion is a sequence of flights and impacts.  Where impacts accumulate, or where s = 0 and
 S <= 1, or where alpha = 0 and S <= 1, the ball rests on the table; it leaves where S rises through
@@ -38,10 +41,10 @@ from base64 import b64decode
 from collections.abc import Sequence
 from fractions import Fraction
 from math import isqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeGuard
 
 from ..checker import Rejected, Work, load
-from .cells import Certificate, check_box
+from .cells import Attraction, Certificate, check_box
 from .flights import (
     MAX_CELLS,
     MAX_STEPS,
@@ -116,15 +119,29 @@ def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
 # ------------------------------------------------------------ statements
 
 Box = tuple[Interval, Interval]  # of alpha, of g
+Proved = Attraction | Counterexample  # by a line of certificates
 
 
 class Rectangle(NamedTuple):
-    """What one line of statements says: the theorem for alpha and Gamma, or g, in two intervals."""
+    """What one line of statements says: the theorem for alpha and Gamma, or g, in two intervals; or
+    of the impacts below a closing speed, at least which share tends to the bounce.
+    """
 
     text: str
     alpha: Interval
     drive: str  # Gamma or g
     values: Interval
+    basin: tuple[Fraction, Fraction] | None = None  # share, closing speed
+
+
+def serves(one: Proved, rectangle: Rectangle) -> TypeGuard[Attraction]:
+    """Whether what is proved is what a statement says, of the pairs of a box."""
+    if isinstance(one, Counterexample):
+        return False
+    if rectangle.basin is None:
+        return one.everywhere()
+    share, speed = rectangle.basin
+    return one.share_below(speed) >= share
 
 
 def g_at(alpha: Fraction, gamma: Fraction, up: bool) -> Fraction:
@@ -166,7 +183,9 @@ def check_cover(rectangle: Rectangle, boxes: list[Box], work: Work, cuts: int = 
 
 
 def meets(one: Counterexample, rectangle: Rectangle) -> bool:
-    """Whether a pair where the theorem fails is surely one of the rectangle."""
+    """Whether a pair where the statement fails is surely one of the rectangle."""
+    if rectangle.basin and one.refutes != "multiplier":
+        return False
     low, high = rectangle.values
     if rectangle.drive == "Gamma":
         low, high = g_at(one.alpha, low, up=True), g_at(one.alpha, high, up=False)
@@ -179,7 +198,8 @@ def meets(one: Counterexample, rectangle: Rectangle) -> bool:
 STATEMENTS, CERTIFICATES = "statements.txt", "certificates.jsonl"
 NUMBER = r"([0-9]{1,30}(?:/[1-9][0-9]{0,29})?)"
 STATEMENT = re.compile(
-    "the period-one bounce is stable and every motion tends to it for all"
+    "the period-one bounce is stable and (?:every motion tends"
+    rf"|at least {NUMBER} of the impacts with closing speed below {NUMBER} tend) to it for all"
     rf" alpha in \[{NUMBER}, {NUMBER}\] and (Gamma|g) in \[{NUMBER}, {NUMBER}\]"
 )
 
@@ -188,11 +208,15 @@ def read_statement(line: str) -> Rectangle:
     """The rectangle of a line of statements."""
     match = STATEMENT.fullmatch(line)
     require(match, "not a statement")
-    a_low, a_high, drive, low, high = match.groups() if match else ("",) * 5
+    share, speed, a_low, a_high, drive, low, high = match.groups() if match else ("",) * 7
     alpha, values = (Fraction(a_low), Fraction(a_high)), (Fraction(low), Fraction(high))
     require(alpha[0] <= alpha[1] < 1, "alpha is not an interval within 0 <= alpha < 1")
     require(0 < values[0] <= values[1], f"{drive} is not an interval above 0")
-    return Rectangle(line, alpha, drive, values)
+    if share is None:
+        return Rectangle(line, alpha, drive, values)
+    basin = Fraction(share), Fraction(speed)
+    require(0 < basin[0] <= 1 and 0 < basin[1], "no share, or no closing speed, above 0")
+    return Rectangle(line, alpha, drive, values, basin)
 
 
 def rational(text: object) -> Fraction:
@@ -246,13 +270,13 @@ def read_line(line: str) -> Certificate | Counterexample:
     return Certificate(grid, width, low, high, rational(weight), (start, end), ranks)
 
 
-def check_line(line: str) -> tuple[Certificate | Counterexample | None, str]:
+def check_line(line: str) -> tuple[Proved | None, str]:
     """(what the line proves, ""), or (None, why it proves nothing)."""
     try:
         read, work = read_line(line), Work(MAX_STEPS)
         if isinstance(read, Certificate):
-            check_box(read, work)
-        elif read.refutes == "saddle":
+            return check_box(read, work), ""
+        if read.refutes == "saddle":
             check_saddle(read, work)
         else:
             check_multiplier(read)
@@ -263,11 +287,9 @@ def check_line(line: str) -> tuple[Certificate | Counterexample | None, str]:
         return None, f"malformed ({type(error).__name__})"
 
 
-def outcome(
-    rectangle: Rectangle, proved: Sequence[Certificate | Counterexample]
-) -> tuple[str, str]:
+def outcome(rectangle: Rectangle, proved: Sequence[Proved]) -> tuple[str, str]:
     """(certified, refuted or unknown; why it is unknown), by what the lines prove."""
-    boxes = [(one.grid.alpha, one.grid.g) for one in proved if isinstance(one, Certificate)]
+    boxes = [(one.alpha, one.g) for one in proved if serves(one, rectangle)]
     if any(isinstance(one, Counterexample) and meets(one, rectangle) for one in proved):
         return "refuted", ""
     try:
@@ -283,13 +305,11 @@ def check_folder(folder: str) -> list[tuple[str, str, str]]:
     """
     lines = load(os.path.join(folder, STATEMENTS)).splitlines()
     rectangles = [read_statement(line) for line in lines]
-    proved: list[Certificate | Counterexample] = []
+    proved: list[Proved] = []
     results = []
     for number, line in enumerate(load(os.path.join(folder, CERTIFICATES)).splitlines(), 1):
         proves, why = check_line(line)
-        if isinstance(proves, Certificate):  # its ranks have done their work, and take memory
-            proved.append(proves._replace(ranks=b""))
-        elif proves:
+        if proves:
             proved.append(proves)
         else:
             results.append((f"{CERTIFICATES}, line {number}", "rejected", why))

@@ -2,7 +2,7 @@
 
 The rectangle, in alpha and Gamma, is cut into boxes in alpha and g; where a box fails it is cut
 across its longer side, until it is too narrow.  The boxes of one round are independent: any
-executor may share them.
+executor may share them.  Of a basin the share is sought that holds on all boxes.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -18,21 +19,22 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import spread
 from juggleproof.certificates.store import write_file
 
-from .cells import Certificate
+from .cells import Attraction
 from .checker import (
     CERTIFICATES,
     STATEMENTS,
     Box,
     Counterexample,
+    Proved,
     Rectangle,
     check_line,
     g_at,
     meets,
     outcome,
-    read_line,
+    serves,
 )
 from .flights import Interval
-from .search import find_certificate, line_of
+from .search import ONCE, Found, find_certificate, line_of
 
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
 LEAST = Fraction(1, 4000)  # a box no wider than this is not cut
@@ -41,28 +43,32 @@ NARROW = Fraction(1, 1000)  # boxes no wider than this are tried on all of them
 CELLS = 6_000  # about what a box takes
 SADDLE = 2048, 128  # the grid on which a saddle is looked for
 BUDGET = 20_000_000  # cells
+BASIN = 20_000  # cells of a box where a share of the impacts is asked for
+EVERY = "every motion tends"
 
-Proved = Certificate | Counterexample
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
 class Tried(NamedTuple):
-    """line: the certificate of a box, as the checker took it, or "" where there is none; cells: how
-    many the search looked at.
+    """line: the certificate of a box, or "" where there is none; proved: what the checker takes it
+    for; cells: how many the search looked at.
     """
 
     box: Box
     line: str
+    proved: Proved | None
     cells: int
 
 
 class Covered(NamedTuple):
-    """outcome: certified, refuted or unknown; boxes: those with a certificate; left: those without
-    one; cells: how many the search looked at; rejected: lines of the folder that the checker
-    did not take, with the reason; counterexample: for refuted.
+    """rectangle: what is stated of it, for a basin with the share; outcome: certified, refuted or
+    unknown; boxes: those with a certificate; left: those without one; cells: how many the search
+    looked at; rejected: lines of the folder that the checker did not take, with the reason;
+    counterexample: for refuted.
     """
 
+    rectangle: Rectangle
     outcome: str
     boxes: list[Box]
     left: list[Box]
@@ -78,11 +84,12 @@ def cover(
     rectangles: Sequence[Rectangle],
     folder: Path,
     executor: Executor | None = None,
-    budget: int = BUDGET,
+    budget: int | None = None,
     progress: Progress = lambda done, known: None,
 ) -> Iterator[Covered]:
     """Certifies the theorem on each of the rectangles as far as it can, or refutes it; keeps each
-    box in the folder as soon as it is certified, and goes on from those that are there.
+    box in the folder as soon as it is certified, and goes on from those that are there.  Where a
+    rectangle asks for a basin, with the share 0, the greatest share is sought.
 
     budget: cells that the search may look at for a rectangle; progress: is told how many boxes are
     done, of how many that are known.  Raises ClaimError, one line, where the folder cannot be used
@@ -101,7 +108,7 @@ def cover_one(
     folder: Path,
     proved: dict[str, Proved],
     executor: Executor | None,
-    budget: int,
+    budget: int | None,
     progress: Progress,
 ) -> Covered:
     """What `cover` finds for one rectangle, from what the lines of the folder prove, to which it
@@ -110,9 +117,10 @@ def cover_one(
     counterexample = find_counterexample(rectangle, list(proved.values()))
     if counterexample is not None:
         proved[line_of(counterexample)] = counterexample
-        write(folder, rectangle, proved)
-        return Covered("refuted", [], [], 0, [], counterexample)
+        write(folder, stated(rectangle), proved)
+        return Covered(rectangle, "refuted", [], [], 0, [], counterexample)
     boxes = first_boxes(rectangle)
+    budget = budget or (BASIN * len(boxes) if rectangle.basin else BUDGET)
     left: list[Box] = []
     cells = known = done = 0
 
@@ -120,25 +128,52 @@ def cover_one(
         nonlocal done
         done += 1
         progress(done, known)
-        if one.line:
-            proved[one.line] = read_line(one.line)
-            write(folder, rectangle, proved)
+        if one.proved:
+            proved[one.line] = one.proved
+            write(folder, stated(rectangle), proved)
 
     while boxes and outcome(rectangle, list(proved.values()))[0] != "certified":
-        boxes = [box for box in boxes if not within(box, proved.values())]
+        boxes = [box for box in boxes if not within(box, rectangle, proved.values())]
         fits = max(0, budget - cells) // CELLS
-        left += boxes[fits:]
-        known += len(boxes[:fits])
-        tried = shared(try_box, boxes[:fits], executor, take)
+        boxes, over = boxes[:fits], boxes[fits:]
+        left += over
+        known += len(boxes)
+        search: Callable[..., Found] = find_certificate
+        if rectangle.basin and boxes:
+            each, top = (budget - cells) // len(boxes), max(ONCE, rectangle.basin[1])
+            search = partial(find_certificate, basin=each, top=top)
+        tried = shared(partial(try_box, search), boxes, executor, take)
         cells += sum(one.cells for one in tried)
-        failed = [one.box for one in tried if not one.line]
+        failed = [one.box for one in tried if not one.proved]
         left += [box for box in failed if width_of(box) <= LEAST]
         wide = [box for box in failed if width_of(box) > LEAST]
         boxes = [half for box in wide for half in halves(rectangle, box)]
-    write(folder, rectangle, proved)
+    if rectangle.basin:
+        rectangle = with_share(rectangle, list(proved.values()))
+    write(folder, stated(rectangle), proved)
     word, _ = outcome(rectangle, list(proved.values()))
-    boxes = sorted(box_of(one) for one in proved.values() if isinstance(one, Certificate))
-    return Covered(word, boxes, sorted(left), cells, [], None)
+    proving = [one for one in proved.values() if serves(one, rectangle)]
+    return Covered(rectangle, word, sorted(map(box_of, proving)), sorted(left), cells, [], None)
+
+
+def with_share(rectangle: Rectangle, proved: Sequence[Proved]) -> Rectangle:
+    """The statement with the greatest share that holds on all of the rectangle, rounded down; with
+    the share 0 where it holds for none.
+    """
+    _, speed = rectangle.basin or (0, Fraction(1))
+    shares = {int(one.share_below(speed) * 10**4) for one in proved if isinstance(one, Attraction)}
+    for share in sorted(shares, reverse=True):
+        basin = min(Fraction(share, 10**4), Fraction(1)), speed
+        one = rectangle._replace(basin=basin)
+        if share and outcome(one, proved)[0] == "certified":
+            words = f"at least {basin[0]} of the impacts with closing speed below {speed} tend"
+            return one._replace(text=rectangle.text.replace(EVERY, words))
+    return rectangle
+
+
+def stated(rectangle: Rectangle) -> list[str]:
+    """Its line of statements, where it states anything."""
+    return [rectangle.text] if rectangle.basin is None or rectangle.basin[0] else []
 
 
 def shared(
@@ -184,10 +219,10 @@ def kept(folder: Path, executor: Executor | None) -> tuple[dict[str, Proved], li
     )
 
 
-def write(folder: Path, rectangle: Rectangle, proved: dict[str, Proved]) -> None:
-    """Writes the certificates, by parameters, and the statement beside those that are there."""
+def write(folder: Path, stated: Iterable[str], proved: dict[str, Proved]) -> None:
+    """Writes the certificates, by parameters, and the statements beside those that are there."""
     path = folder / STATEMENTS
-    statements = {rectangle.text}
+    statements = set(stated)
     if path.exists():
         statements.update(path.read_text(encoding="ascii").splitlines())
     write_file(path, "".join(f"{line}\n" for line in sorted(statements)).encode())
@@ -196,21 +231,22 @@ def write(folder: Path, rectangle: Rectangle, proved: dict[str, Proved]) -> None
 
 
 def box_of(one: Proved) -> Box:
-    """The box of (alpha, g) of a certificate, or of a counterexample."""
-    if isinstance(one, Certificate):
-        return one.grid.alpha, one.grid.g
+    """The box of (alpha, g) of what is proved."""
+    if isinstance(one, Attraction):
+        return one.alpha, one.g
     return (one.alpha, one.alpha), one.g
 
 
 # ------------------------------------------------------------ boxes
 
 
-def within(box: Box, proved: Iterable[Proved]) -> bool:
-    """Whether boxes that have a certificate cover a box."""
+def within(box: Box, rectangle: Rectangle, proved: Iterable[Proved]) -> bool:
+    """Whether boxes that have a certificate of what is stated cover a box."""
     near = [
         one for one in proved if all(a <= d and c <= b for (a, b), (c, d) in zip(box_of(one), box))
     ]
-    return outcome(Rectangle("", box[0], "g", box[1]), near)[0] == "certified"
+    one = rectangle._replace(alpha=box[0], drive="g", values=box[1])
+    return outcome(one, near)[0] == "certified"
 
 
 def width_of(box: Box) -> Fraction:
@@ -218,16 +254,17 @@ def width_of(box: Box) -> Fraction:
     return max(end - start for start, end in box)
 
 
-def try_box(box: Box) -> Tried:
-    """Looks for a certificate of the theorem for a box, and has the checker read it."""
+def try_box(search: Callable[..., Found], box: Box) -> Tried:
+    """Looks for a certificate for a box, and has the checker read it."""
     cells = 0
     for grid in GRIDS if width_of(box) <= NARROW else GRIDS[:1]:
-        found = find_certificate(*box, *grid)
+        found = search(*box, *grid)
         cells += found.cells
         line = line_of(found.certificate) if found.certificate else ""
-        if line and check_line(line)[0]:
-            return Tried(box, line, cells)
-    return Tried(box, "", cells)
+        proved = check_line(line)[0] if line else None
+        if proved:
+            return Tried(box, line, proved, cells)
+    return Tried(box, "", None, cells)
 
 
 def g_between(rectangle: Rectangle, alpha: Interval) -> Interval:

@@ -4,7 +4,8 @@ The flights are those that the checker encloses; what is looked for is the rest:
 bounce that the map contracts, the arc in which a ball may rest, and ranks of all other cells.
 Where enclosures are too wide for a rank, some cells lie on cycles: these alone are cut, until none
 is left but round the bounce (the subdivision algorithm; M. Dellnitz, A. Hohmann, Numer. Math. 75,
-1997).
+1997).  Where motions tend elsewhere too, cells have ranks as far as they can, and those at the
+border of these are cut.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ from math import pi
 from typing import NamedTuple
 
 from ..checker import Rejected, Work
-from .cells import CUT, Certificate, check_trap, halved, in_trap
+from .cells import CUT, UNRANKED, Certificate, check_trap, halved, in_trap
 from .checker import Counterexample
 from .cycles import cyclic_parts
 from .flights import (
+    MAX_CELLS,
     MAX_STEPS,
     ONE,
     Flights,
@@ -40,7 +42,8 @@ Targets = Callable[[Cell], Collection[Cell]]
 MOST_LEVELS = 8
 MOST_EDGES = 1 << 18  # between cells that are looked at again because wider ones lie on cycles
 MOST_TRAPPED = 1 << 12  # cells
-HIGHEST = CUT - 1
+HIGHEST = UNRANKED - 1
+ONCE, MOST_SPEED = Fraction(1), 5  # closing speeds: that of a strip is above 1, in most cases
 
 
 class Found(NamedTuple):
@@ -51,22 +54,31 @@ class Found(NamedTuple):
     cells: int
 
 
-def find_certificate(alpha: Interval, g: Interval, columns: int, per_unit: int) -> Found:
-    """A certificate for a box, on a grid of so many columns and rows of a unit of speed."""
+def find_certificate(
+    alpha: Interval, g: Interval, columns: int, per_unit: int, basin: int = 0, top: Fraction = ONCE
+) -> Found:
+    """A certificate for a box, on a grid of so many columns and rows of a unit of speed: with ranks
+    for all cells or, for a basin, for as many as this number of cells to be looked at allows.  The
+    rows reach up to the closing speed `top`, and to an absorbing strip.
+    """
     graph = None
     try:
-        graph = Graph(*find_strip(alpha, g, columns, per_unit))
-        trapped = find_trap_and_cuts(graph)
-        return Found(find_ranks(graph, trapped), "", len(graph.landings))
+        graph = Graph(*find_strip(alpha, g, columns, per_unit, top))
+        trapped = find_trap_and_cuts(graph, bool(basin))
+        return Found(find_ranks(graph, trapped, basin), "", len(graph.landings))
     except (Refused, Rejected) as reason:
         return Found(None, str(reason), len(graph.landings) if graph else 0)
 
 
-def find_strip(alpha: Interval, g: Interval, columns: int, per_unit: int) -> tuple[Grid, Flights]:
-    """The fewest rows whose top is that of an absorbing strip, and the flights below it."""
+def find_strip(
+    alpha: Interval, g: Interval, columns: int, per_unit: int, top: Fraction
+) -> tuple[Grid, Flights]:
+    """The fewest rows, not below this top, whose top is that of an absorbing strip, and the flights
+    below it.
+    """
     grid = Grid(alpha, g, columns, per_unit, per_unit)
     trial = Flights(grid, Work(MAX_STEPS))
-    for rows in range(per_unit, 3 * per_unit):
+    for rows in range(-int(-top * per_unit // 1), MOST_SPEED * per_unit):
         trial.rows = rows  # of which its tables know nothing
         try:
             absorbing_strip(trial)
@@ -171,8 +183,6 @@ class Graph:
             for m, lowest, highest in self.lands((0, i % columns, 0)):
                 stays = lowest == 0 and start <= m - i % columns + i < end
                 found.update(self.nodes(0, (m, lowest + stays, highest)))
-        if self.rest in found:
-            raise Refused("a ball that rests may land there one period later")
         return found
 
 
@@ -191,7 +201,9 @@ def parts(cell: Cell) -> Iterator[Cell]:
 
 
 def find_arc(flights: Flights, landings: dict[Cell, list[Landing]]) -> tuple[int, int]:
-    """The columns where a ball may rest, and those after them where its next flights may land."""
+    """The columns where a ball may rest, and those after them where its next flights may land,
+    unless these are a period long.
+    """
     columns = flights.columns
     rest = [low <= ONE for low in flights.S_low]
     starts = [i for i in range(columns) if rest[i] and not rest[i - 1]]
@@ -200,35 +212,42 @@ def find_arc(flights: Flights, landings: dict[Cell, list[Landing]]) -> tuple[int
     start = end = starts[0]
     while rest[end % columns]:
         end += 1
-    i = start
+    least, i = end, start
     while i < end:
         for m, lowest, _ in landings[0, i % columns, 0]:
             landed = m - i % columns + i
             if not lowest and end <= landed < end + columns // 8:
                 end = landed + 1
         i += 1
+        if end >= start + columns:
+            return start, least
     return start, end
 
 
 # ------------------------------------------------------------ the trap, and what is cut
 
 
-def find_trap_and_cuts(graph: Graph) -> Certificate:
-    """Cuts cells until those on cycles of the graph are all in a trap, which is returned.
+def find_trap_and_cuts(graph: Graph, basin: bool) -> Certificate:
+    """Cuts cells until those on cycles of the graph, or for a basin some round the bounce, are all
+    in a trap, which is returned.
 
     A cycle of narrow cells is one of the wide cells that they are parts of: so only the parts of
     cells on cycles are looked at again.
     """
     trapped: Certificate | None = None
     nodes = {graph.node(cell) for cell in graph.landings}
+    if not basin and graph.rest in graph.targets(graph.rest):
+        raise Refused("a ball that rests may land there one period later")
     for number in range(MOST_LEVELS + 1):
         grid = graph.level(number)
         cycles = cyclic_parts(nodes, graph.targets)
-        home = {cell for cycle in cycles if meets_bounce(grid, cycle) for cell in cycle}
+        homes = [cycle for cycle in cycles if meets_bounce(grid, cycle)]
+        home = {cell for cycle in homes for cell in cycle}
         home.discard(graph.rest)
         trapped = finer(trapped) if trapped else find_trap(graph, number, home)
+        cycles = homes if basin else cycles
         cut = {cell for cycle in cycles for cell in cycle if not is_trapped(trapped, cell)}
-        if trapped and not cut:
+        if trapped and (basin or not cut):
             graph.most_edges = graph.edges + MAX_STEPS
             return trapped
         rests = {graph.rest} & cut
@@ -351,30 +370,61 @@ def around(graph: Graph, number: int, home: Collection[Cell]) -> Iterator[Cell]:
 # ------------------------------------------------------------ ranks
 
 
-def find_ranks(graph: Graph, trapped: Certificate) -> Certificate:
-    """Ranks: 0 in the trap, else one more than the greatest of the cells where flights may land."""
-    cut = sorted(graph.cut)
-    cells = sorted(
-        (0, i, row) for i in range(graph.grids[0].columns) for row in range(graph.grids[0].rows)
-    )
-    cells += [part for cell in cut for part in parts(cell)]
-    last = len(graph.grids) - 1
+def find_ranks(graph: Graph, trapped: Certificate, basin: int) -> Certificate:
+    """Ranks: 0 in the trap, else one more than the greatest of the cells where flights may land.
+
+    For a basin the cells without a rank from which a flight may lead to one with a rank are cut, as
+    long as no more cells than this are looked at.
+    """
+    grid, last = graph.grids[0], len(graph.grids) - 1
 
     def in_it(cell: Cell) -> bool:
         number, i, row = cell
         x = centred(i, graph.grids[number])
         return in_trap(trapped, last - number, x, row, row)
 
-    nodes = {graph.node(cell) for cell in cells if cell not in graph.cut}
-    ranks = {cell: 0 for cell in nodes if in_it(cell)}
-    descend([cell for cell in cells if cell in nodes and cell not in ranks], ranks, graph.targets)
-    left = len(nodes) - len(ranks)
-    if left:
-        raise Refused(f"{left} of {len(nodes)} cells without a rank")
+    wide = [(0, i, row) for i in range(grid.columns) for row in range(grid.rows)]
+    cells = wide + [part for cell in sorted(graph.cut) for part in parts(cell)]
+    left = sorted({graph.node(cell) for cell in cells if cell not in graph.cut})
+    ranks = {cell: 0 for cell in left if in_it(cell)}
+    nodes, deepest = len(left), MOST_LEVELS - 1
+    while left := [cell for cell in left if cell not in ranks]:
+        descend(left, ranks, graph.targets)
+        left = [cell for cell in left if cell not in ranks]
+        if not basin:
+            break
+        cut = {cell for cell in left if at_border(graph, cell, ranks, deepest)}
+        while cut and stored(grid, graph.cut | cut) > MAX_CELLS:
+            deepest -= 1
+            cut = {cell for cell in cut if cell[0] < deepest}
+        if not cut or len(graph.landings) + 4 * len(cut) > basin:
+            break
+        graph.level(1 + max(number for number, _, _ in cut))
+        graph.cut |= cut
+        left = [cell for cell in left if cell not in cut]
+        left += [part for cell in sorted(cut) for part in parts(cell)]
+    if left and not basin:
+        raise Refused(f"{len(left)} of {nodes} cells without a rank")
     if max(ranks.values()) > HIGHEST:
         raise Refused(f"more than {HIGHEST} ranks")
-    data = bytes(CUT if cell in graph.cut else ranks[graph.node(cell)] for cell in cells)
-    return trapped._replace(grid=graph.grids[0], arc=graph.arc, ranks=data)
+    while trapped.grid != graph.grids[-1]:
+        trapped = finer(trapped)
+    ranks |= dict.fromkeys(left, UNRANKED) | dict.fromkeys(graph.cut, CUT)
+    cells = wide + [part for cell in sorted(graph.cut) for part in parts(cell)]
+    data = bytes(ranks[graph.node(cell)] for cell in cells)
+    return trapped._replace(grid=grid, arc=graph.arc, ranks=data)
+
+
+def at_border(graph: Graph, cell: Cell, ranks: Collection[Cell], deepest: int) -> bool:
+    """Whether a cell that may be cut, fewer times than this, has a flight to one of these."""
+    narrow = cell == graph.rest or cell[0] >= deepest
+    return not narrow and any(target in ranks for target in graph.targets(cell))
+
+
+def stored(grid: Grid, cut: Iterable[Cell]) -> int:
+    """How many cells the checker stores of a grid where these are cut: `read_levels`."""
+    columns = {(number, i) for number, i, _ in cut}
+    return grid.rows * (grid.columns + sum(4 << number for number, _ in columns))
 
 
 def descend(cells: Iterable[Cell], ranks: dict[Cell, int], targets: Targets) -> None:

@@ -1,13 +1,15 @@
-"""The statement about the table that moves as a sine that the store beside this file keeps, and
-what the second checker says of the store.
+"""The statement about the table that moves as a sine that the store beside this file keeps, what
+the second checker says of the store, and what a folder of certificates says.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
-from ..checker import Rejected
-from .checker import check_folder
+from ..checker import Rejected, load
+from .cells import UNRANKED, Attraction, Certificate
+from .checker import CERTIFICATES, check_folder, read_line
 from .flights import Refused
 
 STORE = Path(__file__).resolve().parent / "store"
@@ -15,6 +17,18 @@ STATEMENT = (
     "the period-one bounce is stable and every motion tends to it for all"
     " alpha in [49/1000, 51/1000] and Gamma in [619/200, 621/200]"
 )
+
+
+def boxes_in(folder: Path) -> list[Attraction]:
+    """The boxes of the theorem whose certificates stand in a folder; that the checker takes them is
+    not asked here.
+    """
+    lines = map(read_line, load(str(folder / CERTIFICATES)).splitlines())
+    return [
+        Attraction(one.grid.alpha, one.grid.g, one.grid.per_unit, (Fraction(1),) * one.grid.rows)
+        for one in lines
+        if isinstance(one, Certificate) and UNRANKED not in one.ranks
+    ]
 
 
 def stored_outcomes() -> list[tuple[str, str, str]]:

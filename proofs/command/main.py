@@ -30,6 +30,7 @@ MODULES = {
     "bench": "juggleproof.proofs.command.bound",
 }
 SINE = "juggleproof.proofs.command.sine"  # what `certify sine` is
+OF_SINE = "executor", "picture", "basin"
 SINE_OPTIONS = {
     "alpha": "restitution",
     "gamma": "peak acceleration of the table, in g",
@@ -167,6 +168,14 @@ def build_parser() -> argparse.ArgumentParser:
     )
 
     certify.add_argument("--picture", type=Path, metavar="F", help="for sine: the boxes, as F.svg")
+    certify.add_argument(
+        "--basin",
+        nargs="?",
+        const="6/5",
+        metavar="SPEED",
+        help="for sine: which share of the impacts with closing speed below SPEED (6/5) tends to"
+        " the bounce, at least",
+    )
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
     check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
@@ -379,7 +388,7 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if parsed.command == "certify" and [str(path) for path in parsed.files] == ["sine"]:
         return int(import_module(SINE).command(parsed))
-    for option in (*SINE_OPTIONS, "executor", "picture") if parsed.command == "certify" else ():
+    for option in (*SINE_OPTIONS, *OF_SINE) if parsed.command == "certify" else ():
         if getattr(parsed, option) is not None:
             raise ClaimError(f"--{option}: for `certify sine` only; leave it out")
     if parsed.command == "certify" and are_scripts(parsed.files):

@@ -28,9 +28,11 @@ def _add_table(scenes: Commands) -> None:
     table = scenes.add_parser(
         "table", help="a ball on a table that moves as a sine, or another wave (simulated)"
     )
-    table.add_argument("--alpha", required=True, metavar="A", help="the restitution, below 1")
     table.add_argument(
-        "--gamma", required=True, metavar="G", help="peak acceleration of the table, in gravity"
+        "--alpha", metavar="A", help="the restitution, below 1; with attractors FROM:TO"
+    )
+    table.add_argument(
+        "--gamma", metavar="G", help="peak acceleration of the table, in gravity; or FROM:TO"
     )
     table.add_argument(
         "--wave",
@@ -50,7 +52,11 @@ def _add_table(scenes: Commands) -> None:
     table.add_argument(
         "--picture",
         metavar="P",
-        help="orbit (ball and table over time) or basin (flights to the bounce, and ranks)",
+        help=(
+            "orbit (ball and table over time), basin (flights to the bounce, and ranks) or"
+            " attractors (what balls come to over --alpha 0:0.3 and --gamma 1.8:4.2, or others:"
+            " 19,200 points, 33 starts each; some 15 s, a minute at large alpha)"
+        ),
     )
     table.add_argument("-o", "--output", type=Path, metavar="F", help="with --picture F.svg")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import takewhile
 from pathlib import Path
@@ -13,12 +14,16 @@ from rich.console import Console
 
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.sine.cells import read_levels
+from juggleproof.certificates.sine.cells import UNRANKED, Attraction, Level, read_levels
 from juggleproof.certificates.sine.checker import check_line
+from juggleproof.certificates.sine.cover import BASIN
 from juggleproof.certificates.sine.flights import MAX_STEPS, Interval
 from juggleproof.certificates.sine.search import find_certificate, line_of
+from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of
+from juggleproof.proofs.command.sine import WIDE, interval
+from juggleproof.proofs.command.sine import in_floats as floats
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import components, draw, exact
 from juggleproof.scenes.table.curves import birth, g_of
@@ -27,6 +32,8 @@ from juggleproof.scenes.table.motion import Table, events
 LARGE = 10**9
 MOST_EVENTS = 200  # shown
 GRID = 256, 16  # of the certificate beside a basin
+SEEN = 2  # how often cells are cut that are drawn
+ALPHAS, GAMMAS = "0:0.3", "1.8:4.2"  # of the map of attractors
 TOP = 21 / 16  # closing speeds of a basin without one
 CLOSE = Fraction(1, 10**6)  # half the width in g of the certificate
 
@@ -34,8 +41,8 @@ CLOSE = Fraction(1, 10**6)  # half the width in g of the certificate
 class TableOptions(argparse.Namespace):
     """What `juggleproof simulate table` takes."""
 
-    alpha: str
-    gamma: str
+    alpha: str | None
+    gamma: str | None
     wave: str
     state: list[str] | None
     periods: int
@@ -57,6 +64,10 @@ def table(options: TableOptions) -> int:
         if options.wave == "sine"
         else tuple(number(one, "--wave") for one in options.wave.split(","))
     )
+    if options.picture == "attractors":
+        return _map(options, wave)
+    if options.alpha is None or options.gamma is None:
+        raise ClaimError("simulate table: needs --alpha A and --gamma G")
     under = Table(number(options.alpha, "--alpha"), number(options.gamma, "--gamma"), wave)
     starts = [state(text) for text in options.state or ["phase=0,speed=0"]]
     if options.picture is not None:
@@ -101,35 +112,83 @@ def state(text: str) -> tuple[float, float]:
 
 def _picture(options: TableOptions, under: Table, starts: list[tuple[float, float]]) -> int:
     if options.picture not in ("orbit", "basin"):
-        raise ClaimError(f"--picture {options.picture}: draw orbit or basin")
+        raise ClaimError(f"--picture {options.picture}: draw orbit, basin or attractors")
+    output = _drawn_to(options)
+    pictures = needed("juggleproof.scenes.table.pictures", "picture")
+    if options.picture == "orbit":
+        write_file(output, pictures.orbit(under, starts, options.periods))
+    else:
+        _only_for_a_sine(options, under.wave)
+        certified = certified_for(under)
+        top = TOP if certified is None else float(certified[0])
+        ranks = None if certified is None else certified[1:]
+        write_file(output, pictures.basin(under, top, ranks))
+    print(f"wrote {output}")
+    return 0
+
+
+def _map(options: TableOptions, wave: tuple[float, ...]) -> int:
+    _only_for_a_sine(options, wave)
+    output = _drawn_to(options)
+    alpha = interval(options.alpha or ALPHAS, "--alpha")
+    gamma = interval(options.gamma or GAMMAS, "--gamma")
+    for ends, option in (alpha, "--alpha"), (gamma, "--gamma"):
+        in_floats(ends[1], option)
+    pictures = needed("juggleproof.scenes.table.cover", "picture")
+    drawn = pictures.attractor_map(floats(alpha), floats(gamma), wide_boxes())
+    write_file(output, drawn)
+    print(f"wrote {output}")
+    return 0
+
+
+def _drawn_to(options: TableOptions) -> Path:
+    """The file that a picture goes to."""
     if options.output is None:
         raise ClaimError("--picture: needs -o F.svg")
     if fault := fault_of(options.output):
         raise ClaimError(f"-o {options.output}: {fault}; name another file")
-    pictures = needed("juggleproof.scenes.table.pictures", "picture")
-    if options.picture == "orbit":
-        write_file(options.output, pictures.orbit(under, starts, options.periods))
-    elif under.wave != (1.0,):
-        raise ClaimError("--picture basin: is for --wave sine")
-    else:
-        ranks = ranks_for(under)
-        top = TOP if ranks is None else len(ranks) / GRID[1]
-        write_file(options.output, pictures.basin(under, top, ranks))
-    print(f"wrote {options.output}")
-    return 0
+    return options.output
 
 
-def ranks_for(under: Table) -> np.ndarray | None:
-    """The ranks of a certificate for the parameters, shape (rows, columns), the greatest of its
-    parts for a cell that is cut; None where none is found, which says nothing.
+def _only_for_a_sine(options: TableOptions, wave: tuple[float, ...]) -> None:
+    if wave != (1.0,):
+        raise ClaimError(f"--picture {options.picture}: is for --wave sine")
+
+
+def wide_boxes() -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """The boxes of the wide cover, whose certificates `python -I -S certificates/sine` reads, to be
+    shown.
+    """
+    return sorted((floats(one.alpha), floats(one.g)) for one in boxes_in(WIDE))
+
+
+def certified_for(under: Table) -> tuple[Fraction, np.ndarray, Fraction] | None:
+    """(top, ranks, share) of a certificate for the parameters: closing speeds below top; ranks of
+    cells; the share of states with one.  None where no certificate is found, which says nothing.
     """
     if not under.gamma > birth(under.alpha) or not math.isfinite(under.gamma):
         return None
     alpha, g = Fraction(str(under.alpha)), g_of(under.alpha, under.gamma)
     middle = Fraction(round(g * 10**9), 10**9)
     between: Interval = (middle - CLOSE, middle + CLOSE)
-    found = find_certificate((alpha, alpha), between, *GRID).certificate
-    if found is None or check_line(line_of(found))[0] is None:
-        return None  # only what the checker takes is called certified
-    widest = read_levels(found, Work(MAX_STEPS))[0]
-    return np.array([list(column) for column in widest.ranks.values()]).T
+    for basin in (0, BASIN):
+        found = find_certificate((alpha, alpha), between, *GRID, basin).certificate
+        proved = found and check_line(line_of(found))[0]
+        if found and isinstance(proved, Attraction):  # only what the checker takes is certified
+            top = Fraction(found.grid.rows, found.grid.per_unit)
+            return top, ranks_of(read_levels(found, Work(MAX_STEPS))), proved.share_below(top)
+    return None
+
+
+def ranks_of(levels: Sequence[Level]) -> np.ndarray:
+    """The ranks of cells cut as often as can be seen, shape (rows, columns), the greatest of its
+    parts for a cell that is cut more often; -1 where there is none.
+    """
+    shown = min(SEEN, len(levels) - 1)
+    grid = levels[shown].grid
+    ranks = np.zeros((grid.rows, grid.columns), dtype=np.int64)
+    for number, level in enumerate(levels[: shown + 1]):
+        wide = 2 ** (shown - number)
+        for i, column in level.ranks.items():
+            ranks[:, i * wide : (i + 1) * wide] = np.repeat(list(column), wide)[:, None]
+    return np.where(ranks < UNRANKED, ranks, -1)

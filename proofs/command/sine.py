@@ -24,18 +24,21 @@ from juggleproof.certificates.sine.checker import (
     g_at,
     read_statement,
 )
-from juggleproof.certificates.sine.cover import BUDGET, Covered, cover
+from juggleproof.certificates.sine.cover import EVERY, Covered, cover
 from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval, Refused
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, now_and_then
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
+from juggleproof.scenes.table.motion import MOST, Table, flights_by_state
 
 NAME = "sine"
 STORE = Path("sine.certificates")
 WIDE = Path(sine.__file__).with_name("wide")
 GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
+FASTEST = 4  # closing speed of a basin
+SIMULATED = 60, 80  # impacts: so many speeds and phases
 
 
 class SineOptions(argparse.Namespace):
@@ -50,6 +53,7 @@ class SineOptions(argparse.Namespace):
     executor: str | None
     store: Path | None
     picture: Path | None
+    basin: str | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -81,6 +85,8 @@ def certify(options: SineOptions) -> int:
         needed("matplotlib", "picture")
         if fault := fault_of(options.picture):
             raise ClaimError(f"--picture {options.picture}: {fault}; name another file")
+        if options.basin:
+            raise ClaimError("--picture: not with --basin; leave it out")
     rectangles = [rectangle_of(options)] if asked(options) else wide_rectangles()
     folder, tell = options.store or STORE, now_and_then()
     found = []
@@ -89,20 +95,22 @@ def certify(options: SineOptions) -> int:
             rectangles,
             folder,
             executor,
-            options.budget or BUDGET,
+            options.budget or None,
             lambda done, known: tell(f"{done} of {known} boxes tried"),
         )
-        for rectangle, covered in zip(rectangles, several):
+        for covered in several:
             found.append(covered)
             for line in covered.rejected:
                 print(f"rejected by the checker: {line}")
-            print(f"{covered.outcome}: {rectangle.text}")
+            print(f"{covered.outcome}: {told(covered)}")
             if options.frequency:
                 print(
                     f"which holds all tables of {options.frequency} Hz with an amplitude of"
                     f" {options.amplitude} mm, under 9.80665 m/s^2"
                 )
             for line in explained(covered):
+                print(line)
+            for line in simulated(covered):
                 print(line)
     print(f"the checker alone reads it: python -I -S certificates/sine {folder}")
     if options.picture is not None:
@@ -113,7 +121,13 @@ def certify(options: SineOptions) -> int:
 
 def asked(options: SineOptions) -> bool:
     """Whether a rectangle is asked for; else it is those of the wide cover."""
-    given = options.alpha, options.gamma, options.frequency, options.amplitude
+    given = (
+        options.alpha,
+        options.gamma,
+        options.frequency,
+        options.amplitude,
+        options.basin,
+    )
     return any(one is not None for one in given)
 
 
@@ -129,7 +143,12 @@ def rectangle_of(options: SineOptions) -> Rectangle:
             f"Gamma = {low}: below pi (1 - alpha)/(1 + alpha) at alpha = {rectangle.alpha[0]} no"
             " bounce of one period exists; begin higher"
         )
-    return rectangle
+    if options.basin is None:
+        return rectangle
+    speed, _ = interval(options.basin, "--basin")
+    if not 0 < speed <= FASTEST or ":" in options.basin:
+        raise ClaimError(f"--basin {options.basin[:40]}: give a closing speed up to {FASTEST}")
+    return rectangle._replace(basin=(Fraction(0), speed))
 
 
 def wide_rectangles() -> list[Rectangle]:
@@ -171,7 +190,7 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
     if not low:
         raise ClaimError(f"--gamma {gamma}: a table at rest drives nothing; begin above 0")
     return (
-        "the period-one bounce is stable and every motion tends to it for all"
+        f"the period-one bounce is stable and {EVERY} to it for all"
         f" alpha in [{a_low}, {a_high}] and Gamma in [{low}, {high}]"
     )
 
@@ -207,6 +226,31 @@ def picture_of(rectangles: Sequence[Rectangle], found: Sequence[Covered]) -> byt
 def in_floats(ends: Interval) -> tuple[float, float]:
     """An interval, to be shown."""
     return float(ends[0]), float(ends[1])
+
+
+def told(covered: Covered) -> str:
+    """What the verdict is on."""
+    text, basin = covered.rectangle.text, covered.rectangle.basin
+    if basin is None or basin[0]:
+        return text
+    if covered.outcome == "refuted":
+        return text.replace(f" and {EVERY} to it", "")
+    return text.replace(EVERY, f"a share of the impacts with closing speed below {basin[1]} tends")
+
+
+def simulated(covered: Covered) -> Iterator[str]:
+    """The share that is certified beside that of simulated impacts at the middle of a rectangle."""
+    rectangle = covered.rectangle
+    if not (rectangle.basin and rectangle.basin[0]):
+        return
+    share, speed = map(float, rectangle.basin)
+    alpha, value = (sum(in_floats(ends)) / 2 for ends in (rectangle.alpha, rectangle.values))
+    counts = flights_by_state(Table(alpha, value), speed, *SIMULATED)
+    there = ((counts >= 0) & (counts <= MOST)).mean()
+    yield (
+        f"certified: {share:.2%} of these impacts; simulated, at alpha = {alpha:g} and"
+        f" Gamma = {value:g}: {there:.2%} of {counts.size:,}"
+    )
 
 
 def explained(covered: Covered) -> Iterator[str]:

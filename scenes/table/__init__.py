@@ -1,8 +1,10 @@
 """The table that moves as a sine.  In reading order:
 
-curves    where the bounce of one period is born, and where it loses its stability or its monopoly
-motion    flights, impacts, rest and launch, simulated
-plane     what the pictures have in common
-cover     which boxes of parameters are certified, between the curves
-pictures  ball and table over time; how long states take to the bounce
+curves      where the bounce of one period is born, begins to clear the table, loses its stability,
+            and where a second orbit takes motions away
+motion      flights, impacts, rest and launch, simulated
+attractors  what balls come to over restitution and drive, simulated
+plane       what the pictures have in common
+cover       which boxes of parameters are certified, between the curves, over what balls come to
+pictures    ball and table over time; how long states take to the bounce
 """

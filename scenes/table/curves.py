@@ -13,8 +13,7 @@ from math import atan, pi, sqrt
 
 import numpy as np
 
-STEPS = 4000  # times at which a flight is looked at
-HALVINGS = 40
+STEPS = 4000  # times at which a flight is looked at, closer together where it begins
 
 
 def birth(alpha: float) -> float:
@@ -53,33 +52,33 @@ def second_orbit(alpha: float, gamma: float) -> float:
     return 1 - atan(2 * pi * g_of(alpha, gamma) / birth(alpha)) / pi
 
 
-def clearance(alpha: float, gamma: float) -> float:
-    """The least height above the table of a ball in flight that starts as the second solution of
-    the equations of a bounce of one period: below 0 where the table is in its way.
+def least_g(alpha: float) -> float:
+    """The least g at which the flight of a bounce of one period stays above the table; the second
+    solution has -g in place of g.
+
+    At time t of the flight the ball is t (1 - t)/2 - (c sin 2 pi t - g (1 - cos 2 pi t))/(2 pi)
+    above the table, which grows with g.
     """
-    c, g = birth(alpha) / (2 * pi), g_of(alpha, gamma)
-    start = second_orbit(alpha, gamma)
-    time = np.arange(1, STEPS) / STEPS
-
-    def height(x: np.ndarray) -> np.ndarray:
-        return (c * np.sin(2 * pi * x) + g * np.cos(2 * pi * x)) / (2 * pi)
-
-    ball = height(np.array(start)) + time / 2 - time**2 / 2
-    return float(np.min(ball - height(start + time)))
+    c, time = birth(alpha) / (2 * pi), (np.arange(1, STEPS) / STEPS) ** 2
+    touches = (c * np.sin(2 * pi * time) - pi * time * (1 - time)) / (2 * np.sin(pi * time) ** 2)
+    return float(touches.max())
 
 
 def grazing(alpha: float) -> float:
     """The Gamma from which on the second orbit of one period is no motion: its ball would pass
-    through the table.  Bisection between the birth and the doubling; the doubling where it is a
-    motion up to there.
+    through the table; at most the doubling.
 
     >>> round(grazing(0.05), 3), round(grazing(0.098), 3)
     (2.888, 2.77)
     """
-    low, high = birth(alpha), doubling(alpha)
-    if clearance(alpha, high) >= 0:
-        return high
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if clearance(alpha, middle) >= 0 else (low, middle)
-    return high
+    return min(doubling(alpha), gamma_of(alpha, max(0.0, -least_g(alpha))))
+
+
+def own_grazing(alpha: float) -> float:
+    """The Gamma up to which the bounce itself is no motion: its ball would pass through the table;
+    the birth, but where alpha is small.
+
+    >>> round(own_grazing(0.002), 2), own_grazing(0.05) == birth(0.05)
+    (3.2, True)
+    """
+    return gamma_of(alpha, max(0.0, least_g(alpha)))

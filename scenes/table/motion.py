@@ -17,11 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.table.curves import birth
 
 CLOSE = 1e-13  # a height above the table that counts as an impact
+FAST = 30.0  # the square of a speed, or an acceleration: in proportion to more, CLOSE is raised
+NEAR = 0.01  # what counts as at the bounce, in phase and speed
 REST = 1e-9  # of velocities: slower, a ball rests, or is launched where the table falls away
 LEAVE = 1e-3  # how long after a launch floats see the ball above the table
 MOST_ADVANCES = 10_000
+MOST = 200  # flights, after which nothing is said
 SAMPLES = 4096  # of a period, between which launches are looked for
 
 Floats = NDArray[np.float64]
@@ -60,6 +64,11 @@ class Table:
         return 1 + self.gamma * sum(abs(w) * k * k for k, w in enumerate(self.wave, 1))
 
     @cached_property
+    def top(self) -> float:
+        """A bound of the table's height."""
+        return self.gamma * sum(map(abs, self.wave)) / (2 * pi) ** 2
+
+    @cached_property
     def launches(self) -> Floats:
         """The phases at which the table begins to fall away from a ball at rest."""
         times = np.arange(SAMPLES + 1) / SAMPLES
@@ -73,26 +82,46 @@ class Table:
         return high
 
 
-def landing(table: Table, start: Floats, velocity: Floats) -> tuple[Floats, Floats]:
-    """(durations, closing speeds) of the flights that leave the table with these velocities.
+def landing(
+    table: Table, start: Floats, velocity: Floats, drive: Floats | float = 1.0
+) -> tuple[Floats, Floats]:
+    """(durations, closing speeds) of the flights that leave the table with these velocities, each
+    shape (n,); drive: how many times as far the table moves under each ball.
 
     Conservative advancement: from a time with F > 0 on by the least time in which F can vanish,
-    since F'' >= -fall; no zero is passed over, and steps shrink as Newton's before one.  The height
-    at the end is at most CLOSE, so that the time is wrong by about CLOSE/speed.  A ball that leaves
-    with the velocity of a table that falls away is looked at after LEAVE.
+    since F'' >= -fall; above all of the table, to where the ball comes down to its top.  So no zero
+    is passed over, and steps shrink as Newton's before one.  The height at the end is at most
+    CLOSE, raised for what is fast, so that the time is wrong by about CLOSE/speed.  A ball that
+    leaves with the velocity of a table that falls away is looked at after LEAVE.
     """
-    height, fall = table.derivative(start, 0), table.fall
-    slope = velocity - table.derivative(start, 1)
-    duration = np.where(slope < REST, LEAVE, 2 * slope / fall)
+    times = np.broadcast_to(drive, start.shape)
+    slope = velocity - times * table.derivative(start, 1)
+    fall = 1 + times * (table.fall - 1)
+    wait = np.where(slope < REST, LEAVE, 2 * slope / fall)
+    close = CLOSE * np.maximum(1.0, (velocity**2 + fall) / FAST)
+    height = times * table.derivative(start, 0)
+    flights = np.array([start, velocity, times, height, fall, close, wait])
+    flying = np.arange(len(start))
+    durations, speeds = np.zeros((2, len(start)))
     for _ in range(MOST_ADVANCES):
-        low = height + (velocity - duration / 2) * duration
-        low -= table.derivative(start + duration, 0)
-        slope = velocity - duration - table.derivative(start + duration, 1)
-        flying = low > CLOSE
-        if not flying.any():
-            return duration, np.maximum(0.0, -slope)
-        step = (slope + np.sqrt(slope * slope + 2 * fall * np.maximum(low, 0.0))) / fall
-        duration = np.where(flying, duration + step, duration)
+        start, velocity, times, height, fall, close, duration = flights
+        upward = velocity - duration
+        ball = height + (velocity - duration / 2) * duration
+        low = ball - times * table.derivative(start + duration, 0)
+        slope = upward - times * table.derivative(start + duration, 1)
+        up = low > close
+        if not up.all():
+            ends = flying[~up]
+            durations[ends], speeds[ends] = duration[~up], np.maximum(0.0, -slope[~up])
+            flights, flying = flights[:, up], flying[up]
+            if not len(flying):
+                return durations, speeds
+            fall, times = flights[4], flights[2]
+            slope, low, upward, ball = slope[up], low[up], upward[up], ball[up]
+        above = np.maximum(0.0, ball - times * table.top)
+        steps = (slope + np.sqrt(slope * slope + 2 * fall * low)) / fall
+        down = np.where(above > 0, upward + np.sqrt(upward * upward + 2 * above), 0.0)
+        flights[-1] += np.maximum(steps, down)
     raise SceneError("a flight does not end: the ball comes too close to the table too often")
 
 
@@ -136,21 +165,28 @@ def events(table: Table, start: float, velocity: float) -> Iterator[Event]:
 
 def bounce_phase(alpha: float, gamma: float) -> float:
     """The phase of a sine at the impacts of the bounce; SceneError where there is no bounce."""
-    ratio = pi * (1 - alpha) / (1 + alpha) / gamma
-    if ratio > 1:
+    least = birth(alpha)
+    if gamma < least:
         raise SceneError(
-            f"Gamma = {gamma:g} is below pi (1 - alpha)/(1 + alpha) ="
-            f" {pi * (1 - alpha) / (1 + alpha):g}: no bounce of one period; give more"
+            f"Gamma = {gamma:g} is below pi (1 - alpha)/(1 + alpha) = {least:g}: no bounce of one"
+            " period; give more"
         )
-    return acos(ratio) / (2 * pi)
+    return acos(least / gamma) / (2 * pi)
 
 
-def flights_to_bounce(
-    table: Table, phase: Floats, speed: Floats, near: float, most: int
-) -> NDArray[np.int64]:
-    """After how many flights a ball that hits a sine at this phase with this closing speed comes
-    `near` the bounce of one period, in phase and speed, for two impacts in a row; `most` + 1 where
-    it does not by then, -1 where it rests for ever.
+def at_bounce(
+    alpha: Floats | float, bounce: Floats | float, phase: Floats, speed: Floats
+) -> NDArray[np.bool_]:
+    """Which impacts are NEAR those of the bounce of one period, in phase and closing speed."""
+    gap = np.abs((phase - bounce + 0.5) % 1.0 - 0.5)
+    near: NDArray[np.bool_] = (gap < NEAR) & (np.abs(speed - 1 / (1 + alpha)) < NEAR)
+    return near
+
+
+def flights_to_bounce(table: Table, phase: Floats, speed: Floats, most: int) -> NDArray[np.int64]:
+    """After how many flights a ball that hits a sine at this phase with this closing speed comes to
+    the bounce of one period, for two impacts in a row; `most` + 1 where it does not by then, -1
+    where it rests for ever.
     """
     bounce = bounce_phase(table.alpha, table.gamma)
     count = np.full(len(phase), most + 1)
@@ -167,11 +203,20 @@ def flights_to_bounce(
         duration, hit = landing(table, time, up)
         time = (time + duration) % 1.0
         up = table.derivative(time, 1) + table.alpha * hit
-        gap = np.abs((time - bounce + 0.5) % 1.0 - 0.5)
-        here = (gap < near) & (np.abs(hit - 1 / (1 + table.alpha)) < near)
+        here = at_bounce(table.alpha, bounce, time, hit)
         left = ~(here & was)
         count[going[~left]] = number - 1
         going, time, up, was = going[left], time[left], up[left], here[left]
         if not len(going):
             break
     return count
+
+
+def flights_by_state(table: Table, top: float, rows: int, columns: int) -> NDArray[np.int64]:
+    """`flights_to_bounce` from the middles of cells of phase and closing speed up to `top`, shape
+    (rows, columns).
+    """
+    phase, speed = np.meshgrid(
+        (np.arange(columns) + 0.5) / columns, (np.arange(rows) + 0.5) / rows * top
+    )
+    return flights_to_bounce(table, phase.ravel(), speed.ravel(), MOST).reshape(phase.shape)

@@ -5,6 +5,7 @@ bounce of one period.  Simulated, but for the ranks of a certificate.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,20 +16,21 @@ from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, tic
 from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
 from juggleproof.scenes.table.curves import second_orbit
 from juggleproof.scenes.table.motion import (
+    MOST,
     Floats,
     Table,
     bounce_phase,
     events,
-    flights_to_bounce,
+    flights_by_state,
 )
 from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 
 BALLS = tuple(look.colour for look in (B1, KEPT, R, BAND))
 A_PERIOD = 64  # points of a curve in one period
 COLUMNS, ROWS = 160, 120  # of a raster
-NEAR, MOST = 0.01, 200  # what counts as at the bounce; flights, after which nothing is said
 DARK, LIGHT = np.array([8, 48, 107]), np.array([222, 235, 247])  # few flights, many
 NEVER = np.array([230, 159, 0])
+Certified = tuple[NDArray[np.int64], Fraction]  # ranks, -1 for none; the share that has one
 Start = tuple[float, float]  # phase, closing speed at the impact it begins with
 
 
@@ -89,31 +91,28 @@ def _path(
     return np.concatenate(pieces), marks
 
 
-def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
+def basin(table: Table, top: float, certified: Certified | None) -> bytes:
     """After how many flights states come to the bounce, by phase and closing speed up to `top`;
-    beside it the ranks of a certificate, shape (rows, columns), if there are any.
+    beside it the ranks of a certificate, shape (rows, columns), if there is one.
     """
-    phase, speed = np.meshgrid(
-        (np.arange(COLUMNS) + 0.5) / COLUMNS, (np.arange(ROWS) + 0.5) / ROWS * top
-    )
-    counts = flights_to_bounce(table, phase.ravel(), speed.ravel(), NEAR, MOST)
+    counts = flights_by_state(table, top, ROWS, COLUMNS)
     there = (counts >= 0) & (counts <= MOST)
     longest = int(counts[there].max()) if there.any() else 1
     bounce = bounce_phase(table.alpha, table.gamma)
     marked = (bounce, "o"), ((bounce + second_orbit(table.alpha, table.gamma)) % 1.0, "x")
-    size = (640.0, 320.0) if ranks is not None else (400.0, 320.0)
+    size = (640.0, 320.0) if certified else (400.0, 320.0)
     with style():
         shares = (
             f"{there.mean():.1%} of {counts.size:,} states come to it, in {longest} flights at most"
         )
         title = f"Flights to the bounce of one period: {_named(table)}"
-        right = 350.0 if ranks is not None else 14.0
+        right = 350.0 if certified else 14.0
         plane = axes(size, right, (0, 1), (0, top), (title, f"simulated; dark: few; {shares}"))
         plane.frame(ticks(spaced(0, 1)), ticks(spaced(0, top)), "phase", "closing speed", 30)
-        raster(plane, _shaded(counts.reshape(ROWS, COLUMNS), there.reshape(ROWS, COLUMNS)))
+        raster(plane, _shaded(counts, there))
         planes = [plane]
-        if ranks is not None:
-            planes.append(_ranks(plane, ranks, top, bounce))
+        if certified:
+            planes.append(_ranks(plane, certified, top, bounce))
         for number, one in enumerate(planes):
             for place, marker in marked:
                 at = place, 1 / (1 + table.alpha)
@@ -121,18 +120,19 @@ def basin(table: Table, top: float, ranks: NDArray[np.int64] | None) -> bytes:
     return on_white(plane.figure, "basin")
 
 
-def _ranks(beside: Plane, ranks: NDArray[np.int64], top: float, bounce: float) -> Plane:
+def _ranks(beside: Plane, certified: Certified, top: float, bounce: float) -> Plane:
     """The ranks of a certificate in a plane of their own, moved to the phase of the wave."""
+    ranks, share = certified
     figure = beside.figure
     width, height = (72 * float(side) for side in figure.get_size_inches())
     left = beside.left + beside.width + 60
     box = (left / width, beside.bottom / height, beside.width / width, beside.height / height)
     plane = Plane(figure, box, (0, 1), (0, top))
     plane.frame(ticks(spaced(0, 1)), ticks(spaced(0, top)), "phase", "", 30)
-    rows, columns = ranks.shape
+    columns = ranks.shape[1]
     moved = np.roll(ranks, round(bounce * columns), axis=1)
-    raster(plane, _shaded(moved, moved < 255))
-    words = f"certified: ranks of {rows * columns:,} cells, {int(ranks.max())} at most"
+    raster(plane, _shaded(moved, moved >= 0))
+    words = f"certified, by ranks: {float(share):.1%} of states come to it"
     plane.words((left, height - 26), words, ha="left", fontsize=LETTERS)
     return plane
 

@@ -41,6 +41,7 @@ SMALLER = {
     "juggleproof simulate part --figure": "--horizon 0.05",
     "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
+    "juggleproof certify sine --picture wide.svg": "--alpha 0.05 --gamma 3.1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
     "python -m juggleproof.benchmarks.speed": "--only=--help --runs 1",
@@ -68,6 +69,10 @@ ELSEWHERE = {
         '"--juggleproof", "juggleproof::eq-37"',
     ),
     "juggleproof check": ("tests/proofs/command/test_check.py", "check(None)"),
+    "python -I -S certificates/sine certificates/sine/wide": (
+        ".ci/run",
+        "python3 -I -S certificates/sine certificates/sine/wide",
+    ),
     "python -I -S certificates/checker": (
         "tests/proofs/paper/test_claims.py",
         '"-I", "-S", "certificates/checker"',
@@ -79,6 +84,10 @@ ELSEWHERE = {
     "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
         "tests/benchmarks/bench/test_bench.py",
         '"--question",',
+    ),
+    "juggleproof simulate table --wave sine --picture attractors -o attractors.svg": (
+        "tests/scenes/table/test_attractors.py",
+        '"--picture", "attractors"',
     ),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),

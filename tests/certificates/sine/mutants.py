@@ -129,6 +129,8 @@ def tests_of_rules() -> Iterator[Test]:
         yield lambda code, all=(rectangle, rows, why): worlds.covered(code, *all[:2]) == all[2]
     for _, text, expected in worlds.MEETS:
         yield lambda code, both=(text, expected): worlds.refuted(code, both[0]) == both[1]
+    yield lambda code: not worlds.wrong_shares(code)
+    yield worlds.basins_in_order
     yield lambda code: not worlds.wrong_strips(code)
     yield lambda code: not worlds.wrong_drives(code, 30, seed=1)
     yield lambda code: not worlds.wrong_traps(code, 20, seed=1)[1]

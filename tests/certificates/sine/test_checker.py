@@ -63,6 +63,14 @@ def test_strips_absorb_from_the_row_of_their_formula_on_holds() -> None:
     assert not worlds.wrong_strips(CODE)
 
 
+def test_shares_are_those_of_ranked_cells_holds() -> None:
+    assert not worlds.wrong_shares(CODE)
+
+
+def test_a_basin_is_refuted_by_an_unstable_bounce_alone_holds() -> None:
+    assert worlds.basins_in_order(CODE)
+
+
 def test_drives_are_between_their_bounds_holds() -> None:
     assert not worlds.wrong_drives(CODE, 60, seed=1)
 
@@ -139,18 +147,6 @@ def test_rejects_a_folder_that_is_none(tmp_path: Path) -> None:
     assert main([str(tmp_path)]) == 2
     assert main(["one", "two"]) == 2
     assert main([folder(tmp_path, [], [])]) == 1
-
-
-def test_certificates_that_are_proved_leave_their_ranks_behind_holds(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    kept: list[object] = []
-    monkeypatch.setattr(
-        checker, "outcome", lambda _, proved: kept.extend(proved) or ("unknown", "")
-    )
-    check_folder(folder(tmp_path, [TRUE], [line()]))
-    (one,) = kept
-    assert isinstance(one, checker.Certificate) and one.ranks == b""
 
 
 def test_work_bounds_what_a_cover_may_take_holds() -> None:

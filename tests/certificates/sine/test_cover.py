@@ -12,8 +12,8 @@ import pytest
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.sine import cover as covering
+from juggleproof.certificates.sine.cells import Attraction
 from juggleproof.certificates.sine.checker import (
-    Certificate,
     Rectangle,
     check_folder,
     check_line,
@@ -23,7 +23,7 @@ from juggleproof.certificates.sine.checker import (
 )
 from juggleproof.certificates.sine.cover import Covered, cover, first_boxes, halves, kept
 from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import STATEMENT, STORE
+from juggleproof.certificates.sine.stored import STATEMENT, STORE, boxes_in
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.sine import WIDE
 
@@ -104,11 +104,9 @@ def test_boxes_cover_and_their_halves_do(tmp_path: Path) -> None:
         )
 
 
-def name_of(box: covering.Box) -> Certificate:
-    """A certificate of which only the box counts: that it proves the box is not asked here."""
-    stored = read_line((STORE / "certificates.jsonl").read_text().rstrip("\n"))
-    assert isinstance(stored, Certificate)
-    return stored._replace(grid=stored.grid._replace(alpha=box[0], g=box[1]))
+def name_of(box: covering.Box) -> Attraction:
+    """What a certificate for the box would prove: that there is one is not asked here."""
+    return Attraction(*box, 1, (Fraction(1),))
 
 
 def test_a_budget_leaves_boxes_and_a_second_run_goes_on(
@@ -210,7 +208,8 @@ def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
 
 def test_the_wide_cover_is_of_boxes_that_the_checker_takes_holds() -> None:
     lines = (WIDE / "certificates.jsonl").read_text().splitlines()
-    proved = [read_line(line) for line in lines]
+    proved = boxes_in(WIDE)
+    assert len(proved) == len(lines)
     for statement in (WIDE / "statements.txt").read_text().splitlines():
         assert outcome(read_statement(statement), proved)[0] == "certified"
     assert sum(len(line) for line in lines) < 1_000_000
@@ -245,6 +244,16 @@ def test_frequency_and_amplitude_give_the_drive(
         (["--alpha", "nan", "--gamma", "3"], "--alpha nan: no interval"),
         (["--alpha", "1:2:3", "--gamma", "3"], "--alpha 1:2:3: no interval"),
         (["--alpha", "0.05", "--gamma", "3.1", "--only", "eq-6"], "--only: not for sine"),
+        (["--alpha", "0.05", "--gamma", "2.9", "--basin", "0"], "--basin 0: give a closing speed"),
+        (["--alpha", "0.05", "--gamma", "2.9", "--basin", "5"], "a closing speed up to 4"),
+        (["--alpha", "0.05", "--gamma", "2.9", "--basin", "1:2"], "--basin 1:2: give a closing"),
+        (["--alpha", "0.05", "--gamma", "2.9", "--basin", "x"], "--basin x: no interval"),
+        (["--basin"], "needs --alpha A0:A1, and --gamma G0:G1"),
+        (
+            ["--alpha", "0.05", "--gamma", "2.9", "--basin", "--picture", "a.svg"],
+            "not with --basin",
+        ),
+        (["mine.py", "--basin"], "--basin: for `certify sine` only"),
         (["mine.py", "--alpha", "0.05"], "--alpha: for `certify sine` only"),
     ],
 )

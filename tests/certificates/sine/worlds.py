@@ -69,8 +69,8 @@ class World(NamedTuple):
     trap: tuple[Fraction | int, ...] = (1, 1, 2)
 
 
-def seen(code: Code, world: World) -> str:
-    """Why the rules refuse a world."""
+def made(code: Code, world: World) -> Any:
+    """The certificate of a world."""
     ranks = bytearray()
     for i in range(COLUMNS):
         for row in range(ROWS):
@@ -80,6 +80,13 @@ def seen(code: Code, world: World) -> str:
             ranks.append(world.ranks.get((i, row), rank))
     for place in sorted(world.cut):
         ranks.extend(world.cut[place])
+    grid = code.flights.Grid((world.alpha, Q(1, 2)), (Q(1, 5), Q(1, 5)), COLUMNS, 1, ROWS)
+    trap = [int(side * 2 if world.cut else side) for side in world.trap]
+    return code.cells.Certificate(grid, *trap, Q(1), world.arc, bytes(ranks))
+
+
+def seen(code: Code, world: World) -> str:
+    """Why the rules refuse a world."""
 
     def flown(lands: Any, changed: Any, scale: int) -> SimpleNamespace:
         def column(i: int, rows: list[int]) -> Iterator[tuple[int, list[tuple[int, int, int]]]]:
@@ -90,9 +97,7 @@ def seen(code: Code, world: World) -> str:
         return SimpleNamespace(column=column, S_low=steep, S_high=steep)
 
     flights = [flown(landings, world.lands, 1), flown(finer, world.parts, 2)]
-    grid = code.flights.Grid((world.alpha, Q(1, 2)), (Q(1, 5), Q(1, 5)), COLUMNS, 1, ROWS)
-    trap = [int(side * 2 if world.cut else side) for side in world.trap]
-    certificate = code.cells.Certificate(grid, *trap, Q(1), world.arc, bytes(ranks))
+    certificate = made(code, world)
     levels = code.cells.read_levels(certificate, Work(STEPS))
     why = reason(code, code.cells.check_rest_arc, certificate, levels, flights[0])
     return why or reason(code, code.cells.check_cells, certificate, levels, flights)
@@ -105,7 +110,8 @@ EMPTY = "the rest arc is empty or longer than a period"
 LEFT_OUT = "the rest arc leaves out a phase where the ball may rest"
 CUTS, WHOLE = "the trap cuts a cell", "a cell of the rest arc is cut"
 CUT = {(5, 1): (1, 1, 1, 1)}
-HALF = Q(1, 2)
+HALF, NONE = Q(1, 2), 254  # which is no rank
+NO_REST = {(i % COLUMNS, 0): NONE for i in range(START, END)}
 HIGH = {(i, row): 3 for i in range(COLUMNS) for row in range(ROWS) if (i, row) != (0, 1)}
 ALONE = {  # an arc of one column, 3; what is elsewhere lands in the trap
     "arc": (3, 4),
@@ -216,9 +222,64 @@ WORLDS = [
     World("the last cell of the arc is cut", WHOLE, cut={(1, 0): (2, 2, 2, 2)}),
     World("the cell behind the arc is cut", cut={(2, 0): (1, 1, 1, 1)}),
     World("plastic parts", ranks={**ELSEWHERE, (3, 2): 3}, cut={(3, 1): (3, 3, 3, 3)}, **ALONE),
+    World("a cell without a rank", "", {(5, 1): [(5, 1, 1)]}, {(5, 1): NONE}),
+    World("into a cell without a rank", FALLS, {(7, 1): [(5, 1, 1)]}, {(5, 1): NONE, (7, 1): 253}),
+    World("a part without a rank", cut={(5, 1): (1, 1, NONE, 1)}),
+    World("into a part without a rank", FALLS, {(7, 1): [(5, 1, 1)]}, {(7, 1): 253},
+          cut={(5, 1): (1, 1, 1, NONE)}),
+    World("a trap cell without a rank", IN_TRAP, ranks={(0, 1): NONE}),
+    World("a trap that ends in a cell without a rank", CUTS,
+          ranks={(0, 1): NONE, (15, 1): NONE}, cut=CUT, trap=(HALF, 1, 2)),
+    World("an arc without a rank", ranks=NO_REST),
+    World("an arc without a rank, which lands in its next copy", "", {(14, 0): [(31, 0, 0)]},
+          NO_REST),
+    World("an arc, a part of it without a rank", FITS, ranks={(14, 0): NONE}),
+    World("into an arc without a rank", FALLS, {(5, 1): [(14, 0, 0)]},
+          NO_REST | {(5, 1): 253}),
+    World("in the arc, above R, on its rank", FALLS, {(13, 1): [(14, 0, 0)]}, {(13, 1): 2}),
+    World("from the arc above R, on its rank", FALLS, {(13, 0): [(14, 1, 1)]}, {(14, 1): 2}),
+    World("plastic cells without a rank", ranks={**ELSEWHERE, (3, 1): NONE, (3, 2): 3}, **ALONE),
+    World("nothing plastic has a rank",
+          ranks={**ELSEWHERE, (3, 0): NONE, (3, 1): NONE, (3, 2): NONE}, **ALONE),
+    World("plastic cells above an arc without a rank", MAY_REST,
+          ranks={**ELSEWHERE, (3, 0): NONE, (3, 1): 3, (3, 2): 3}, **ALONE),
     World("plastic parts, one of R's rank", MAY_REST, ranks={**ELSEWHERE, (3, 2): 3},
           cut={(3, 1): (3, 3, 3, 2)}, **ALONE),
 ]  # fmt: skip
+
+
+# (ranks, ranks of parts, the shares of the three rows): of 16 cells each
+SHARES: list[tuple[dict[tuple[int, int], int], dict[tuple[int, int], Any], list[Fraction]]] = [
+    ({}, {}, [Q(1), Q(1), Q(1)]),
+    ({(5, 1): NONE}, {}, [Q(1), Q(15, 16), Q(1)]),
+    ({(5, 1): NONE, (7, 1): NONE, (3, 2): NONE}, {}, [Q(1), Q(7, 8), Q(15, 16)]),
+    ({}, {(5, 1): (1, NONE, 1, 1)}, [Q(1), Q(63, 64), Q(1)]),
+    ({(4, 2): NONE}, {(5, 2): (1, 1, NONE, NONE)}, [Q(1), Q(1), Q(29, 32)]),
+    (NO_REST, {}, [Q(11, 16), Q(1), Q(1)]),
+]
+
+
+def wrong_shares(code: Code) -> list[str]:
+    """Shares of ranked cells, and of the states below a speed, that are not those they are."""
+    wrong = []
+    for ranks, cut, expected in SHARES:
+        levels = code.cells.read_levels(made(code, World("", ranks=ranks, cut=cut)), Work(STEPS))
+        found = code.cells.shares_of(levels)
+        one = code.cells.Attraction((Q(0), Q(0)), (Q(1), Q(1)), 1, found)
+        if list(found) != expected or one.everywhere() != (not ranks and not cut):
+            wrong.append(f"{ranks}, {cut}: {found}")
+    one = code.cells.Attraction((Q(0), Q(0)), (Q(1), Q(1)), 2, (Q(1), Q(1, 2), Q(1, 4)))
+    all_of_it = code.checker.read_statement(f"{BEGINS} alpha in [0, 0] and g in [1, 1]")
+    if code.checker.outcome(all_of_it, [one])[0] == "certified":
+        wrong.append("every motion, by a basin")
+    below = {"1/4": "1", "1/2": "1", "5/8": "4/5", "3/4": "2/3", "7/8": "5/7", "1": "3/4",
+             "5/4": "3/5", "11/8": "6/11", "3/2": "7/12", "2": "7/16"}  # fmt: skip
+    wrong += [speed for speed, share in below.items() if one.share_below(Q(speed)) != Q(share)]
+    for text, holds in BASINS:
+        rectangle = code.checker.read_statement(BASIN.format(*text.split()))
+        if (code.checker.outcome(rectangle, [one])[0] == "certified") != holds:
+            wrong.append(text)
+    return wrong
 
 
 # ------------------------------------------------------------ traps and strips
@@ -431,8 +492,40 @@ MEETS = [
 ]
 
 
-def refuted(code: Code, text: str) -> bool:
-    """Whether a statement is refuted by an interval of multipliers."""
-    one = code.checker.Counterexample("multiplier", *MULTIPLIERS, 16, 16)
-    rectangle = code.checker.read_statement(f"{BEGINS} {text}")
+BASIN = (
+    "the period-one bounce is stable and at least {} of the impacts with closing speed below {}"
+    " tend to it for all alpha in [{}, 0] and g in [1, 1]"
+)
+# (share, speed, alpha; whether the shares 1, 1/2 and 1/4 of half units prove it at alpha = 0)
+BASINS = [
+    ("1 1/2 0", True),
+    ("3/4 1 0", True),
+    ("751/1000 1 0", False),
+    ("7/12 3/2 0", True),
+    ("59/100 3/2 0", False),
+    ("2/3 3/4 0", True),
+    ("67/100 3/4 0", False),
+]
+NO_BASINS = ["0 1 0", "2 1 0", "1/2 0 0", "0.5 1 0", "1/2 -1 0", "1/2 1 1/2"]
+
+
+def refuted(code: Code, text: str, why: str = "multiplier", begins: str = BEGINS) -> bool:
+    """Whether a statement is refuted by an interval of multipliers, or of saddles."""
+    one = code.checker.Counterexample(why, *MULTIPLIERS, 16, 16)
+    rectangle = code.checker.read_statement(f"{begins} {text}")
     return bool(code.checker.outcome(rectangle, [one])[0] == "refuted")
+
+
+def basins_in_order(code: Code) -> bool:
+    """Basins are refuted by a multiplier, not by a saddle; and not every text is a basin's."""
+    begins = BASIN.partition(" alpha")[0].format("1/2", "1")
+    text = MEETS[0][1]
+    return (
+        refuted(code, text, begins=begins)
+        and not refuted(code, text, "saddle", begins)
+        and refuted(code, text, "saddle")
+        and all(
+            reason(code, code.checker.read_statement, BASIN.format(*one.split()))
+            for one in NO_BASINS
+        )
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import islice
 from math import inf, pi
 from pathlib import Path
@@ -47,6 +48,15 @@ def test_a_flight_ends_at_the_first_zero_of_the_height(
     assert speed == pytest.approx(max(0.0, duration - velocity + own), abs=1e-9)
 
 
+def test_flights_of_fast_balls_on_a_fast_table_end_holds() -> None:
+    table, start = Table(0.9, 1000.0), np.linspace(0, 1, 60)
+    velocity = table.derivative(start, 1) + np.linspace(0, 400, 60)
+    durations, speeds = landing(table, start, velocity)
+    for one, up, duration in zip(start, velocity, durations):
+        assert abs(heights(table, one, up, np.array(duration))) < 1e-8
+    assert durations.max() > 1000 and speeds.max() > 500
+
+
 @pytest.mark.parametrize(("alpha", "gamma"), [(0.05, 3.1), (0.3, 1.8785), (0.0, 3.3)])
 def test_the_bounce_of_one_period_is_an_orbit(alpha: float, gamma: float) -> None:
     table, phase = Table(alpha, gamma), bounce_phase(alpha, gamma)
@@ -75,9 +85,9 @@ def test_a_ball_rests_and_is_launched_where_the_table_falls_away() -> None:
 
 def test_all_states_come_to_the_bounce_where_it_is_certified_and_not_where_it_is_refuted() -> None:
     phase, speed = (one.ravel() for one in np.meshgrid(np.arange(24) / 24, np.arange(9) / 7))
-    counts = flights_to_bounce(Table(0.05, 3.1), phase, speed, 0.01, 60)
+    counts = flights_to_bounce(Table(0.05, 3.1), phase, speed, 60)
     assert 0 < counts.min() and counts.max() <= 12
-    counts = flights_to_bounce(Table(0.3, 1.8785), phase, speed, 0.01, 60)
+    counts = flights_to_bounce(Table(0.3, 1.8785), phase, speed, 60)
     assert 0.05 < ((counts >= 0) & (counts <= 60)).mean() < 0.5
 
 
@@ -109,11 +119,24 @@ def test_the_command_tells_events_and_draws_the_same_twice(
 def test_ranks_that_the_checker_does_not_take_are_not_shown(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    shown = simulate_table.ranks_for(Table(0.05, 3.1))
-    assert shown is not None and shown.shape == (21, 256) and shown.min() == 0
+    shown = simulate_table.certified_for(Table(0.05, 3.1))
+    assert shown is not None and shown[0] == Fraction(21, 16) and shown[2] == 1
+    assert shown[1].shape == (21, 256) and shown[1].min() == 0
     monkeypatch.setattr(simulate_table, "check_line", lambda line: (None, "refused"))
-    assert simulate_table.ranks_for(Table(0.05, 3.1)) is None
-    assert simulate_table.ranks_for(Table(0.05, 2.5)) is None  # below the birth
+    assert simulate_table.certified_for(Table(0.05, 3.1)) is None
+    assert simulate_table.certified_for(Table(0.05, 2.5)) is None  # below the birth
+
+
+def test_ranks_of_a_basin_are_shown_in_cells_that_are_cut_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(simulate_table, "BASIN", 5_500)
+    shown = simulate_table.certified_for(Table(0.3, 1.8785))
+    assert shown is not None
+    top, ranks, share = shown
+    assert top == Fraction(17, 16) and ranks.shape == (68, 1024) and ranks.min() == -1
+    # what is cut more often than is drawn has the greatest rank of its parts, or none
+    assert 0 <= share - Fraction(int((ranks >= 0).sum()), ranks.size) < Fraction(1, 100)
 
 
 @pytest.mark.parametrize(
@@ -127,7 +150,7 @@ def test_ranks_that_the_checker_does_not_take_are_not_shown(
         (["--alpha", "0", "--gamma", "3", "--picture", "orbit"], "--picture: needs -o F.svg"),
         (
             ["--alpha", "0", "--gamma", "3", "--picture", "film", "-o", "a.svg"],
-            "draw orbit or basin",
+            "draw orbit, basin or attractors",
         ),
     ],
 )
