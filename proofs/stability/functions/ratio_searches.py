@@ -10,6 +10,8 @@ from functools import partial
 
 import sympy
 
+from juggleproof.certificates import checker
+from juggleproof.certificates.nodes import Proof
 from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.few_facts import proof_from_few_facts
@@ -40,25 +42,25 @@ def searches_for(
     corners = _slopes_at_corners(setting, put, sides) if len(rows) == len(points) else []
     gaps = _gaps(setting)
     squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
-    found: dict[str, Search] = {
-        f"falls-1-{k + 1}": partial(
-            proof_by_products,
-            terms=terms_used(k),
-            unknowns=unknowns,
-            squares=squares,
-            signs=[*gaps, *corners],
-        )
-        for k in range(2 * len(rows))
-    }
     names = setting.system.state
     own = symbols([f"{name}_gap" for name in names])
     halves = [written(sympy.numer(sympy.together(2 * gap + size))) for gap, size in zip(own, sizes)]
     moved = {one: e + gap for one, e, gap in zip(symbols(names), points, own)}
-    terms = [sympy.numer(sympy.together(one.subs(moved))) for one in origin]
-    used = [written(one) for one in [*terms, *factors_of(setting, [*sizes, *weights])]]
+    origins = [sympy.numer(sympy.together(one.subs(moved))) for one in origin]
+    used = [written(one) for one in [*origins, *factors_of(setting, [*sizes, *weights])]]
+    found: dict[str, Search] = {}
     for k, (_, row) in enumerate(itertools.product((1, -1), rows)):
+        found[f"falls-1-{k + 1}"] = partial(
+            proof_that_it_falls,
+            terms=terms_used(k),
+            unknowns=unknowns,
+            squares=squares,
+            signs=[*gaps, *corners],
+            used=used,
+        )
         half = halves[row.index(1)] if k >= len(rows) and sum(map(abs, row)) == 1 else ""
-        found[f"small-{k + 1}"] = partial(proof_from_few_facts, used=used, sign=half)
+        signs = [half] if half else []
+        found[f"small-{k + 1}"] = partial(proof_from_few_facts, used=used, signs=signs)
     found["bounded"] = partial(
         proof_by_products,
         terms=[0, len(rows)],
@@ -67,12 +69,32 @@ def searches_for(
         signs=[f"{setting.system.state[rows[0].index(1)]}_gap"],
     )
     found["least"] = partial(
-        proof_by_products,
+        proof_that_it_falls,
         terms=[k for k, row in enumerate([*rows, *rows]) if sum(map(abs, row)) == 1],
         unknowns=unknowns,
         squares=(),
         signs=(),
+        used=used,
     )
+    return found
+
+
+def proof_that_it_falls(
+    premise: checker.Statement,
+    known: dict[str, checker.Statement],
+    terms: Sequence[int],
+    unknowns: Sequence[str],
+    squares: Sequence[str],
+    signs: Sequence[str],
+    used: Sequence[str],
+) -> Proof | None:
+    """A proof by products of what is positive; or from few facts, by the sign of what is squared,
+    or by those of slopes.
+    """
+    found = proof_by_products(premise, known, terms, unknowns, squares, signs)
+    differences = [one for one in squares if one not in signs]
+    for cases in dict.fromkeys((tuple(differences[:1]), tuple(signs))):
+        found = found or proof_from_few_facts(premise, known, used, cases, terms, unknowns)
     return found
 
 

@@ -24,21 +24,21 @@ def statement(constant: str) -> checker.Statement:
     return checker.read_statements(BELOW.format(constant))["m/below"]
 
 
-@pytest.mark.parametrize("sign", ["", "2*x_gap + x_point"])
-def test_a_distance_over_a_bound_is_small_close_to_the_point_holds(sign: str) -> None:
+@pytest.mark.parametrize("signs", [[], ["2*x_gap + x_point"]])
+def test_a_distance_over_a_bound_is_small_close_to_the_point_holds(signs: list[str]) -> None:
     premise = statement("2")
-    proof = proof_from_few_facts(premise, {}, USED, sign)
+    proof = proof_from_few_facts(premise, {}, USED, signs)
     assert proof is not None
     checker.prove(premise, proof, {})
 
 
-@pytest.mark.parametrize("sign", ["", "2*x_gap + x_point"])
-def test_rejects_a_bound_that_is_too_small(sign: str) -> None:
-    assert proof_from_few_facts(statement("3/2"), {}, USED, sign) is None
+@pytest.mark.parametrize("signs", [[], ["2*x_gap + x_point"]])
+def test_rejects_a_bound_that_is_too_small(signs: list[str]) -> None:
+    assert proof_from_few_facts(statement("3/2"), {}, USED, signs) is None
 
 
 def test_a_proof_fails_without_a_bound_on_the_distance() -> None:
     premise = checker.read_statements(
         BELOW.format("2").replace("given distance <= x_point/2\n", "")
     )["m/below"]
-    assert proof_from_few_facts(premise, {}, USED, "2*x_gap + x_point") is None
+    assert proof_from_few_facts(premise, {}, USED, ["2*x_gap + x_point"]) is None
