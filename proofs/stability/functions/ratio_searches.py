@@ -118,7 +118,8 @@ def _slopes_at_corners(setting: Setting, put: dict[Expr, Expr], sides: Sequence[
         if slope.free_symbols & set(state) and slope.is_polynomial(*state):
             at_corner = sympy.numer(sympy.together(slope.subs(corner, simultaneous=True)))
             for factor, _ in sympy.factor_list(at_corner)[1]:
-                if above in factor.free_symbols and not set(put) & factor.free_symbols:
+                both = len({c > 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()}) > 1
+                if both and above in factor.free_symbols and not set(put) & factor.free_symbols:
                     found[written(factor)] = None
     return list(found)
 

@@ -171,3 +171,17 @@ def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -
     assert isinstance(search, partial)
     corners = [sign for sign in search.keywords["signs"] if "value" in sign]
     assert len(corners) == 2  # one for each variable
+
+
+def test_juveniles_and_adults_come_to_rest_by_few_facts_holds() -> None:
+    """The mean of ratios, whose inverse is below the mean of the inverses: by what is squared."""
+    rows = [("over", "b s m"), ("state", "l a"), ("space", "l > 0 and a > 0")]
+    rows += [("domain", "0 < s and s < 1 and 0 < m and m < 1 and m < b*s")]
+    system = with_licences(
+        of_rule(MapRule("m", (*rows, ("piece", "b*a/(1 + a), s*l + (1 - m)*a"))))
+    )
+    (fixed,) = (one for one in fixed_points(system) if "0" not in one.point.terms)
+    setting, proof = setting_of(system, fixed, system.domain), Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    candidate, searches = next(ratio_rules(setting, "m/lyapunov"))
+    assert proof.add(candidate, (1, 2), 100_000, searches=searches) == ""
