@@ -175,8 +175,8 @@ def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -
 
 def test_juveniles_and_adults_come_to_rest_by_few_facts_holds() -> None:
     """The mean of ratios, whose inverse is below the mean of the inverses: by what is squared."""
-    rows = [("over", "b s m"), ("state", "l a"), ("space", "l > 0 and a > 0")]
-    rows += [("domain", "0 < s and s < 1 and 0 < m and m < 1 and m < b*s")]
+    rows = [("over", "b s m"), ("domain", "0 < s and s < 1 and 0 < m and m < 1 and m < b*s")]
+    rows += [("state", "l a"), ("space", "l > 0 and a > 0")]
     system = with_licences(
         of_rule(MapRule("m", (*rows, ("piece", "b*a/(1 + a), s*l + (1 - m)*a"))))
     )
