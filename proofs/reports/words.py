@@ -430,6 +430,7 @@ WORDS = {
     "space": "in",
     "piece": "the map",
     "word": "pieces",
+    "never": "impossible pieces",
 }
 
 
