@@ -67,6 +67,12 @@ UNPRINTED = {
         "the orbits in the trap, from which the second bound of the theorem follows"
     ),
     "theorem-count": "which readings of (26) and of the count of impacts hold for which alpha",
+    "restitution-flights": "the map from impact to impact, by which orbits from 1/3 on are judged",
+    "restitution-e-K": "a box that e_K attracts, for every K and restitution for which it exists",
+    "restitution-e-K-none": "that there is no e_K for smaller restitutions",
+    "restitution-e-K-begins": "that e_K attracts nothing else where its range begins",
+    "restitution-to-a-half": "that for 1/3 < alpha < 1/2 every orbit tends to e_1 or e_2",
+    "restitution-half": "the same at alpha = 1/2, but for four states",
     "part-products": "the lemma of the claims about a corner's impact",
     "part-rectangle": "how much friction the simulation of the part may have",
     **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
