@@ -73,6 +73,8 @@ UNPRINTED = {
     "restitution-e-K-begins": "that e_K attracts nothing else where its range begins",
     "restitution-to-a-half": "that for 1/3 < alpha < 1/2 every orbit tends to e_1 or e_2",
     "restitution-half": "the same at alpha = 1/2, but for four states",
+    "restitution-unequal": "an orbit of unequal flights, no e_K, that attracts a box",
+    "restitution-unequal-ends": "the restitutions for which that orbit exists",
     "part-products": "the lemma of the claims about a corner's impact",
     "part-rectangle": "how much friction the simulation of the part may have",
     **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},

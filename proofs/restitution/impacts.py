@@ -147,7 +147,6 @@ def fixed_points_attract_nothing_where_they_begin() -> list[Statement]:
     itself. Its orbit is that of the state K periods of flight before it, and no states lead to it
     but those 0, .., K periods of flight before it.
     """
-    on_the_orbit = [n >= 0, n <= K]
     return [
         always(
             equals(HERE, E_K),
@@ -164,13 +163,13 @@ def fixed_points_attract_nothing_where_they_begin() -> list[Statement]:
         ),
         always(
             equals(HERE, E_K),
-            given=[SPACE, strikes(HERE), *on_the_orbit, equals(STRUCK, before(n))],
+            given=[SPACE, strikes(HERE), equals(STRUCK, before(n))],
             in_range=BEGINS,
             label="impacts-that-lead-to-it",
         ),
         always(
-            equals(HERE, before(n + 1)) & (n + 1 <= K),
-            given=[SPACE, ~strikes(HERE), *on_the_orbit, equals(FLOWN, before(n))],
+            equals(HERE, before(n + 1)) & (n >= 0) & (n + 1 <= K),
+            given=[SPACE, ~strikes(HERE), equals(FLOWN, before(n))],
             in_range=BEGINS,
             label="flights-that-lead-to-it",
         ),

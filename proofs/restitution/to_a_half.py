@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from juggleproof.certificates.language import AnyStatement, Formula, conjunction, equal, term
-from juggleproof.proofs.paper.names import alpha, at, claim, w
+from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
-from juggleproof.proofs.restitution.impacts import THERE, before, from_here
+from juggleproof.proofs.restitution.impacts import from_here
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     IMPACT,
@@ -26,9 +26,10 @@ from juggleproof.proofs.theorem.definition import (
     contracts,
     descends,
     the_map,
+    tidied,
     u,
 )
-from juggleproof.proofs.theorem.orbits import AFTER, HERE, strikes
+from juggleproof.proofs.theorem.orbits import HERE, strikes
 from juggleproof.proofs.theorem.stability import is_none_of
 
 FAST = 5  # the closing speed from which on impacts are led on by f
@@ -39,8 +40,7 @@ HALF = equal(2 * alpha, 1) & (1 - alpha > 0) & (1 + alpha > 0)
 
 def flown(periods: int, start: Vector = HERE) -> Vector:
     """T_K of the state for so many periods."""
-    found: Vector = at(from_here(AFTER, start), {"K": term(periods)})
-    return found
+    return from_here(derived_vector("normal_impact_after", (periods,)), start)
 
 
 def lasts(periods: int, start: Vector = HERE) -> Formula:
@@ -70,7 +70,7 @@ def settles(claim_id: str, setting: Setting, of_alpha: Formula) -> list[AnyState
             contracts(
                 f"e-{K}",
                 here,
-                replace(setting, fixed=at(THERE, {"K": term(K)})),
+                replace(setting, fixed=tidied("normal_impact_fixed_point", K=K)),
                 of_alpha,
                 Contraction(
                     on,
@@ -93,7 +93,7 @@ def every_orbit_tends_to_one_of_two_between_a_third_and_a_half() -> list[AnyStat
     return settles("restitution-to-a-half", SPED_UP, BETWEEN)
 
 
-EXCEPTIONS = tuple(at(before(term(periods)), {"K": term(3)}) for periods in range(4))
+EXCEPTIONS = tuple(Vector((j * (LONGEST - j), LONGEST + 1 - 2 * j)) for j in range(LONGEST + 1))
 
 
 @claim("restitution-half", "restitution", "alpha = 1/2", parameters=())
