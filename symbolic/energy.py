@@ -348,7 +348,7 @@ def normal_impact_after(flights: tuple[int, ...]) -> State:
     """The impact after flights of so many periods each, from the impact (x, w), in normal form.
 
     >>> normal_impact_after((1, 2)).T
-    Matrix([[alpha**2*x - 3*alpha**2*w + 4*alpha - 2, alpha**2*w - 2*alpha + 4]])
+    Matrix([[-3*alpha**2*w + alpha**2*x + 4*alpha - 2, alpha**2*w - 2*alpha + 4]])
     """
     here = state(x, w)
     for periods in flights:
@@ -372,8 +372,8 @@ def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
     """The impact after the first `count` of the flights, from (z1, z2) beside the impact that all
     of them bring back, in normal form.
 
-    >>> normal_impact_beside((1,), 1)[1] - normal_periodic_impact((1,))[1] == -alpha * z2
-    True
+    >>> lowest_terms(normal_impact_beside((1, 2), 2)[1] - normal_periodic_impact((1, 2))[1])
+    alpha**2*z2
     """
     start = normal_periodic_impact(flights) + state(z1, z2)
     after = normal_impact_after(flights[:count]).xreplace({x: start[0], w: start[1]})

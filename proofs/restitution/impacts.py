@@ -100,13 +100,13 @@ DOMAIN = WHOLE & ABOVE
 
 @claim("restitution-flights", "restitution", "from impact to impact", parameters=())
 def an_impact_that_leads_to_an_impact_flies_between() -> list[Statement]:
-    """Where T_K leads from an impact to a state of H, the K - 1 periods between are flight: T_K is
-    f^K there.
+    """Where T_K, an impact and then K periods of flight up to the next impact, leads from an impact
+    to a state of H, the K - 1 periods between are flight: T_K is f^K there.
     """
     return [
         always(
             ~strikes(after_impact(n, HERE)),
-            given=[*IN_FLIGHT, strikes(HERE), n >= 0, n <= K - 2],
+            given=[strikes(HERE), IN_FLIGHT[1], n >= 0, n <= K - 2],
             label="in-flight-between",
         )
     ]
@@ -114,8 +114,10 @@ def an_impact_that_leads_to_an_impact_flies_between() -> list[Statement]:
 
 @claim("restitution-e-K", "restitution", "each e_K", parameters=())
 def each_fixed_point_attracts_a_box() -> list[AnyStatement]:
-    """For every whole K >= 1 and (K - 1)/(K + 1) < alpha < 1, T_K contracts a box round the impact
-    of e_K into itself; the box holds impacts only, from which T_K leads to impacts.
+    """For every whole K >= 1 and (K - 1)/(K + 1) < alpha < 1, T_K, which is f^K there, takes a box
+    round the impact of e_K into itself and brings it closer; e_K is stable, and attracts the box.
+
+    The box holds impacts only, from which T_K leads to impacts.
     """
     return [
         the_map("map", FLIGHT_OF_K, DOMAIN),

@@ -87,8 +87,11 @@ def settles(claim_id: str, setting: Setting, of_alpha: Formula) -> list[AnyState
 
 @claim("restitution-to-a-half", "restitution", "1/3 < alpha < 1/2", parameters=())
 def every_orbit_tends_to_one_of_two_between_a_third_and_a_half() -> list[AnyStatement]:
-    """For 1/3 < alpha < 1/2 every orbit of the map that takes a slow impact to the next one enters
-    one of two sets, and tends there to the impact of e_1 or to that of e_2; both are stable.
+    """For 1/3 < alpha < 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1
+    in the one, to that of e_2 in the other; both are stable.
+
+    The orbits are those of the map that leads by f^K from a slow impact to the next one, and by f
+    from all other states.
     """
     return settles("restitution-to-a-half", SPED_UP, BETWEEN)
 
@@ -98,8 +101,9 @@ EXCEPTIONS = tuple(Vector((j * (LONGEST - j), LONGEST + 1 - 2 * j)) for j in ran
 
 @claim("restitution-half", "restitution", "alpha = 1/2", parameters=())
 def every_orbit_but_four_tends_to_one_of_two_at_a_half() -> list[AnyStatement]:
-    """At alpha = 1/2 the same holds of every orbit but those of four states: the orbit of e_3 and
-    the state that flies to it.
+    """At alpha = 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1 in the
+    one, to that of e_2 in the other, but those of four states: the orbit of e_3, and what flies to
+    it. The orbits are those of the map of `restitution-to-a-half`.
     """
     others = replace(SPED_UP, space=SPED_UP.space & is_none_of(*EXCEPTIONS))
     return settles("restitution-half", others, HALF)

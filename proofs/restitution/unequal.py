@@ -17,7 +17,6 @@ from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
-    MapRule,
     Statement,
     conjunction,
     equal,
@@ -29,12 +28,11 @@ from juggleproof.proofs.paper.names import alpha, always, at, claim, equals
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import is_impact
 from juggleproof.proofs.theorem.definition import (
-    FIXED,
     NORMAL,
     WHOLE,
     Contraction,
     contracts,
-    listed,
+    escapes,
     positive,
     the_map,
     tidy,
@@ -119,16 +117,7 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
     """
     return [
         the_map("f", NORMAL, DOMAIN),
-        MapRule(
-            "comes-back",
-            (
-                ("map", "restitution-unequal/f"),
-                ("domain", str(DOMAIN)),
-                ("point", listed(FIXED)),
-                ("start", listed(START)),
-                ("word", WORD),
-            ),
-        ),
+        escapes("comes-back", "restitution-unequal/f", replace(NORMAL, other=START), DOMAIN, WORD),
         always(
             equals(
                 START, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))

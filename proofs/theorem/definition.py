@@ -486,8 +486,10 @@ def attracts(name: str, descent: str, contraction: str) -> MapRule:
     return MapRule(name, (("descent", descent), ("contraction", contraction)))
 
 
-def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
-    """The orbit of e_2, an impact and a flight by turns, does not tend to the fixed point."""
+def escapes(name: str, of: str, setting: Setting, of_alpha: Formula, word: str = "1 2") -> MapRule:
+    """The other orbit, by default that of e_2, an impact and a flight by turns, does not tend to
+    the fixed point.
+    """
     return MapRule(
         name,
         (
@@ -495,7 +497,7 @@ def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
             ("domain", setting.domain(of_alpha)),
             ("point", listed(setting.fixed)),
             ("start", listed(setting.other)),
-            ("word", "1 2"),
+            ("word", word),
         ),
         _terms(setting.fixed, setting.other),
     )
