@@ -24,7 +24,7 @@ from juggleproof.proofs.command.sine import GRAVITY, WIDE, interval
 from juggleproof.scenes.table.curves import birth, doubling
 
 TABLE = Generated(DOCS / "sine.md", "feeder")
-ALPHAS = "0:0.02 0.01:0.03 0.02:0.04 0.03:0.05 0.04:0.06 0.05:0.07 0.06:0.08 0.07:0.09".split()
+ALPHAS = "0:0.02 0.01:0.03 0.02:0.04 0.03:0.05 0.04:0.06 0.05:0.07 0.06:0.08 0.07:0.09 0.08:0.1 0.1:0.12".split()
 HERTZ = 25, 50
 STEP = Fraction(1, 1000)  # of Gamma, and of an amplitude in mm
 COARSE = 20  # steps of Gamma from one that is tried first to the next

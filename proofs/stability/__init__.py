@@ -6,6 +6,7 @@ In reading order, each importing those before it only:
 
 - `given`: the map, read from a file or a map rule; text evaluated in floats, rationals and SymPy.
 - `by_sign`: proofs by cases of signs that a search of functions suggests.
+- `few_facts`: proofs from few facts, which are named.
 - `certifying`: statements certified one after another, within counted work.
 - `samples`: samples of parameters and states; points that move with the parameters.
 - `points`: fixed points by elimination, and their multipliers.

@@ -228,11 +228,13 @@ def radius_of(setting: Setting, space: str) -> str:
     positive numbers is above 1/(the sum of 1/each).
     """
     at = dict(zip(symbols(setting.system.state), map(expression, setting.point.terms)))
-    known = atoms(setting.system.space)
+    known, states = atoms(setting.system.space), states_at_ends(setting, setting.system.space)
     ends = {
-        sympy.cancel(poly.subs(at)) for poly, strict in atoms(space) if (poly, strict) not in known
+        sympy.cancel(poly.subs(at))
+        for poly, strict in atoms(space)
+        if (poly, strict) not in known and not (_at(poly, states) > 0).all()
     }
-    return written(sympy.factor(1 / (2 * sum(1 / end for end in ends))))
+    return written(sympy.factor(1 / (2 * sum(1 / end for end in ends)))) if ends else "1"
 
 
 def rules_into(setting: Setting, spaces: Sequence[str]) -> list[MapRule]:

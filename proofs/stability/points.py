@@ -145,6 +145,12 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
     """The terms as text, with square roots named; None where there are others."""
     roots: list[tuple[str, str]] = []
     names: dict[Expr, str] = {}
+    terms = tuple(  # what is under a root is written in one way
+        t.replace(
+            lambda e: e.is_Pow and not e.exp.is_Integer, lambda e: sympy.expand(e.base) ** e.exp
+        )
+        for t in terms
+    )
     for root in sorted(set().union(*(t.atoms(sympy.Pow) for t in terms)), key=str):
         if root.exp.is_Integer:
             continue
@@ -170,6 +176,14 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
         return Point(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
     except Exception:  # what SymPy solves by other functions is no term
         return None
+
+
+def with_expanded_roots(term: Expr) -> Expr:
+    """The term with what is under a root written in one way, so that equal roots have one name."""
+    return term.replace(
+        lambda one: one.is_Pow and not one.exp.is_Integer,
+        lambda one: sympy.expand(one.base) ** one.exp,
+    )
 
 
 def without_root_below(term: Expr, root: Expr, under: Expr) -> Expr:

@@ -10,6 +10,8 @@ In reading order, each importing those before it only:
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `envelopes`: functions of one variable, by fractional linear involutions.
 - `part_metric`: greatest weighted distances, with the part metric.
+- `equations`: a point by its equations, and terms in the parameters.
+- `ratio_searches`: how the premises of weighted ratios are searched for.
 - `ratios`: greatest weighted ratios, with weights that depend on the parameters.
 - `two_sided`: functions of one variable, a distance on each side of the point.
 - `second_iterate`: the same of decreasing maps, with the next state's distance.

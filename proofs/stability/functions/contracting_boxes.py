@@ -22,8 +22,9 @@ import sympy
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search, beyond
+from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
 from juggleproof.proofs.stability.functions.part_metric import CLOSE
-from juggleproof.proofs.stability.functions.ratios import at_parameters, distance_rules
+from juggleproof.proofs.stability.functions.ratios import distance_rules
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
     FEW_FOLD,
@@ -40,6 +41,7 @@ from juggleproof.proofs.stability.given import (
     Side,
     as_factor,
     atoms,
+    column,
     conjunction,
     ends_of_space,
     expression,
@@ -82,14 +84,14 @@ def contracting_box_rules(
         return
     point = list(map(expression, setting.point.terms))
     widths = [sympy.factor(side * (end - point[k])) for (k, side), end in box.items()]
-    domain = setting.domain
-    for end in box.values():
+    radius, domain = radius_of(setting, widths), setting.domain
+    for end in (*box.values(), expression(radius)):
         for factor, _ in sympy.factor_list(sympy.fraction(sympy.together(end))[1])[1]:
             domain = conjunction(domain, licence(factor, domain))
     if beyond(setting.domain, domain, system.parameters):
         return
     setting = replace(setting, domain=domain)
-    entered, descents = ends_of_space(setting.system, strict=True), []
+    entered, descents = ends_for(setting), []
     for side, end in box.items():
         step = step_of(setting, entered, side, end)
         if not step:
@@ -108,13 +110,13 @@ def contracting_box_rules(
         *distance_rules(inside, f"{name}/lyapunov"),
         *((rule, {}) for rule in lyapunov_rules(setting, box, widths, descents[-1][1], name)),
     ]
-    yield from _statements(setting, every, widths, descents, name)
+    yield from _statements(setting, every, radius, descents, name)
 
 
 def _statements(
     setting: Setting,
     every: Sequence[tuple[MapRule, dict[str, Search]]],
-    widths: Sequence[Expr],
+    radius: str,
     descents: Sequence[tuple[str, str]],
     name: str,
 ) -> Iterator[tuple[list[MapRule], dict[str, Search]]]:
@@ -123,9 +125,6 @@ def _statements(
     maps: list[MapRule] = []
     falling: list[MapRule] = []
     attracting: list[MapRule] = []
-    radii = bounded_below(below_all(setting, widths), products_of(setting), 1)
-    if not radii:
-        return
     names = ["", *(f"-{k}" for k in range(1, len(descents)))]
     for suffix, following, (rank, bound) in zip(names, [*names[1:], ""], descents):
         maps.append(replace(system, space=space, domain=setting.domain).rule(f"{name}/map{suffix}"))
@@ -134,11 +133,11 @@ def _statements(
         falling.append(MapRule(f"{name}/descends{suffix}", (*rows, ("stage", bound))))
         then = [("lyapunov", f"{name}/lyapunov")]
         if following:
-            then = [("attraction", f"{name}/attracts{following}"), ("radius", radii[0][1])]
+            then = [("attraction", f"{name}/attracts{following}"), ("radius", radius)]
         rows = [("descent", falling[-1].name), *then]
         attracting.append(MapRule(f"{name}/attracts{suffix}", tuple(rows)))
     for rule, searches in every:
-        changed = {"map": maps[-1].name, "radius": radii[0][1]}
+        changed = {"map": maps[-1].name, "radius": radius}
         inner = replace(rule, rows=tuple((key, changed.get(key, text)) for key, text in rule.rows))
         yield [*maps[1:], inner, *falling, *reversed(attracting)], searches
 
@@ -178,6 +177,15 @@ def lyapunov_rules(
         yield setting.rule(f"{name}/lyapunov", function, rows)
 
 
+def radius_of(setting: Setting, widths: Sequence[Expr]) -> str:
+    """Less than all widths: what fits them, or 1/(the sum of 1/each)/2."""
+    wide = with_ends(setting)
+    for rank, radius in bounded_below(below_all(wide, widths), products_of(wide), 1):
+        if rank < LOOSE:
+            return radius
+    return written(sympy.factor(1 / (2 * sum(1 / width for width in widths))))
+
+
 def weights_of(setting: Setting, widths: Sequence[Expr]) -> list[Expr]:
     """Positive polynomials that are to one another as the inverses of the widths."""
     inverses = [sympy.together(1 / width) for width in widths]
@@ -199,8 +207,9 @@ def below_all(setting: Setting, terms: Sequence[Expr]) -> Floats:
 
 def box_of(setting: Setting) -> Ends | None:
     """The ends of the box, in the order in which orbits enter them."""
-    given = ends_of_space(setting.system, strict=True)
-    every = [(k, side) for side in (HIGH, LOW) for k in range(len(setting.system.state))]
+    given, at_point = ends_for(setting), ends_at_point(setting)
+    sides = [(k, side) for side in (HIGH, LOW) for k in range(len(setting.system.state))]
+    every = [side for side in sides if side not in at_point]
     still: Ends = {}
     for _ in every:
         for side in every:
@@ -210,38 +219,65 @@ def box_of(setting: Setting) -> Ends | None:
     if len(still) < len(every):
         return None
     found: Ends = {}
-    for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
-        limit = limit_of(setting, found, side) if side[1] == HIGH else None
-        limit = given.get(side) if limit is None else limit
-        if limit is None:
-            return None
-        found[side] = sympy.factor((still[side] + limit) / 2)
-    return {side: found[side] for side in still}
+    lower = ends_of_space(setting.system)
+    for free in (False, True):
+        for _ in every:
+            for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
+                limit = limit_of(setting, found, side) if side[1] == HIGH else lower.get(side)
+                limit = given.get(side) if limit is None else limit
+                if limit is None and free:  # nothing limits it: as far as the space below
+                    reach = still[side] - lower.get((side[0], LOW), still[side] - 1)
+                    limit = still[side] + (reach if reach != 0 else 1)
+                if side not in found and limit is not None:
+                    found[side] = sympy.factor((still[side] + limit) / 2)
+    return {side: found[side] for side in still} if len(found) == len(every) else None
+
+
+def ends_for(setting: Setting) -> Ends:
+    """The ends of the space that no state is at, and those that the point is at."""
+    return ends_of_space(setting.system, strict=True) | ends_at_point(setting)
+
+
+def ends_at_point(setting: Setting) -> Ends:
+    """The ends of the space that the point is at, as of what dies out."""
+    point = list(map(expression, setting.point.terms))
+    every = ends_of_space(setting.system)
+    return {side: end for side, end in every.items() if sympy.cancel(end - point[side[0]]) == 0}
 
 
 def still_at(setting: Setting, ends: Ends, side: Side) -> Expr | None:
-    """Where the variable does not change, on this side of the point, while the others are at the
-    ends that move it most to this side; None where there is none, or such an end is missing.
+    """Where the variable does not change, on this side of the point or at it, while the others are
+    at the ends that move it most to this side; None where there is none, or such an end is missing.
     """
     state = symbols(setting.system.state)
     one = state[side[0]]
     image = worst(setting, ends, side, one)
     if image is None:
         return None
-    equation = sympy.numer(sympy.together(image - one))
-    return beside(setting, side, ends.get(side), roots_of(equation, one))
+    roots = list(roots_of(sympy.numer(sympy.together(image - one)), one))
+    found = beside(setting, side, ends.get(side), roots)
+    point = expression(setting.point.terms[side[0]])
+    return point if found is None and point in roots else found
 
 
-def limit_of(setting: Setting, low: Ends, side: Side) -> Expr | None:
-    """How far the upper end may be for the other variables to grow at their lower ends."""
+def limit_of(setting: Setting, found: Ends, side: Side) -> Expr | None:
+    """How far the upper end may be for the other variables to grow at their lower ends; where that
+    does not limit it, to fall at their upper ends.
+    """
     one = symbols(setting.system.state)[side[0]]
-    found: list[Expr] = []
-    for (k, _), end in low.items():
-        if k != side[0] and slope_of(setting, k, side[0]) == -1:
-            image = worst(setting, {**low, side: one}, (k, LOW), end)
-            if image is not None:
-                found += roots_of(sympy.numer(sympy.together(image - end)), one)
-    return beside(setting, side, ends_of_space(setting.system, strict=True).get(side), found)
+    end = ends_of_space(setting.system, strict=True).get(side)
+    for direction in (LOW, HIGH):
+        every: list[Expr] = []
+        for (k, other), there in found.items():
+            if k != side[0] and other == direction and slope_of(setting, k, side[0]) == direction:
+                ends = {**ends_for(setting), **found, side: one}
+                image = worst(setting, ends, (k, direction), there)
+                if image is not None:
+                    every += roots_of(sympy.numer(sympy.together(image - there)), one)
+        limit = beside(setting, side, end, every)
+        if limit is not None:
+            return limit
+    return None
 
 
 def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]) -> Expr | None:
@@ -312,46 +348,58 @@ def condition(setting: Setting, side: Side, end: Expr) -> str:
 
 
 def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
-    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: the
-    distance to the lower end of the space, or its inverse, times a term in the parameters; nothing
-    where samples fall by less.
+    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: a
+    height times a term in the parameters; nothing where samples fall by less.
     """
     (k, direction), system = side, setting.system
-    name, lower = system.state[k], ends_of_space(setting.system, strict=True)[k, LOW]
+    height, one = height_of(setting, entered, side), symbols(system.state)[k]
+    if height is None:
+        return ""
     limit = entered.get(side)
     samples = states_of(setting, {**entered, (k, -direction): end, side: limit})
     points = samples.points
-    image = system.next({one: points[one] for one in system.names})[k]
-    start = at_parameters(setting, lower)[samples.which]
+    image = system.next({name: points[name] for name in system.names})[k]
+    text, count = written(height), len(samples.which)
     with np.errstate(all="ignore"):
-        if direction == HIGH:
-            falls = points[name] - image
-        else:
-            falls = 1 / (points[name] - start) - 1 / (image - start)
+        falls = column(text, points, count) - column(text, points | {str(one): image}, count)
     fits = np.isfinite(falls)
     least = samples.where(fits).least(falls[fits], setting.count)
     found = bounded_below(least, products_of(setting), 1)
     if not found:
         return ""
-    distance = as_factor(written(symbols([name])[0] - lower))
     factor = as_factor(inverse(found[0][1]))
     if found[0][0] > LOOSE:
         factor = fall_at(setting, entered, side, end) or factor
-    return f"{factor}*{distance}" if direction == HIGH else f"{factor}/{distance}"
+    above, below = map(written, sympy.fraction(height))
+    return f"{factor}*{as_factor(above)}" if below == "1" else f"{factor}/{as_factor(below)}"
+
+
+def height_of(setting: Setting, entered: Ends, side: Side) -> Expr | None:
+    """The distance of a variable to the lower end of the space; on the lower side its inverse, or,
+    where states are at that end, the distance to an upper end that is entered.
+    """
+    k, direction = side
+    one, low = symbols(setting.system.state)[k], (k, LOW)
+    lower = ends_of_space(setting.system)[low]
+    if direction == HIGH:
+        return one - lower
+    if low in ends_of_space(setting.system, strict=True):
+        return 1 / (one - lower)
+    return entered[k, HIGH] - one if (k, HIGH) in entered else None
 
 
 def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     """1 over the fall of a step from the end itself, without factors that are 1 at least; nothing
     where the domain does not say that the others are positive.
     """
-    image, lower = (
-        worst(setting, entered, side, end),
-        ends_of_space(setting.system, strict=True)[side[0], LOW],
-    )
-    if image is None:
+    image, height = worst(setting, entered, side, end), height_of(setting, entered, side)
+    if image is None or height is None:
         return ""
-    fall = end - image if side[1] == HIGH else 1 / (end - lower) - 1 / (image - lower)
-    above, below = sympy.fraction(sympy.factor(fall))
+    one = symbols(setting.system.state)[side[0]]
+    fall = sympy.factor(height.subs(one, end) - height.subs(one, image))
+    if fall == 0 or not fall.is_rational_function():
+        return ""
+    above, below = sympy.fraction(fall)
     constant, factors = sympy.factor_list(above)
     known = {poly for poly, strict in atoms(setting.domain) if strict}
     below, kept = below / abs(constant), []
@@ -370,6 +418,8 @@ def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:
     """States between the ends, many of them at one, with the number of the parameters that each
     comes with.
     """
+    known = {side: end for side, end in ends.items() if end is not None}
+    ends = {**ends_of_space(setting.system), **known}
     rng = np.random.default_rng(SEED + 3)
     which = np.repeat(np.arange(setting.count), EACH)
     points = {name: values[which] for name, values in setting.constants.items()}

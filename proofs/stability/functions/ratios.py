@@ -17,27 +17,35 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
-from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.functions.equations import (
+    at_parameters,
+    factors_of,
+    point_names,
+    products_of,
+    sizes_of,
+    with_ends,
+    with_equations,
+)
 from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
+from juggleproof.proofs.stability.functions.ratio_searches import Row, searches_for
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
     Setting,
     bounded_below,
-    power_products,
 )
 from juggleproof.proofs.stability.given import (
     Expr,
     as_factor,
     atoms,
     bounds,
+    column,
     conjunction,
     expression,
     holds,
@@ -45,8 +53,6 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
-
-Row = tuple[int, ...]
 
 MOST_STATES = 3
 MOST_SHIFTS = 2
@@ -101,39 +107,14 @@ def _rules(
                 rank += len(" ".join(terms)) / 50
                 positive = [*factors, *factors_of(setting, weights)]
                 rule = _rule(setting, name, origin, positive, terms, lines)
-                found.append((rank, rule))
+                found.append((rank, rule, weights))
         if found:
             best = sorted(found, key=lambda one: one[0])[:MOST_RULES]
-            searches = _searches(setting, put, rows, sums)
-            return [(rule, searches) for _, rule in best]
+            return [
+                (rule, searches_for(setting, put, rows, origin, weights, sums.used))
+                for _, rule, weights in best
+            ]
     return []
-
-
-def _searches(
-    setting: Setting, put: dict[Expr, Expr], rows: Sequence[Row], sums: Sums
-) -> dict[str, Search]:
-    """For some premises, the facts that are used, and squares and signs."""
-    unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
-    gaps = _gaps(setting)
-    squares = list(dict.fromkeys([*gaps, *_differences(setting, put)]))
-    found: dict[str, Search] = {
-        f"falls-1-{k + 1}": partial(
-            proof_by_products,
-            terms=sums.used(k),
-            unknowns=unknowns,
-            squares=squares,
-            signs=gaps,
-        )
-        for k in range(2 * len(rows))
-    }
-    found["least"] = partial(
-        proof_by_products,
-        terms=[k for k, row in enumerate([*rows, *rows]) if sum(map(abs, row)) == 1],
-        unknowns=unknowns,
-        squares=(),
-        signs=(),
-    )
-    return found
 
 
 def origins(setting: Setting) -> Iterator[list[Expr]]:
@@ -186,61 +167,6 @@ def sets_of_rows(count: int, plain: bool) -> Iterator[list[Row]]:
 
 # -------------------------------------------------------------------------------------------------
 # The weights, as terms in the parameters and the point.
-
-
-def at_parameters(setting: Setting, term: Expr) -> Floats:
-    """The values at the samples of the parameters, (count,)."""
-    known = setting.constants
-    with np.errstate(all="ignore"):
-        found = sympy.lambdify(symbols(known), term, "numpy")(*known.values())
-    return np.broadcast_to(np.asarray(found, float), (setting.count,))
-
-
-def point_names(setting: Setting) -> list[Expr]:
-    return symbols([f"{name}_point" for name in setting.system.state])
-
-
-def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
-    """What to put for some of the parameters and of the point's names, in terms of the others; and
-    the setting, whose premises know of the point these equations and its inequalities.
-    """
-    names, terms = point_names(setting), list(map(expression, setting.point.terms))
-    if not setting.have:
-        return setting, dict(zip(names, terms))
-    at = dict(zip(symbols(setting.system.state), names))
-    put: dict[Expr, Expr] = {}
-    for name, image in zip(names, setting.system.images[setting.piece]):
-        gap = (image.subs(at, simultaneous=True) - name).subs(put, simultaneous=True)
-        factors = [one for one, _ in sympy.factor_list(sympy.numer(sympy.together(gap)))[1]]
-        if not factors:
-            continue
-        zero = min(factors, key=lambda one: np.median(np.abs(at_parameters(setting, one))))
-        parameters = symbols(setting.system.parameters)
-        simple = sorted(parameters, key=lambda one: _size(sympy.diff(zero, one)))
-        for one in [*simple, *reversed(names)]:
-            if sympy.degree(zero, one) == 1:
-                (solution,) = sympy.solve(zero, one)
-                put = {key: sympy.cancel(t.subs(one, solution)) for key, t in put.items()}
-                put[one] = sympy.cancel(solution)
-                break
-    have = [line for line in setting.have if ">" in line]
-    conditions = [
-        one.subs(put)
-        for one, strict in atoms(setting.domain)
-        if strict and one.free_symbols & put.keys()
-    ]
-    for factor in factors_of(setting, [one for one in conditions if one.free_symbols]):
-        if any(c < 0 for c in sympy.Poly(factor, *factor.free_symbols).coeffs()):
-            have.append(f"{written(factor)} > 0")
-    for one, term in put.items():
-        above, below = map(written, sympy.fraction(sympy.together(term)))
-        have.insert(0, f"{one}*({below}) = {above}" if below != "1" else f"{one} = {above}")
-    return replace(setting, have=tuple(have)), put
-
-
-def _size(term: Expr) -> int:
-    """How many terms a polynomial has."""
-    return len(sympy.Add.make_args(sympy.expand(term)))
 
 
 def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr]) -> Expr:
@@ -309,22 +235,6 @@ def falls_of(matrix: Expr, weights: Sequence[Expr]) -> list[Expr]:
     """The shares that the terms of V fall by, close to the point."""
     pairs = zip(matrix * sympy.Matrix(weights), weights)
     return [sympy.factor(1 - image / weight) for image, weight in pairs]
-
-
-def factors_of(setting: Setting, terms: Sequence[Expr]) -> list[Expr]:
-    """The factors of numerators and denominators that are not constant, positive."""
-    found = set()
-    for one in terms:
-        for part in sympy.fraction(sympy.together(one)):
-            found |= {factor for factor, _ in sympy.factor_list(part)[1]}
-    signs = {one: at_parameters(setting, one).max() > 0 for one in sorted(found, key=str)}
-    return [one if positive else -one for one, positive in signs.items()]
-
-
-def products_of(setting: Setting, factors: Sequence[Expr]) -> list[tuple[str, Floats]]:
-    """Products of powers of the factors, as text and at the parameters."""
-    texts = [written(one) for one in factors if (at_parameters(setting, one) > 0).all()]
-    return power_products(texts, setting.constants, setting.count)
 
 
 def _combination(
@@ -411,7 +321,6 @@ def _losses(
     if not len(before) or (now > before * (1 + CLOSE)).any():
         return
     factors = factors_of(setting, falls)
-    products = products_of(setting, factors)
     # the least of positive numbers is above 1/(the sum of 1/each), and the greatest below the sum
     sizes = sizes_of(setting, put, origin)
     total = sympy.factor(sum(size * weight for size, weight in zip(sizes, weights)))
@@ -425,10 +334,9 @@ def _losses(
             for row, weight in zip(rows, weights)
         )
     )
-    fall = np.min([at_parameters(setting, one) for one in falls], axis=0)
     for power in POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
-        constants = bounded_below(np.minimum(least + CLOSE, fall), products)
+        constants = _constants(setting, factors, falls, least)
         for rank, constant in constants:
             over = "/(1 + {})" if power else ""
             lines = [
@@ -440,6 +348,24 @@ def _losses(
             yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
         if constants and is_plain(origin):
             return
+
+
+def _constants(
+    setting: Setting, factors: Sequence[Expr], falls: Sequence[Expr], least: Floats
+) -> list[tuple[float, str]]:
+    """Terms below what is least at samples and the falls close to the point, also where parameters
+    are close to an end; those that follow both there, where no others are.
+    """
+    wide = with_ends(setting)
+    fall = np.min([at_parameters(wide, one) for one in falls], axis=0)
+    least = np.append(least + CLOSE, np.full(wide.count - setting.count, np.inf))
+    below = np.minimum(least, fall)
+    found = [
+        (rank, text)
+        for rank, text in bounded_below(below[: setting.count], products_of(setting, factors))
+        if (column(text, wide.constants, wide.count) < fall).all()
+    ]
+    return found or bounded_below(below, products_of(wide, factors))
 
 
 def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
@@ -465,13 +391,6 @@ def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
     return replace(setting, states=Samples(both, which))
 
 
-def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
-    """What the ratios divide by."""
-    pairs = zip(symbols(setting.system.state), point_names(setting))
-    at = {one: put.get(e, e) for one, e in pairs}
-    return [one.subs(at) for one in origin]
-
-
 def _rule(
     setting: Setting,
     name: str,
@@ -495,51 +414,3 @@ def _rule(
     on = conjunction(setting.system.space, *more)
     changed = replace(setting, domain=domain, have=tuple(dict.fromkeys(have)))
     return changed.rule(name, Function(tuple(terms)), [("on", on), *lines])
-
-
-def _gaps(setting: Setting) -> list[str]:
-    """The gaps, of the variables first that the map is not affine in."""
-    names, images = setting.system.state, setting.system.images[setting.piece]
-    affine = {
-        name: all(sympy.cancel(sympy.diff(image, one, 2)) == 0 for image in images)
-        for name, one in zip(names, symbols(names))
-    }
-    return [f"{name}_gap" for name in sorted(names, key=lambda name: affine[name])]
-
-
-def _differences(setting: Setting, put: dict[Expr, Expr]) -> list[str]:
-    """Where an image is a sum of terms T, by how much T/T(e) differs from one to another: what the
-    means of numbers differ by has the squares of these as factors.
-    """
-    state, names = symbols(setting.system.state), point_names(setting)
-    if not setting.have:  # premises do not name it
-        names = [put[one] for one in names]
-    gaps = symbols([f"{one}_gap" for one in setting.system.state])
-    at = dict(zip(state, names))
-    moved = {one: e + gap for one, e, gap in zip(state, names, gaps)}
-    found: dict[str, None] = {}
-    for image in setting.system.images[setting.piece]:
-        for a, b in itertools.combinations(_parts(setting, image), 2):
-            gap = a * b.subs(at, simultaneous=True) - b * a.subs(at, simultaneous=True)
-            above = sympy.numer(sympy.together(gap)).subs(moved, simultaneous=True)
-            for factor, _ in sympy.factor_list(sympy.expand(above))[1]:
-                if factor.free_symbols & set(gaps) and not factor.is_Symbol:
-                    found[written(factor)] = None
-    return list(found)
-
-
-def _parts(setting: Setting, image: Expr) -> list[Expr]:
-    """The image as a sum of terms of different state variables, without negative ones."""
-    state = symbols(setting.system.state)
-    for one in state:
-        image = sum(sympy.apart(part, one) for part in sympy.Add.make_args(sympy.expand(image)))
-    sums: dict[frozenset[Expr], Expr] = {}
-    for part in sympy.Add.make_args(sympy.expand(image)):
-        own = frozenset(part.free_symbols & set(state))
-        sums[own] = sums.get(own, 0) + part
-    alone = sums.pop(frozenset(), sympy.Integer(0))
-    at = dict(zip(state, point_names(setting)))
-    for own, part in sums.items():
-        if at_parameters(setting, part.subs(at, simultaneous=True)).min() < 0:
-            sums[own], alone = part + alone, sympy.Integer(0)
-    return [one for one in (*sums.values(), alone) if one != 0]

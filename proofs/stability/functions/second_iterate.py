@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.functions.equations import at_parameters, point_names
 from juggleproof.proofs.stability.functions.norms import is_affine
-from juggleproof.proofs.stability.functions.ratios import at_parameters, point_names
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.two_sided import (
     FEW,

@@ -28,13 +28,13 @@ from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
-from juggleproof.proofs.stability.functions.norms import is_affine
-from juggleproof.proofs.stability.functions.ratios import (
+from juggleproof.proofs.stability.functions.equations import (
     at_parameters,
     factors_of,
     point_names,
     with_equations,
 )
+from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
 from juggleproof.proofs.stability.given import (

@@ -13,6 +13,9 @@ from juggleproof.proofs.stability.functions.contracting_boxes import (
     LOW,
     box_of,
     contracting_box_rules,
+    ends_at_point,
+    ends_for,
+    height_of,
 )
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import expression, of_rule
@@ -78,3 +81,41 @@ def test_rejects_a_bound_that_orbits_do_not_enter() -> None:
     (descent,) = (one for one in chain if one.name == "m/descends")
     rows = tuple((key, "x < 1/2" if key == "stage" else text) for key, text in descent.rows)
     assert "falls-1" in proof.add(MapRule(descent.name, rows), (1,), 100_000)
+
+
+PREDATOR = "2*x/(1 + x + y), y*(1 + c*x)/2"
+
+
+def where_it_dies_out(domain: str, space: str = "x > 0 and y >= 0") -> Setting:
+    rows = [("over", "c"), ("domain", domain), ("state", "x y"), ("space", space)]
+    system = with_licences(of_rule(MapRule("m", (*rows, ("piece", PREDATOR)))))
+    (fixed,) = (one for one in fixed_points(system) if one.point.terms == ("1", "0"))
+    return setting_of(system, fixed, system.domain)
+
+
+def test_the_ends_of_the_box_where_a_predator_dies_out_holds() -> None:
+    found = box_of(replace(where_it_dies_out("0 < c and c < 1"), have=()))
+    # the prey alone comes to 1, the predator grows from 1/c on, and takes 1/2 to 1/2 where y = 1/2
+    ends = {(0, HIGH): "(1 + 1/c)/2", (1, HIGH): "1/4", (0, LOW): "1/2"}
+    assert found is not None and list(found) == list(ends)
+    assert all(sympy.cancel(found[one] - expression(ends[one])) == 0 for one in ends)
+
+
+def test_a_predator_that_grows_too_slowly_dies_out_holds() -> None:
+    of = where_it_dies_out("0 < c and c < 1")
+    proof = Proof()
+    assert proof.add(of.system.rule("m/map")) == ""
+    chain, searches = next(contracting_box_rules(of, "m"))
+    assert proof.add_all(chain, (1, 2), print, None, searches)
+
+
+def test_a_box_fails_where_the_predator_grows() -> None:
+    assert not list(contracting_box_rules(where_it_dies_out("0 < c and c < 2"), "m"))
+
+
+def test_a_step_up_has_a_height_where_states_are_at_the_lower_end_holds() -> None:
+    of = where_it_dies_out("0 < c and c < 1", "x >= 0 and y >= 0")
+    assert ends_at_point(of) == {(1, LOW): 0} == ends_for(of)
+    assert height_of(of, {}, (0, LOW)) is None
+    assert str(height_of(of, {(0, HIGH): sympy.Integer(2)}, (0, LOW))) == "2 - x"
+    assert str(height_of(of, {}, (0, HIGH))) == "x"

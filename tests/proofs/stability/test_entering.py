@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from juggleproof.proofs.stability.entering import boxes_of, spaces_entered
+from juggleproof.proofs.stability.entering import boxes_of, radius_of, spaces_entered
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
 from juggleproof.proofs.stability.points import fixed_points
@@ -81,6 +81,13 @@ def test_a_closed_space_is_left_for_its_inside_variable_by_variable_holds() -> N
 def test_an_end_that_images_attain_is_not_left_holds() -> None:
     system = rational("a*x/(1 + y), y/2 + x/2", "x y", "x >= 0 and y >= 0", "0 < a and a < 1")
     assert spaces_entered(setting_at(system), False) == []
+
+
+def test_a_bound_that_all_states_keep_limits_no_radius_holds() -> None:
+    system = rational("a/(1 + y), a/(1 + x)", "x y", "x >= 0 and y >= 0", "a > 0")
+    setting = setting_at(system)
+    assert radius_of(setting, "x >= 0 and y >= 0 and x + 1 > 0 and y + 1 > 0") == "1"
+    assert "root_1" in radius_of(setting, "x > 0 and y >= 0")
 
 
 def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +12,7 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Proof
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.functions import part_metric
+from juggleproof.proofs.stability.functions.equations import with_ends
 from juggleproof.proofs.stability.functions.ratios import (
     origins,
     ratio_rules,
@@ -107,3 +109,79 @@ def test_no_weights_are_found_where_no_sample_is_in_range_holds(
     none = np.zeros((2, 0)), np.zeros((2, 0)), SimpleNamespace()
     monkeypatch.setattr(part_metric, "values", lambda *_: none)
     assert part_metric._weights(setting, ["x", "1/x"]) == ()  # type: ignore[arg-type]
+
+
+def epidemic(domain: str) -> MapRule:
+    rows = [("over", "b g"), ("domain", domain), ("state", "s i")]
+    space = "s >= 0 and i >= 0 and s + i <= 1"
+    piece = "(s + 1)/2 - b*s*i, (1/2 - g)*i + b*s*i"
+    return MapRule("m", (*rows, ("space", space), ("piece", piece)))
+
+
+SUBCRITICAL = "0 < b and b < 1 and 0 < g and g < 1/2 and b < g + 1/2"
+
+
+def test_an_infection_dies_out_at_all_rates_holds() -> None:
+    """By a loss that goes to 0 where b goes to g + 1/2."""
+    system = of_rule(epidemic(SUBCRITICAL))
+    (fixed,), proof = (
+        (one for one in fixed_points(system) if one.point.terms == ("1", "0")),
+        Proof(),
+    )
+    assert proof.add(system.rule("m/map")) == ""
+    setting = setting_of(system, fixed, system.domain)
+    candidate, searches = next(weighted_distance_rules(setting, "m/lyapunov"))
+    assert proof.add(candidate, (1, 2), 100_000, searches=searches) == ""
+    assert "(-2*b + 2*g + 1)" in dict(candidate.rows)["loss"]
+
+
+def test_an_infection_fails_to_die_out_without_the_bound_of_its_rate() -> None:
+    system = of_rule(epidemic(SUBCRITICAL.replace(" and b < g + 1/2", "")))
+    (fixed,) = (one for one in fixed_points(system) if one.point.terms == ("1", "0"))
+    setting = setting_of(system, fixed, system.domain)
+    assert not list(weighted_distance_rules(setting, "m/lyapunov"))
+
+
+def test_parameters_close_to_the_ends_of_the_domain_are_in_it_holds() -> None:
+    system = of_rule(epidemic(SUBCRITICAL))
+    (fixed,) = (one for one in fixed_points(system) if one.point.terms == ("1", "0"))
+    setting = setting_of(system, fixed, system.domain)
+    wide = with_ends(setting).parameters
+    left = wide["g"] + 1 / 2 - wide["b"]
+    assert left.min() > 0 and left[: setting.count].min() > 10 * left.min()
+    assert wide["b"].min() > 0 and wide["b"].max() < 1 and wide["g"].max() < 1 / 2
+
+
+def vectors() -> MapRule:
+    """R. Ross, The Prevention of Malaria, 1911: infected hosts and vectors."""
+    rows = [("over", "a c"), ("domain", "3/10 < a and a <= 1/2 and 3/10 < c and c <= 1/2")]
+    space = "0 < h and h <= 1 and 0 < v and v <= 1"
+    rows += [("state", "h v"), ("space", space)]
+    return MapRule("m", (*rows, ("piece", "4*h/5 + a*v*(1 - h), 7*v/10 + c*h*(1 - v)")))
+
+
+def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -> None:
+    system = with_licences(of_rule(vectors()))
+    (fixed,) = (one for one in fixed_points(system) if "0" not in one.point.terms)
+    setting, proof = setting_of(system, fixed, system.domain), Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    candidate, searches = next(ratio_rules(setting, "m/lyapunov"))
+    assert proof.add(candidate, (1, 2), 100_000, searches=searches) == ""
+    search = searches["falls-1-1"]
+    assert isinstance(search, partial)
+    corners = [sign for sign in search.keywords["signs"] if "value" in sign]
+    assert len(corners) == 2  # one for each variable
+
+
+def test_juveniles_and_adults_come_to_rest_by_few_facts_holds() -> None:
+    """The mean of ratios, whose inverse is below the mean of the inverses: by what is squared."""
+    rows = [("over", "b s m"), ("domain", "0 < s and s < 1 and 0 < m and m < 1 and m < b*s")]
+    rows += [("state", "l a"), ("space", "l > 0 and a > 0")]
+    system = with_licences(
+        of_rule(MapRule("m", (*rows, ("piece", "b*a/(1 + a), s*l + (1 - m)*a"))))
+    )
+    (fixed,) = (one for one in fixed_points(system) if "0" not in one.point.terms)
+    setting, proof = setting_of(system, fixed, system.domain), Proof()
+    assert proof.add(system.rule("m/map")) == ""
+    candidate, searches = next(ratio_rules(setting, "m/lyapunov"))
+    assert proof.add(candidate, (1, 2), 100_000, searches=searches) == ""

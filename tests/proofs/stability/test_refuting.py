@@ -105,6 +105,13 @@ def test_the_divisor_of_a_point_has_no_root_holds() -> None:
     assert point.terms == ("-q*(q - root_1)/(-q^2 + q + 1)", "root_1/(q + 1)")
 
 
+def test_equal_roots_that_are_written_in_two_ways_have_one_name_holds() -> None:
+    q = sympy.Symbol("q", real=True)
+    point = as_point((sympy.sqrt(q * (q + 1)) + 1, sympy.sqrt(sympy.expand(q * (q + 1))) - 1))
+    assert point is not None and point.roots == (("root_1", "q*(q + 1)"),)
+    assert point.terms == ("root_1 + 1", "root_1 - 1")
+
+
 def test_rejects_a_point_that_is_not_fixed() -> None:
     """Of such a point `escapes` is true as well."""
     rows = [("over", "a"), ("domain", "1 < a and a < 4"), ("state", "x")]

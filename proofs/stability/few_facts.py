@@ -1,0 +1,119 @@
+"""A proof from few facts, which are named: all others make a search longer."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.polynomials import Ring, total_degree
+from juggleproof.certificates.nodes import Node, Proof
+from juggleproof.certificates.search.closing import search_closing, sign_node
+from juggleproof.certificates.search.falls.by_products import (
+    obligations_closed,
+    renumbered,
+    with_facts,
+)
+from juggleproof.certificates.states import State, proves, state_of
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
+
+BUDGET = 100_000  # of counted work
+
+
+def proof_from_few_facts(
+    premise: checker.Statement,
+    known: dict[str, checker.Statement],
+    used: Collection[str],
+    signs: Sequence[str] = (),
+    terms: Collection[int] = (),
+    unknowns: Collection[str] = (),
+) -> Proof | None:
+    """A proof of the premise from facts that these terms are positive, on the distance, and on
+    these terms of V by their numbers, with the equations of unknowns that are in what is shown; if
+    need be by cases of signs; None where none is found.
+    """
+    unfolding = unfolded(premise)
+    state = state_of(unfolding).assume(unfolding.goal(False))
+    if state.closed:
+        return None
+    try:
+        steps = obligations_closed(unfolding, known, Budget(BUDGET))
+    except Exhausted:
+        return None
+    kept = few_of(state, used, terms, unknowns)
+    node = None if steps is None else by_signs(state, known, kept, signs)
+    if steps is None or node is None:
+        return None
+    proof: Proof = ("proof", steps, node)
+    return proof if proves(premise, proof, known) else None
+
+
+def by_signs(
+    state: State,
+    known: dict[str, checker.Statement],
+    kept: Sequence[Sequence[int]],
+    signs: Sequence[str],
+) -> Node | None:
+    """A node that contradicts the facts with one of these lists of numbers, by the cases of
+    disjunctions, if need be by those of the first sign, then of the others.
+    """
+    if state.choices:
+        rest = state.branch()
+        every: list[Node] = []
+        for one in rest.choices.pop(0):
+            case = rest.branch(one)
+            added = range(len(rest.facts), len(case.facts))
+            node = by_signs(case, known, [[*numbers, *added] for numbers in kept], signs)
+            if node is None:
+                return None
+            every.append(node)
+        return "cases", 0, every
+    for numbers in kept:
+        try:
+            few = with_facts(state, numbers)
+            node = search_closing(few, known, Budget(BUDGET), effort=2, confirm=False)
+        except Exhausted:
+            continue
+        full = renumbered(node, numbers) if node else None
+        if full:
+            return full
+    nodes: list[Node | None] = []
+    for case in state.by_sign(signs[0]) if signs else ():
+        more = [[*numbers, len(state.facts)] for numbers in kept]
+        nodes.append(by_signs(case, known, more, signs[1:]))
+        if nodes[-1] is None:
+            return None
+    return sign_node(signs[0], nodes) if nodes else None
+
+
+def few_of(
+    state: State, used: Collection[str], terms: Collection[int], unknowns: Collection[str]
+) -> list[list[int]]:
+    """The numbers of the facts that are used, each once: without what bounds the distance by other
+    than linear terms, then with that.
+    """
+    ring = Ring(tuple(state.context.index))
+    positive = {str(ring.read(state.context.polynomial(text))) for text in used}
+    read = [ring.read(poly) for poly, _ in state.facts]
+    every = [{ring.names[v] for v, power in enumerate(p.degrees()) if power} for p in read]
+    found: dict[bool, dict[str, int]] = {False: {}, True: {}}
+    count = 0
+    for number, ((_, relation), poly, names) in enumerate(zip(state.facts, read, every)):
+        gaps = any(name.endswith("_gap") for name in names)
+        count += "value" in names and gaps
+        of_value = bool(terms) and (
+            gaps
+            and "value" in names
+            and count - 1 in terms
+            or relation == "="
+            and bool(names & every[-1] & set(unknowns))
+            or relation != "="
+            and len(names) == 1
+            and names <= every[-1]
+            and (len(poly) == 1 or total_degree(poly) == 1 and not names & {"value", *unknowns})
+        )
+        far = "distance" in names and names <= every[-1]
+        if number == len(read) - 1 or str(poly) in positive or of_value or far:
+            linear = total_degree(poly) == 1 or not far or number == len(read) - 1
+            for powers in (False, True) if linear else (True,):
+                found[powers].setdefault(str(poly), number)
+    return [list(numbers.values()) for numbers in found.values()][: 1 if terms else 2]
