@@ -25,6 +25,7 @@ from juggleproof.symbolic.algebra import (
     v,
     w,
     x,
+    z1,
     z2,
 )
 from juggleproof.symbolic.maps import (
@@ -336,3 +337,56 @@ def normal_impact_fixed_point() -> State:
     2*K/(alpha + 1)
     """
     return scaled_state(impact_fixed_point())
+
+
+# -------------------------------------------------------------------------------------------------
+# Flights of given lengths, one after another, in normal form.
+
+
+@cache
+def normal_impact_after(flights: tuple[int, ...]) -> State:
+    """The impact after flights of so many periods each, from the impact (x, w), in normal form.
+
+    >>> normal_impact_after((1, 2)).T
+    Matrix([[-3*alpha**2*w + alpha**2*x + 4*alpha - 2, alpha**2*w - 2*alpha + 4]])
+    """
+    here = state(x, w)
+    for periods in flights:
+        for step in (normal_f1(), normal_flight_power(Integer(periods - 1))):
+            here = state(*(entry.expand() for entry in step.xreplace({x: here[0], w: here[1]})))
+    return here
+
+
+@cache
+def normal_periodic_impact(flights: tuple[int, ...]) -> State:
+    """The impact that flights of so many periods each bring back, in normal form.
+
+    >>> normal_periodic_impact((2,)) == normal_e_2()
+    True
+    """
+    return state(*solution_of(list(normal_impact_after(flights) - state(x, w)), [x, w]))
+
+
+@cache
+def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
+    """The impact after the first `count` of the flights, from (z1, z2) beside the impact that all
+    of them bring back, in normal form.
+
+    >>> lowest_terms(normal_impact_beside((1, 2), 2)[1] - normal_periodic_impact((1, 2))[1])
+    alpha**2*z2
+    """
+    start = normal_periodic_impact(flights) + state(z1, z2)
+    after = normal_impact_after(flights[:count]).xreplace({x: start[0], w: start[1]})
+    return state(*(lowest_terms(entry) for entry in after))
+
+
+@cache
+def normal_return_beside(flights: tuple[int, ...]) -> State:
+    """Where the flights lead from (z1, z2) beside the impact that they bring back, seen from it, in
+    normal form.
+
+    >>> normal_return_beside((1, 2)).T
+    Matrix([[alpha**2*z1 - 3*alpha**2*z2, alpha**2*z2]])
+    """
+    there = normal_impact_beside(flights, len(flights)) - normal_periodic_impact(flights)
+    return state(*(lowest_terms(entry).expand() for entry in there))

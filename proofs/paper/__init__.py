@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from juggleproof.proofs import part, sine, theorem
+from juggleproof.proofs import part, restitution, sine, theorem
 from juggleproof.proofs.claims import Claim, claims_in
 from juggleproof.symbolic.lazy import lazy_names
 
@@ -71,6 +71,7 @@ def modules_of_claims() -> list[str]:
     packages = (
         (__name__, SECTIONS),
         (theorem.__name__, theorem.SECTIONS),
+        (restitution.__name__, restitution.SECTIONS),
         (part.__name__, part.SECTIONS),
         (sine.__name__, sine.SECTIONS),
     )

@@ -347,8 +347,8 @@ def ceiling(constant: Fraction, factor: Fraction, square: Fraction) -> int:
 
 @dataclass(frozen=True)
 class Setting:
-    """The map in some coordinates: parameters, state, pieces and fixed points, and what the x, w
-    and units of the normal form are in them.
+    """The map in some coordinates: parameters, which of them are integers, state, pieces and fixed
+    points, and what the x, w and units of the normal form are in them.
     """
 
     parameters: tuple[Term, ...]
@@ -360,6 +360,7 @@ class Setting:
     other: Vector
     place: Vector
     units: tuple[Number, Number]
+    integers: tuple[Term, ...] = ()
 
     def here(self, thing: Placed) -> Placed:
         """A term or formula of the normal form in these coordinates."""
@@ -402,6 +403,7 @@ def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
         name,
         (
             ("over", spaced(setting.parameters)),
+            *((("integer", spaced(setting.integers)),) if setting.integers else ()),
             ("domain", setting.domain(of_alpha)),
             ("state", spaced(setting.state)),
             ("space", str(setting.space)),
@@ -484,8 +486,10 @@ def attracts(name: str, descent: str, contraction: str) -> MapRule:
     return MapRule(name, (("descent", descent), ("contraction", contraction)))
 
 
-def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
-    """The orbit of e_2, an impact and a flight by turns, does not tend to the fixed point."""
+def escapes(name: str, of: str, setting: Setting, of_alpha: Formula, word: str = "1 2") -> MapRule:
+    """The other orbit, by default that of e_2, an impact and a flight by turns, does not tend to
+    the fixed point.
+    """
     return MapRule(
         name,
         (
@@ -493,7 +497,7 @@ def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
             ("domain", setting.domain(of_alpha)),
             ("point", listed(setting.fixed)),
             ("start", listed(setting.other)),
-            ("word", "1 2"),
+            ("word", word),
         ),
         _terms(setting.fixed, setting.other),
     )

@@ -62,7 +62,7 @@ FLOORS = (
     ("certificates.search", "certificates.votes", "certificates.coq"),
     ("proofs.reading",),
     ("proofs",),
-    ("proofs.paper", "proofs.theorem", "proofs.part", "proofs.sine")
+    ("proofs.paper", "proofs.theorem", "proofs.restitution", "proofs.part", "proofs.sine")
     + ("proofs.smtlib", "proofs.ledger"),
     ("proofs.reports", "proofs.api"),
     ("proofs.command", "proofs.pytest_plugin", "proofs.pytest_items"),

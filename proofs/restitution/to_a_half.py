@@ -1,0 +1,109 @@
+"""For 1/3 < alpha <= 1/2 every orbit tends to that of e_1 or to that of e_2, but for four states at
+1/2.
+
+The map here leads by f from flights and from fast impacts, and from slow impacts by T_1, T_2 or T_3
+to the next one: by f, f^2 or f^3 (`restitution-flights`). Where one flight of 2 periods follows
+another all flights last 2 periods from then on; else all last 1 at last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from juggleproof.certificates.language import AnyStatement, Formula, conjunction, equal, term
+from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
+from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.restitution.impacts import from_here
+from juggleproof.proofs.theorem.definition import (
+    AT_IMPACTS,
+    IMPACT,
+    NORMAL,
+    PIECES,
+    SPEED,
+    Contraction,
+    Descent,
+    Setting,
+    contracts,
+    descends,
+    the_map,
+    tidied,
+    u,
+)
+from juggleproof.proofs.theorem.orbits import HERE, strikes
+from juggleproof.proofs.theorem.stability import is_none_of
+
+FAST = 5  # the closing speed from which on impacts are led on by f
+LONGEST = 3  # periods that a flight after a slower impact lasts
+BETWEEN = (3 * alpha > 1) & (2 * alpha < 1) & (1 - alpha > 0) & (1 + alpha > 0)
+HALF = equal(2 * alpha, 1) & (1 - alpha > 0) & (1 + alpha > 0)
+
+
+def flown(periods: int, start: Vector = HERE) -> Vector:
+    """T_K of the state for so many periods."""
+    return from_here(derived_vector("normal_impact_after", (periods,)), start)
+
+
+def lasts(periods: int, start: Vector = HERE) -> Formula:
+    """The flight after an impact lasts so many periods, or more if it is the longest."""
+    next_one = flown(periods, start)
+    above = [term(next_one.entries[0]) >= 0] if periods > 1 else []
+    return conjunction([*above, *([strikes(next_one)] if periods < LONGEST else [])])
+
+
+SLOW = IMPACT & (w < FAST)
+ONE = SLOW & lasts(1)
+TWO = SLOW & lasts(2)
+TWO_AND_TWO = TWO & lasts(2, flown(2))
+STRUCK, FLOWN = PIECES
+FROM_SLOW_IMPACTS = tuple((SLOW & lasts(K), flown(K)) for K in range(1, LONGEST + 1))
+SPED_UP = replace(NORMAL, pieces=((IMPACT & (w >= FAST), STRUCK[1]), *FROM_SLOW_IMPACTS, FLOWN))
+TO_ONE_OR_TWO = Descent(24 * u + (1 - w) / 2, (SLOW, ONE | TWO, ONE | TWO_AND_TWO), (SPEED,))
+
+
+def settles(claim_id: str, setting: Setting, of_alpha: Formula) -> list[AnyStatement]:
+    """The map, its descent to flights of 1 or of 2 periods for good, and the contractions there."""
+    here = f"{claim_id}/map"
+    return [
+        the_map("map", setting, of_alpha),
+        descends("descends", here, setting, of_alpha, TO_ONE_OR_TWO, AT_IMPACTS),
+        *(
+            contracts(
+                f"e-{K}",
+                here,
+                replace(setting, fixed=tidied("normal_impact_fixed_point", K=K)),
+                of_alpha,
+                Contraction(
+                    on,
+                    (2 * K * alpha / (1 - alpha), term(1)),
+                    (1 + alpha) / 2,
+                    (1 - alpha) * (alpha * (K + 1) - (K - 1)) / 20,
+                    term(20),
+                ),
+            )
+            for K, on in ((1, ONE), (2, TWO_AND_TWO))
+        ),
+    ]
+
+
+@claim("restitution-to-a-half", "restitution", "1/3 < alpha < 1/2", parameters=())
+def every_orbit_tends_to_one_of_two_between_a_third_and_a_half() -> list[AnyStatement]:
+    """For 1/3 < alpha < 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1
+    in the one, to that of e_2 in the other; both are stable.
+
+    The orbits are those of the map that leads by f^K from a slow impact to the next one, and by f
+    from all other states.
+    """
+    return settles("restitution-to-a-half", SPED_UP, BETWEEN)
+
+
+EXCEPTIONS = tuple(Vector((j * (LONGEST - j), LONGEST + 1 - 2 * j)) for j in range(LONGEST + 1))
+
+
+@claim("restitution-half", "restitution", "alpha = 1/2", parameters=())
+def every_orbit_but_four_tends_to_one_of_two_at_a_half() -> list[AnyStatement]:
+    """At alpha = 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1 in the
+    one, to that of e_2 in the other, but those of four states: the orbit of e_3, and what flies to
+    it. The orbits are those of the map of `restitution-to-a-half`.
+    """
+    others = replace(SPED_UP, space=SPED_UP.space & is_none_of(*EXCEPTIONS))
+    return settles("restitution-half", others, HALF)

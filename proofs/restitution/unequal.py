@@ -1,0 +1,162 @@
+"""An orbit of 12 unequal flights, 26 periods: the restitutions for which it exists, and a box that
+it attracts.
+
+Where it exists, not every orbit tends to some e_K: an e_K has flights of one length. The linear
+part of 12 flights is alpha^12 times a shear, so that the orbit attracts wherever its impacts have
+room to spare; at either end of its range one impact has none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from sympy import factor_list, fraction, together
+
+from juggleproof import symbolic
+from juggleproof.certificates.language import (
+    AnyStatement,
+    Formula,
+    Statement,
+    conjunction,
+    equal,
+    reals,
+    term,
+)
+from juggleproof.proofs.paper.derivations import Origin, made_by
+from juggleproof.proofs.paper.names import alpha, always, at, claim, equals
+from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.restitution.impacts import is_impact
+from juggleproof.proofs.theorem.definition import (
+    NORMAL,
+    WHOLE,
+    Contraction,
+    contracts,
+    escapes,
+    positive,
+    the_map,
+    tidy,
+)
+from juggleproof.proofs.theorem.orbits import strikes
+
+FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods
+PERIODS, COUNT = sum(FLIGHTS), len(FLIGHTS)
+BORN, DIES = 8, 9  # the numbers of flights after which the impacts come that end its range
+z1, z2 = reals("z1 z2")
+SPACED = [alpha > Fraction(73, 100), alpha < Fraction(31, 40)]
+WIDER = [alpha > Fraction(7286, 10000), alpha < Fraction(7765, 10000)]  # both ends lie here
+RADIUS = term(Fraction(1, 2000))
+WEIGHTS = (term(PERIODS), term(1))
+SMALL = conjunction(
+    [
+        part
+        for name, weight in zip((z1, z2), WEIGHTS)
+        for part in (name <= weight * RADIUS, -weight * RADIUS <= name)
+    ]
+)
+
+
+RANGE = conjunction(SPACED) & WHOLE
+
+
+def derived_along(name: str, *arguments: int) -> Vector:
+    """A derived state along the flights, in lowest terms."""
+    column = getattr(symbolic, name)(FLIGHTS, *arguments)
+    origin = Origin(name, (FLIGHTS, *arguments))
+    found: Vector = made_by(origin, Vector(tuple(map(tidy, column))))
+    return found
+
+
+START = derived_along("normal_periodic_impact")
+
+
+def beside(count: int) -> Vector:
+    """The impact after so many flights, from (z1, z2) beside the start."""
+    return derived_along("normal_impact_beside", count)
+
+
+def on_the_orbit(count: int) -> Vector:
+    """The impact after so many flights from the start."""
+    found: Vector = at(beside(count), {"z1": term(0), "z2": term(0)})
+    return found
+
+
+def above(state: Vector) -> Formula:
+    """The state is one of H."""
+    return term(state.entries[0]) >= 0
+
+
+def divides() -> Formula:
+    """The denominators of the start are not 0: each of their factors has a sign."""
+    found = RANGE
+    for entry in symbolic.normal_periodic_impact(FLIGHTS):
+        for factor, _ in factor_list(fraction(together(entry))[1])[1]:
+            sign = 1 if factor.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
+            found = found & positive(sign * factor)
+    return found
+
+
+DOMAIN = divides()
+BESIDE = replace(
+    NORMAL,
+    state=(z1, z2),
+    space=SMALL,
+    pieces=((equal(term(0), 0), derived_along("normal_return_beside")),),
+    fixed=Vector((0, 0)),
+    place=Vector((z1, z2)),
+)
+CLOSER = Contraction(equal(term(0), 0), WEIGHTS, 2 * alpha**COUNT, RADIUS, RADIUS)
+WORD = " ".join("1" + " 2" * (periods - 1) for periods in FLIGHTS)
+
+
+@claim("restitution-unequal", "restitution", "12 unequal flights", parameters=())
+def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
+    """For 73/100 < alpha < 31/40 an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and
+    repeats itself; every impact within 13/1000 in x and 1/2000 in w of its first has these flights
+    too, and comes 2 alpha^12 times nearer to it, weighted, with every 12.
+    """
+    return [
+        the_map("f", NORMAL, DOMAIN),
+        escapes("comes-back", "restitution-unequal/f", replace(NORMAL, other=START), DOMAIN, WORD),
+        always(
+            equals(
+                START, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))
+            ),
+            in_range=[equal(alpha, Fraction(3, 4))],
+            label="at-three-quarters",
+        ),
+        *(
+            always(is_impact(beside(count)), given=[SMALL], in_range=WIDER, label=f"impact-{count}")
+            for count in range(COUNT)
+            if count not in (BORN, DIES)
+        ),
+        always(
+            strikes(beside(BORN)) & above(beside(DIES)),
+            given=[SMALL],
+            in_range=WIDER,
+            label="half-of-two",
+        ),
+        always(
+            above(beside(BORN)) & strikes(beside(DIES)),
+            given=[SMALL],
+            in_range=SPACED,
+            label="other-half",
+        ),
+        the_map("map", BESIDE, RANGE),
+        contracts("contracts", "restitution-unequal/map", BESIDE, RANGE, CLOSER),
+    ]
+
+
+@claim("restitution-unequal-ends", "restitution", "where that orbit exists", parameters=("alpha",))
+def two_of_its_impacts_end_the_range_of_the_orbit() -> list[Statement]:
+    """The impact after 8 of the flights is above the table, and that after 9 a collision, for
+    73/100 < alpha < 31/40; the ends of the sharp range are algebraic numbers, 0.7286.. and 0.7764..
+
+    Between 0.7286 and 0.7765 the orbit's other conditions hold, by `restitution-unequal`: it exists
+    just on that range.
+    """
+    return [
+        always(
+            above(on_the_orbit(BORN)) & strikes(on_the_orbit(DIES)), in_range=SPACED, label="both"
+        )
+    ]

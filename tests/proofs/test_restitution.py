@@ -1,0 +1,145 @@
+"""The claims on restitutions from 1/3 on: what they say of exact orbits, and that they are lost
+without any of their hypotheses.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import term
+from juggleproof.certificates.search.certificate import search_certificate
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.work import Budget
+from juggleproof.proofs.forms import read
+from juggleproof.proofs.judgement import DEFAULT_BUDGET
+from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
+from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
+from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START
+from juggleproof.proofs.theorem.definition import holds_at, value_of
+from juggleproof.proofs.theorem.orbits import State, step
+
+STORE = Store(DEFAULT)
+TEXTS = {name: text for name, text in STORE.texts.items() if name.startswith("restitution-")}
+KNOWN = checker.read_statements("\n\n".join(TEXTS.values()))
+# (statement, what is changed in it, into what): each is false
+FALSE = {
+    "as-it-begins": ("restitution-e-K-none/no-two-flights", "(K + 1) < K - 1", "(K + 1) <= K - 1"),
+    "beyond": ("restitution-e-K/impacts", "/(4*(1", "/(1*(1"),
+    "elastic": ("restitution-flights/in-flight-between", "n <= K - 2", "n <= K - 1"),
+    "whole": ("restitution-e-K-begins/impacts-that-lead-to-it", "integer K n", "integer K"),
+    "below-the-table": ("restitution-e-K-begins/flights-that-lead-to-it", "given 0 <= x\n", ""),
+    "too-large": ("restitution-unequal/other-half", "1/2000", "1/100"),
+    "too-early": ("restitution-unequal/other-half", "alpha > 73/100", "alpha > 72/100"),
+    "too-late": ("restitution-unequal-ends/both", "alpha < 31/40", "alpha < 32/40"),
+}
+# (map rule, what is changed in it, into what): its certificate serves no more
+WEAKENED = [
+    ("restitution-e-K/contracts", "K - 1 < alpha*(K + 1)", "K - 1 <= alpha*(K + 1)"),
+    ("restitution-e-K/map", "alpha < 1 and ", "alpha < 2 and "),
+    ("restitution-e-K/contracts", "rate (1 + alpha)/2", "rate alpha"),
+    ("restitution-e-K/contracts", "size (1 - alpha)", "size (1/2 - alpha)"),
+    ("restitution-e-K/contracts", "point (", "point 1 + ("),
+    ("restitution-to-a-half/map", "w >= 5", "w >= 6"),
+    ("restitution-to-a-half/descends", "2*alpha < 1", "2*alpha <= 1"),
+    ("restitution-to-a-half/descends", "rank 24*u", "rank u"),
+    ("restitution-to-a-half/e-2", "3*alpha > 1", "3*alpha >= 1"),
+    ("restitution-half/map", " and (x - 0)^2 + (w - (-2))^2 > 0", ""),
+    ("restitution-unequal/comes-back", "word 1 1 1 2", "word 1 1 2 1"),
+    ("restitution-unequal/comes-back", "alpha > 73/100", "alpha > 72/100"),
+    ("restitution-unequal/contracts", "rate 2*alpha^12", "rate alpha^12"),
+]
+
+
+def outcome(name: str, text: str) -> str:
+    """The checker's, of this text with the certificate that is stored for the statement."""
+    statement = checker.read_statements(text)[name]
+    return checker.check_one(statement, STORE.certificate(name, TEXTS[name]), dict(KNOWN), {})[0]
+
+
+def state_at(alpha: Fraction, place: Vector, **more: Fraction | int) -> State:
+    """The state of this place, a vector of alpha and of what is given."""
+    point = {"alpha": alpha, **{name: Fraction(value) for name, value in more.items()}}
+    x, w = (value_of(term(entry), point) for entry in place.entries)
+    return State(alpha, x, w)
+
+
+def flights(state: State, count: int) -> tuple[tuple[int, ...], State]:
+    """The periods of the next flights from an impact on, and the impact after them."""
+    lengths: list[int] = []
+    for _ in range(count):
+        assert state.strikes and state.x >= 0
+        state, periods = step(state), 1
+        while not state.strikes:
+            state, periods = step(state), periods + 1
+        lengths.append(periods)
+    return tuple(lengths), state
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_claims_on_restitution_fail_without_a_hypothesis(name: str) -> None:
+    statement, old, new = FALSE[name]
+    assert old in TEXTS[statement]
+    changed = read(TEXTS[statement].replace(old, new), statement)
+    found = search_certificate(changed, {}, Budget(DEFAULT_BUDGET))
+    assert checker.check_one(changed, found, {}, {})[0] == "refuted"
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"), WEAKENED, ids=[f"{name}: {new.strip()}" for name, _, new in WEAKENED]
+)
+def test_rejects_a_weakened_map_rule(name: str, old: str, new: str) -> None:
+    assert old in TEXTS[name]
+    assert outcome(name, TEXTS[name]) == "certified"
+    assert outcome(name, TEXTS[name].replace(old, new)) == "rejected"
+
+
+@pytest.mark.parametrize(("K", "above"), [(1, 9), (2, 1000), (3, 3), (5, 2)])
+def test_the_box_of_a_fixed_point_is_followed_by_exact_orbits_holds(K: int, above: int) -> None:
+    least = Fraction(K - 1, K + 1)
+    alpha = least + (1 - least) / above
+    centre = state_at(alpha, THERE, K=K)
+    assert flights(centre, 1) == ((K,), centre)
+    radius = (1 - alpha) * (alpha * (K + 1) - (K - 1)) / (4 * (1 + alpha) ** 2)
+    wide = radius * value_of(WEIGHTS[0], {"alpha": alpha, "K": Fraction(K)})
+    for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+        corner = State(alpha, centre.x + left * wide, centre.w + down * radius)
+        assert holds_at(BOX, {**corner.point(), "K": Fraction(K)})
+        lengths, after = flights(corner, 3)
+        assert lengths == (K, K, K)
+        assert abs(after.w - centre.w) == alpha**3 * radius
+
+
+@pytest.mark.parametrize("K", [2, 3, 7])
+def test_states_that_lead_to_a_fixed_point_where_it_begins_holds(K: int) -> None:
+    alpha = Fraction(K - 1, K + 1)
+    orbit = [state_at(alpha, before(term(periods)), K=K) for periods in range(K + 1)]
+    assert orbit[0] == state_at(alpha, THERE, K=K)
+    assert step(orbit[0]) == orbit[K - 1]
+    assert [step(state) for state in orbit[1:]] == orbit[:-1]
+
+
+def test_every_orbit_tends_to_one_of_two_fails_without_the_exceptions() -> None:
+    half = Fraction(1, 2)
+    states = [state_at(half, place) for place in EXCEPTIONS]
+    assert flights(states[0], 2) == ((3, 3), states[0])
+    last = TO_ONE_OR_TWO.stages[-1]
+    assert not any(holds_at(last, state.point()) for state in states)
+    near = State(half, states[0].x + Fraction(1, 100), states[0].w)
+    assert 3 not in flights(near, 8)[0][1:]
+
+
+def test_orbit_of_unequal_flights_comes_back_holds() -> None:
+    alpha = Fraction(3, 4)
+    start = state_at(alpha, START)
+    assert flights(start, len(FLIGHTS)) == (FLIGHTS, start)
+    for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+        away = Fraction(1, 2000)
+        corner = State(alpha, start.x + left * PERIODS * away, start.w + down * away)
+        lengths, after = flights(corner, len(FLIGHTS))
+        assert lengths == FLIGHTS
+        assert abs(after.w - start.w) == alpha**12 * away
+        assert abs(after.x - start.x) <= 2 * alpha**12 * PERIODS * away
