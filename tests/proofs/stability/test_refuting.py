@@ -24,6 +24,10 @@ NO_FIXED_POINT = "no state of the space is a fixed point"
 CYCLE = "over a\ndomain {}\nstate i\npiece i <= 0 -> i + 1\npiece i > 0 -> 1 - a*i"
 BALL = "over r\ndomain 0 < r and r < 1\nstate v t\nspace v >= 0 and t >= 0\npiece r*v, {}"
 TENT = "over m\ndomain 0 < m and m < {}\nstate x\nspace 0 <= x and x <= 1\npiece m*min(x, 1 - x)"
+INVENTORY = (
+    "over b k\ndomain 0 < b and b < 1 and 0 < k and k < 1 and {}\nstate y z\n"
+    "piece (2 + k)*b*y - (1 + k)*b*z + 1, y"
+)
 PHASE = "state x\npiece x < 0 -> x + {}\npiece x >= 0 -> x - 1/3"
 SLOPE = "over b\ndomain 1/2 <= b and b <= 1\nstate x\n" + "\n".join(
     [
@@ -46,6 +50,19 @@ SETTLED = {  # name: (text, first line)
         "over a b\ndomain 0 < a and a < 1 and 0 < b and b < 1\nstate x y\n"
         "piece (1 - a)*x + a*y, (1 - b)*y + b*x",
         "refuted  plane-of-two-rates: (0, 0) does not attract (1/2, 1/2), which is a fixed point",
+    ),
+    "focus": (  # L. A. Metzler, Review of Economics and Statistics 23, 1941
+        INVENTORY.format("b*(1 + k) > 1"),
+        "refuted  focus: (-1/(b - 1), -1/(b - 1)) is not stable",
+    ),
+    "no-focus": (
+        INVENTORY.format("b*(1 + k) < 1"),
+        f"proved   no-focus: (-1/(b - 1), -1/(b - 1)) {STABLE}",
+    ),
+    "quotient-in-a-guard": (  # of a divisor that is not 0 on the closed space
+        "over h\ndomain 0 < h and h < 1\nstate x\nspace x >= 0\npiece max(0, 4*x/(1 + x) - h)",
+        "refuted  quotient-in-a-guard: ((-h + sqrt(h^2 - 10*h + 9) + 3)/2) does not attract 0,"
+        " which is a fixed point",
     ),
     "no-line": (BALL.format("t/2 + v"), f"proved   no-line: (0, 0) {STABLE}"),
     "rotation": (
