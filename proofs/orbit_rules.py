@@ -586,9 +586,16 @@ MORE = 10  # times the budget that is proposed
 
 
 def why(
-    kind: str, name: str, premise: checker.Statement, answer: tuple[Vote, Model | None], budget: int
+    kind: str,
+    name: str,
+    premise: checker.Statement,
+    answer: tuple[Vote, Model | None],
+    budget: int,
+    cut: bool = True,
 ) -> str:
-    """A line on a premise for which no proof was found within the budget, from Z3's answer."""
+    """A line on a premise for which no proof was found within the budget, from Z3's answer; `cut`:
+    whether it was the budget that ended the search.
+    """
     vote, model = answer
     about = f"{name}, {meaning(kind, name)}:"
     if model is not None:
@@ -601,6 +608,8 @@ def why(
     if vote.answer == "fails":
         return f"{about} Z3 says that it is false"
     says = "Z3 says that it holds" if vote.answer == "holds" else "Z3 gives no answer"
+    if not cut:
+        return f"{about} {says}; no certificate was found, and not for want of budget"
     return (
         f"{about} {says}; no certificate was found within the budget: try --budget"
         f" {MORE * budget}, or a lemma"

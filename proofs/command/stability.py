@@ -94,6 +94,8 @@ def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
     if found.tried and (tried or found.verdict == "unknown"):
         yield "tried"
         yield from (textwrap.indent(line, "  ") for line in found.tried)
+    if HEADS[found.verdict] in ("unknown", "in part") and system.parameters and texts:
+        yield f"advice   with numbers in place of {', '.join(system.parameters)} more may be found"
     size = len(certificate_lines(found.proof.certificates))
     count = f"{len(texts)} statement{'' if len(texts) == 1 else 's'}"
     yield f"checked  {count}, {size} bytes of certificates"

@@ -45,6 +45,8 @@ class Proof:
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
     work: int = 0  # that was spent on premises
     most: int = MOST_WORK  # of it
+    # premises without a proof: the largest budget, and whether the search ended for want of it
+    sought: dict[str, tuple[int, bool]] = field(default_factory=dict)
 
     def add(
         self,
@@ -136,32 +138,44 @@ class Proof:
         if self.open is None:
             return ""
         kind, name, premise = self.open
-        line = why(kind, name, premise, vote_and_model(premise), self.budget)
+        _, cut = self.sought.get(premise.text(), (0, True))
+        line = why(kind, name, premise, vote_and_model(premise), self.budget, cut)
         return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
     ) -> Premise | None:
         """A proof of one premise, if one is found."""
+        found, cut = self.proof_and_end(premise, efforts, budget)
+        text = premise.text()
+        if found is None and budget >= self.sought.get(text, (0, True))[0]:
+            self.sought[text] = budget, cut
+        return found
+
+    def proof_and_end(
+        self, premise: checker.Statement, efforts: Sequence[int], budget: int
+    ) -> tuple[Premise | None, bool]:
+        """The same, and whether the search ended for want of budget."""
         if terms_of_pairs(premise) // 16 > budget:
-            return None  # the first program would be too large
+            return None, True  # the first program would be too large
+        cut = False
         for count, effort in enumerate(efforts):
             if self.work >= self.most:
-                return None
+                return None, True
             asked = count == 1 and budget >= LONG_SEARCH
             if asked and vote_and_model(premise, budget=QUICK)[1] is not None:
-                return None
+                return None, False
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
             part, proof = Budget(budget), None
             try:
                 proof = search_proof(premise, self.known, part, effort=effort)
             except Exhausted:
-                pass
+                cut = True
             self.work += (budget - part.left) * (SQUARES_COST if effort == SQUARED else 1)
             if proof is not None:
-                return proof
-        return None
+                return proof, cut
+        return None, cut
 
 
 def terms_of_pairs(premise: checker.Statement) -> int:

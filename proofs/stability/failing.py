@@ -11,6 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import term_of
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
 from juggleproof.proofs.stability.entering import entering_rules
@@ -19,7 +20,6 @@ from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Map,
-    checker_text,
     conjunction,
     conjuncts,
     negation,
@@ -48,7 +48,7 @@ def complement(conditions: str) -> list[str]:
     for condition in conjuncts(conditions):
         node = checker.parse(condition)
         if isinstance(node, ast.Compare) and not node.ops[1:] and type(node.ops[0]) in COMPLEMENTS:
-            left, right = checker_text(node.left), checker_text(node.comparators[0])
+            left, right = term_of(node.left), term_of(node.comparators[0])
             parts += [f"{left} {op} {right}" for op in COMPLEMENTS[type(node.ops[0])].split()]
         else:
             parts.append(f"not ({condition})")
@@ -119,7 +119,8 @@ def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], lo
             return ""
         fault = proof.add(rule)
         said = dict(rule.rows)
-        log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
+        roots = "".join(f", {text}" for keyword, text in rule.rows if keyword == "root")
+        log(f"orbit of {said['start']}{roots}, along {said['word']}: {fault or 'certified'}")
         if not fault:
             what = "periodic" if " " in said["word"] else "a fixed point"
             return f"does not attract {in_brackets(said['start'])}, which is {what}"
@@ -145,6 +146,8 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
     name = proof.free_name(f"{setting.system.name}/unstable")
     before = proof.work
     found = list(islice(rules(setting, name), MOST_RATES))
+    if not found:
+        log("no function grows at all samples close to the point")
     for efforts, budget in GROWTH_ROUNDS:
         for rule in found:
             if proof.work - before > GROWTH_WORK:

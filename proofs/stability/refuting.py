@@ -44,6 +44,7 @@ SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked
 MOST_TRIED = 12  # words whose orbits are sought in exact terms
 MOST_TERMS = 60  # of equations in several variables; elimination has no other bound
 SINGULAR = 1e-9
+ROUNDING = 1e-3  # of a growth
 MOST_SOLUTIONS = 9  # of the equations, by Bezout's bound
 
 
@@ -221,14 +222,22 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
 
 
 def _radii(setting: Setting, more: str) -> list[str]:
-    return ["1", "1/4", "1/16", *(text for text, _ in setting.products[1:4]), f"({more})/4"]
+    return [
+        "1",
+        "1/4",
+        "1/16",
+        *(text for text, _ in setting.products[1:4]),
+        f"({more})/4",
+        f"({more})/16",
+    ]
 
 
 def grows(setting: Setting, more: str) -> Callable[[str], bool]:
     """Whether the square of the distance grows by more than 1 + more at samples, up to a radius."""
     system, known = setting.system, setting.constants
     (state,) = system.state
-    rate = 1 + column(more, known, setting.count)
+    faster = column(more, known, setting.count)
+    digits = np.finfo(float).eps * np.abs(known[f"{state}_point"])
 
     def fits(radius: str) -> bool:
         reach = column(radius, known, setting.count)
@@ -238,8 +247,9 @@ def grows(setting: Setting, more: str) -> Callable[[str], bool]:
             inside = np.broadcast_to(holds(system.space, points), gap.shape)
             points |= {f"{state}_gap": gap}
             with np.errstate(all="ignore"):
-                less = after(system, points)[f"{state}_gap"] ** 2 < rate * gap**2
-            if (less & inside).any():
+                less = after(system, points)[f"{state}_gap"] ** 2 < (1 + faster) * gap**2
+            # of smaller distances rounding leaves no growth to see
+            if (less & inside & (digits < ROUNDING * faster * np.abs(gap))).any():
                 return False
         return True
 

@@ -15,6 +15,7 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import bounds_of
 from juggleproof.proofs.stability.given import (
     Expr,
@@ -126,6 +127,11 @@ def with_licences(system: Map) -> Map:
     domain, pieces = system.domain, []
     for guard, images in system.pieces:
         terms = []
+        known = conjunction(domain, system.space)
+        every = {one: licence(one, known) for one in divisors_of(guard, system.state)}
+        needed = {divisor: fact for divisor, fact in every.items() if fact}
+        if needed:
+            guard = conjunction(*needed.values(), multiplied_out(guard, needed))
         for image in images:
             above, below = sympy.fraction(sympy.together(expression(image)))
             _, divisors = sympy.factor_list(below)
@@ -140,6 +146,46 @@ def with_licences(system: Map) -> Map:
                     domain = conjunction(domain, licence(divisor, domain))
         pieces.append((guard, tuple(terms)))
     return replace(system, domain=domain, pieces=tuple(pieces))
+
+
+def divisors_of(formula: str, state: Sequence[str]) -> list[Expr]:
+    """The factors with a variable of the state of all that a formula divides by."""
+    found = []
+    for node in ast.walk(checker.parse(formula)):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+            below = sympy.numer(sympy.together(expression(checker_text(node.right))))
+            found += [one for one, _ in sympy.factor_list(below)[1]]
+    return [one for one in dict.fromkeys(found) if one.free_symbols & set(symbols(state))]
+
+
+def multiplied_out(formula: str, facts: Mapping[Expr, str]) -> str:
+    """The formula with each comparison multiplied by these divisors, of which each fact says that
+    one is > 0 or < 0, or by the squares of those that are not 0.
+
+    >>> x = sympy.Symbol("x", real=True)
+    >>> multiplied_out("not 4*x/(1 + x) <= 2", {x + 1: "x + 1 > 0"})
+    'not 2*x - 2 <= 0'
+    >>> multiplied_out("1/x > 1", {x: "x != 0"})
+    'x*(1 - x) > 0'
+    """
+
+    class Put(ast.NodeTransformer):
+        def visit_Compare(self, node: ast.Compare) -> ast.AST:
+            sides = [expression(checker_text(side)) for side in (node.left, *node.comparators)]
+            parts: list[ast.expr] = []
+            for op, left, right in zip(node.ops, sides, sides[1:]):
+                term = sympy.together(left - right)
+                for divisor, power in sympy.factor_list(sympy.denom(term))[1]:
+                    positive, strict, _ = facts.get(divisor, "").rpartition(" > ")
+                    if strict:
+                        term *= expression(positive) ** power
+                    elif divisor in facts:
+                        term *= divisor ** (power + power % 2)
+                above = checker.parse(written(sympy.cancel(term)))
+                parts.append(ast.Compare(above, [op], [ast.Constant(0)]))
+            return parts[0] if len(parts) == 1 else ast.BoolOp(ast.And(), parts)
+
+    return str(formula_of(Put().visit(checker.parse(formula))))
 
 
 def divides(term: str) -> bool:

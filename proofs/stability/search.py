@@ -4,7 +4,7 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -30,6 +30,7 @@ from juggleproof.proofs.stability.failing import (
     WAYS,
     by_growth,
     by_orbit,
+    complement,
     in_brackets,
     outsides,
     parts_refuted,
@@ -54,6 +55,7 @@ from juggleproof.proofs.stability.samples import (
 )
 from juggleproof.proofs.stability.settings import setting_of
 
+HEAD = "fixed point "  # of the lines on what was tried for one
 MOST_REFUTED = 3  # fixed points
 LOCAL_TRIED = 3  # statements of states close to a point
 SAMPLES = 1000  # states, at which pieces apply that are not empty
@@ -102,7 +104,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     lines: list[str] = []
 
     def log(text: str) -> None:
-        lines.append(text)
+        note(lines, text)
         report(text)
 
     fault = proof.add(system.rule(f"{system.name}/map"))
@@ -142,7 +144,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                 proof.most = proof.work + left  # for the open condition, or what is outside
                 if found:
                     return Outcome(proof, *found, lines)
-        log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
+        log(head_of(fixed, split))
         found = settled(proof, system, fixed, split, given, log)
         if found:
             return Outcome(proof, *found, lines)
@@ -152,6 +154,7 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     ways = (by_growth, by_orbit) if len(every) > 1 else WAYS
     for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
+            log(head_of(fixed))
             setting = setting_of(system, fixed, system.domain)
             fault = refuted(proof, setting, log, ways)
             if fault:
@@ -162,7 +165,9 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
-            inner = conjunction(system.domain, *narrowed(system, fixed, parameters))
+            split = narrowed(system, fixed, parameters)
+            log(head_of(fixed, split))
+            inner = conjunction(system.domain, *split)
             middle = conjunction(inner, *middle_of(system, inner))
             for domain in dict.fromkeys((inner, middle)):
                 setting = setting_of(system, fixed, domain)
@@ -173,6 +178,20 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                     sentence = f"{near}; of other states nothing was found"
                     return Outcome(proof, "region", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
+
+
+def note(lines: list[str], text: str) -> None:
+    """Adds a line on what was tried, once for each fixed point.
+
+    >>> lines: list[str] = []
+    >>> for text in ("fixed point 0", "V = x", "V = x", "fixed point 1", "V = x"):
+    ...     note(lines, text)
+    >>> lines
+    ['fixed point 0', 'V = x', 'fixed point 1', 'V = x']
+    """
+    heads = [k for k, line in enumerate(lines) if line.startswith(HEAD)]
+    if text not in lines[heads[-1] if heads else 0 :]:
+        lines.append(text)
 
 
 def without_empty_pieces(system: Map) -> Map:
@@ -225,6 +244,12 @@ def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) 
             on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
             return f"{at}{name} is stable, and attracts every state with {on}"
     return ""
+
+
+def head_of(fixed: FixedPoint, split: Sequence[str] = ()) -> str:
+    """The line above what was tried for a fixed point, with the roots in it and the conditions."""
+    roots = [f", {name} = sqrt({under})" for name, under in fixed.point.roots]
+    return f"{HEAD}{name_of(fixed)}{''.join(roots)}" + "".join(f", where {one}" for one in split)
 
 
 def name_of(fixed: FixedPoint) -> str:
@@ -302,4 +327,26 @@ def settled(
     if not kinds and not licences and not proof.add(without_fixed_point(outside)):
         sentence = f"{name} is stable and attracts every state where {where}"
         return "exactly", f"{sentence}; elsewhere no state of the space is a fixed point"
-    return "stable", f"{name} is stable and attracts every state at least where {where}"
+    sentence = f"{name} is stable and attracts every state at least where {where}"
+    inside = beyond(system.domain, setting.domain, system.parameters)
+    return "stable", "; ".join([sentence, *said_outside(proof, system, fixed, inside, log)])
+
+
+def said_outside(
+    proof: Proof, system: Map, fixed: FixedPoint, inside: str, log: Report
+) -> Iterator[str]:
+    """Of each part of the domain outside of these conditions that has parameters, how the point
+    fails there, or that nothing is known; nothing where it is not known to fail on any part.
+    """
+    lines, known = [], False
+    for part in complement(inside) if inside else []:
+        setting = setting_of(system, fixed, conjunction(system.domain, part))
+        if setting.count:
+            fault = refuted(proof, setting, log, WAYS)
+            if fault:
+                more = beyond(conjunction(system.domain, part), proof.domain(), system.parameters)
+                lines.append(f"where {conjunction(part, more)}, it {fault}")
+                known = True
+            else:
+                lines.append(f"where {part}, nothing is known")
+    yield from lines if known else []

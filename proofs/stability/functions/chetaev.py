@@ -17,6 +17,7 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     Template,
@@ -47,6 +48,7 @@ EACH = 60  # states at each of the parameters
 SMALL = 1e-4  # distance at which the higher terms do not count
 HALVINGS = 12  # of the radius, from 1
 GRID = 3  # directions have coordinates that are multiples of 1/GRID
+ROUNDING = 1e-8  # of a distance, by the digits of the point, beyond which samples say nothing
 SHARE = 0.5  # of the growth that samples leave
 
 
@@ -57,8 +59,41 @@ def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     multipliers = np.abs(np.linalg.eigvals(derivatives(setting))).max(axis=1)
     if multipliers.min() <= 1:
         return
+    for function, more in rotations(setting):
+        yield from _rules(setting, function, name, more)
     for function in functions(setting):
         yield from _rules(setting, function, name)
+
+
+def derivative(setting: Setting) -> sympy.Matrix:
+    """The derivative at the point, in the parameters."""
+    system = setting.system
+    state = symbols(system.state)
+    at = symbols([f"{one}_point" for one in system.state])
+    if not setting.have:
+        at = [expression(term) for term in setting.point.terms]
+    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
+    return matrix.subs(dict(zip(state, at)), simultaneous=True)
+
+
+def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
+    """Of two variables, the area W(g) = g x A g that a distance g spans with its image under the
+    derivative A: W(A g) = det(A) W(g), so that it grows, as of an unstable focus, where det(A) > 1;
+    and det(A) - 1, if the map is affine, else nothing.
+    """
+    system = setting.system
+    if len(system.state) != 2 or (np.linalg.det(derivatives(setting)) <= 1).any():
+        return
+    gaps, matrix = symbols([f"{one}_gap" for one in system.state]), derivative(setting)
+    affine = len(system.pieces) == 1 and is_affine(system)
+    more = written(sympy.factor(matrix.det() - 1)) if affine else ""
+    first, second = matrix * sympy.Matrix(gaps)
+    area = sympy.Poly(gaps[0] * second - gaps[1] * first, *gaps)
+    for sign in (1, -1):
+        terms = [
+            sign * sympy.factor(part) * gaps[0] ** n * gaps[1] ** m for (n, m), part in area.terms()
+        ]
+        yield Function((" + ".join(as_factor(written(one)) for one in terms),)), more
 
 
 def cone_functions(setting: Setting) -> Iterator[Function]:
@@ -67,13 +102,12 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
     and the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
     """
     system, count = setting.system, setting.count
-    state = symbols(system.state)
-    at = symbols([f"{one}_point" for one in system.state])
-    if not setting.have:
-        at = [expression(term) for term in setting.point.terms]
-    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
-    matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
-    gaps, size, slopes = [f"{one}_gap" for one in system.state], len(state), derivatives(setting)
+    matrix = derivative(setting)
+    gaps, size, slopes = (
+        [f"{one}_gap" for one in system.state],
+        len(system.state),
+        derivatives(setting),
+    )
     for z, (first, *rest) in itertools.product((1, -1), itertools.product((1, -1), repeat=size)):
         signs = sympy.Matrix([[first, *rest]])
         turned = z * slopes * np.outer([first, *rest], [first, *rest])
@@ -122,7 +156,9 @@ def functions(setting: Setting) -> Iterator[Function]:
 
 
 def states(setting: Setting, radius: Floats) -> Arrays:
-    """States of the space within the radius, (count,), of the point, for each parameter."""
+    """States of the space within the radius, (count,), of the point, for each parameter, but those
+    at which the point is so far that distances are lost in rounding.
+    """
     system = setting.system
     rng = np.random.default_rng(SEED + 2)
     which = np.repeat(np.arange(setting.count), EACH)
@@ -136,6 +172,8 @@ def states(setting: Setting, radius: Floats) -> Arrays:
     points["which"] = which.astype(float)
     with np.errstate(all="ignore"):
         inside = np.broadcast_to(holds(system.space, points), (len(which),))
+    size = np.max([np.abs(points[f"{name}_point"]) for name in system.state], axis=0)
+    inside = inside & (np.finfo(float).eps * size <= ROUNDING * radius[which])
     return {name: values[inside] for name, values in points.items()}
 
 
@@ -180,21 +218,25 @@ def _direction(setting: Setting, function: Function) -> tuple[Fraction, ...] | N
     return best
 
 
-def _rules(setting: Setting, function: Function, name: str) -> Iterator[MapRule]:
-    """The statements for one function: a direction, a radius and a rate that samples allow."""
+def _rules(setting: Setting, function: Function, name: str, exact: str = "") -> Iterator[MapRule]:
+    """The statements for one function: a direction, a radius and a rate that samples allow, or the
+    rate 1 + `exact` of a linear map.
+    """
     growth = _growth(setting, function, np.full(setting.count, SMALL))
-    excess = np.minimum(growth - 1, 4.0) * SHARE
     direction = _direction(setting, function)
     if direction is None:
         return
-    for _, more in bounded_below(excess, setting.products, 1):
+    rates = [(0.0, exact)]
+    if not exact:
+        rates = bounded_below(np.minimum(growth - 1, 4.0) * SHARE, setting.products, 1)
+    for _, more in rates:
         rate = 1 + np.broadcast_to(value(more, setting.constants), (setting.count,))
         largest = np.zeros(setting.count)
         for power in range(HALVINGS):
             radius = np.full(setting.count, 0.5**power)
-            fits = (_growth(setting, function, radius) >= rate) & _inside(
-                setting, direction, radius
-            )
+            fits = _inside(setting, direction, radius)
+            if not exact:
+                fits = fits & (_growth(setting, function, radius) >= rate)
             largest = np.where(fits & (largest == 0), radius, largest)
         for _, radius_text in bounded_below(largest, setting.products, 2):
             curve = [

@@ -15,6 +15,7 @@ from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof
 from juggleproof.proofs.stability.failing import is_fixed
 from juggleproof.proofs.stability.given import read_rows
 from juggleproof.proofs.stability.points import as_point, fixed_points
+from juggleproof.proofs.stability.refuting import instability_rules
 from juggleproof.proofs.stability.search import without_empty_pieces
 from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
@@ -46,6 +47,17 @@ SETTLED = {  # name: (text, first line)
         "over a b\ndomain 0 < a and a < 1 and 0 < b and b < 1\nstate x y\n"
         "piece (1 - a)*x + a*y, (1 - b)*y + b*x",
         "refuted  plane-of-two-rates: (0, 0) does not attract (1/2, 1/2), which is a fixed point",
+    ),
+    "focus": (  # L. A. Metzler, Review of Economics and Statistics 23, 1941
+        "over b k\ndomain 0 < b and b < 1 and 0 < k and k < 1\nstate y z\n"
+        "piece (2 + k)*b*y - (1 + k)*b*z + 1, y",
+        f"proved   focus: (-1/(b - 1), -1/(b - 1)) {STABLE} at least where -b*k - b + 1 > 0;"
+        " where -b*k - b + 1 = 0, nothing is known; where -b*k - b + 1 < 0, it is not stable",
+    ),
+    "quotient-in-a-guard": (  # of a divisor that is not 0 on the closed space
+        "over h\ndomain 0 < h and h < 1\nstate x\nspace x >= 0\npiece max(0, 4*x/(1 + x) - h)",
+        "refuted  quotient-in-a-guard: ((-h + sqrt(h^2 - 10*h + 9) + 3)/2) does not attract 0,"
+        " which is a fixed point",
     ),
     "no-line": (BALL.format("t/2 + v"), f"proved   no-line: (0, 0) {STABLE}"),
     "rotation": (
@@ -128,6 +140,40 @@ def test_a_false_premise_is_not_sought_for_long_holds() -> None:
     proof = Proof()
     assert proof.proof_of(checker.read_statements(text)["a/a"], EFFORTS, BUDGET) is None
     assert proof.work < 3000
+
+
+def test_the_budget_is_named_where_it_ended_the_search_holds() -> None:
+    """T. S. Motzkin's polynomial is no sum of squares, nor is more work to be done for it."""
+    text = "statement a/a\nforall x y\nshow x^4*y^2 + x^2*y^4 + 1 >= 3*x^2*y^2"
+    premise, said = checker.read_statements(text)["a/a"], []
+    for budget in (100, 10_000):
+        proof = Proof(open=("lyapunov", "falls-1-1", premise))
+        assert proof.proof_of(premise, (1,), budget) is None
+        said.append(proof.why())
+    assert "try --budget" in said[0]
+    assert "and not for want of budget" in said[1] and "try" not in said[1]
+
+
+def test_growth_is_seen_where_the_rate_begins_at_1_holds() -> None:
+    """E. Oja, Journal of Mathematical Biology 15, 1982: for h near 1 only very near the point."""
+    rows = [("over", "h"), ("domain", "1 < h and h < 3/2"), ("state", "w"), ("space", "w > 0")]
+    system = read_rows("oja", [*rows, ("piece", "w + h*w*(1 - w^2)")])
+    (fixed,) = fixed_points(system)
+    setting = setting_of(system, fixed, system.domain)
+    found = {dict(rule.rows)["rate"] for rule in instability_rules(setting, "oja/unstable")}
+    assert "1 + (h - 1)" in found
+
+
+def test_what_is_tried_names_the_roots_of_the_point_holds(tmp_path: Path) -> None:
+    """R. M. May, Journal of Animal Ecology 47, 1978; numbers in place of l are advised."""
+    path = tmp_path / "host.map"
+    path.write_text(
+        "over l\ndomain 1 < l and l < 10\nstate h p\nspace h > 0 and p > 0\n"
+        "piece l*h/(1 + p/2)^2, h - h/(1 + p/2)^2\n"
+    )
+    lines = running.run("stability", str(path)).stdout.split("\n")
+    assert "  fixed point ((-2*l + 2*root_1^3)/(l - 1), 2*root_1 - 2), root_1 = sqrt(l)" in lines
+    assert "advice   with numbers in place of l more may be found" in lines
 
 
 def test_pieces_that_samples_miss_are_kept_holds() -> None:
