@@ -53,7 +53,7 @@ class SineOptions(argparse.Namespace):
     executor: str | None
     store: Path | None
     picture: Path | None
-    basin: str | None
+    basin: str | None = None
 
 
 def command(parsed: argparse.Namespace) -> int:
