@@ -111,7 +111,7 @@ def check_saddle(one: Counterexample, work: Work) -> tuple[int, int]:
     require(landings, "a cell without a landing")
     places = [m for m, _, _ in landings]
     require(places == list(range(places[0], places[-1] + 1)), "it may land in two places")
-    require(places[0] <= i + one.columns <= places[-1], "it does not land one period later")
+    require(i + one.columns <= places[-1], "it does not land one period later")
     require(all(lowest > 0 for _, lowest, _ in landings), "it may touch the table before")
     return i, row
 

@@ -138,16 +138,21 @@ class Flights:
     for each row a list of landings, column and rows: each motion that starts in the cell has its
     first impact after x in one of them.
 
-    Bounds are those of the mean value theorem: with p = (x, s, alpha, g) in the box of half widths
-    h around its centre, |F(p) - F(centre)| <= sum of sup |F_p| h_p, the suprema over the whole box,
-    so that no term of second order is left.  With d = x1 - x and dc/dalpha = -k, k = 1/(1+alpha)^2:
+    Bounds are those of the mean value theorem, from the centre of the box of (x, s, alpha, g) in
+    two steps: s, alpha and g move to their values at the centre of the column, and then x does.
+    With half widths h, |F - F(centre)| <= |F_s| h_s + |F_alpha| h_alpha + |F_g| h_g + |F_x| h_x,
+    where the first three are suprema over all s, alpha and g at that one x, and the last is one
+    over the whole box; no term of second order is left.  With d = x1 - x, and dc/dalpha = -k,
+    k = 1/(1+alpha)^2:
 
         F_x = d (1 - S(x)) - alpha s,  F_alpha = s d - k ((sin 2 pi x - sin 2 pi x1)/(2 pi)
         F_s = alpha d,                                    + d cos 2 pi x),
         F_g = (cos 2 pi x - cos 2 pi x1)/(2 pi) - d sin 2 pi x.
 
-    s1 is bounded likewise: its derivatives are S(x) - 1, -alpha, k (cos 2 pi x - cos 2 pi x1) - s,
-    sin 2 pi x - sin 2 pi x1, and 1 - S(x1) in x1.  F'' = S(x1) - 1 >= -M, M = 1 + Gamma, F' = -s1.
+    S is bounded likewise: S_alpha = -2 pi k sin 2 pi x, S_g = 2 pi cos 2 pi x, |S_x| <= 2 pi Gamma;
+    and so is s1, x1 moving last, as x does: its derivatives are S(x) - 1, -alpha, sin 2 pi x - sin
+    2 pi x1, k (cos 2 pi x - cos 2 pi x1) - s, and 1 - S(x1) in x1.  F'' = S(x1) - 1 >= -M,
+    M = 1 + Gamma, F' = -s1.
 
     A walk goes over the lines x1 = m/N.  On each, `low` >= 0 bounds F from below and `slope` bounds
     F' from below, for the motions that have not landed before it: F > 0 holds for them up to there.
@@ -184,21 +189,20 @@ class Flights:
         heights = [c * sin + self.g * cos for sin, cos in zip(self.sin, self.cos)]
         self.height = [height // PI2 for height in heights]
         self.velocity = [c * cos - self.g * sin >> BITS for sin, cos in zip(self.sin, self.cos)]
-        # how far a sine, and S, move over half a column
-        self.turn = ((PI2 + 1) * self.half >> BITS) + 1
+        turn = ((PI2 + 1) * self.half >> BITS) + 1
         self.S_low, self.S_high = [], []
         for j in range(1, 2 * columns, 2):
             middle = (heights[j] >> BITS) * PI2 >> BITS
-            radius = gamma * self.turn >> BITS
-            by_alpha = (self.k_high * self.alpha_half >> BITS) * (abs(self.sin[j]) + self.turn)
-            by_g = self.g_half * (abs(self.cos[j]) + self.turn)
+            radius = gamma * turn >> BITS
+            by_alpha = (self.k_high * self.alpha_half >> BITS) * abs(self.sin[j])
+            by_g = self.g_half * abs(self.cos[j])
             radius += ((by_alpha + by_g >> BITS) + 1) * PI2 >> BITS
             self.S_low.append(middle - radius - SLACK)
             self.S_high.append(middle + radius + SLACK)
 
-    def times_k(self, middle: int, radius: int) -> tuple[int, int]:
-        """The ends of k times what is within this radius of the middle."""
-        low, high = middle - radius, middle + radius
+    def times_k(self, middle: int) -> tuple[int, int]:
+        """The ends of k times what is rounded to this."""
+        low, high = middle - SLACK, middle + SLACK
         low = low * (self.k_low if low >= 0 else self.k_high) >> BITS
         return low, (high * (self.k_high if high >= 0 else self.k_low) >> BITS) + 1
 
@@ -244,8 +248,8 @@ class Walk:
         self.speeds: dict[int, tuple[int, ...]] = {}
 
     def height_at(self, m: int) -> tuple[int, ...]:
-        """For the line x1 = m/N: F without alpha s, d in half columns, the ends of d, of
-        d (1 - S(x)), of the factor of k, and what s and g add to the radius.
+        """For the line x1 = m/N: F without alpha s, d in half columns and in periods, the ends of
+        d (1 - S(x)), of k's product in F_alpha, and what s and g add to the radius.
         """
         flights, j = self.flights, self.j
         n = 2 * m - j
@@ -257,14 +261,13 @@ class Walk:
         value -= d * d >> BITS + 1
         lag_low = self.lag_low * (low if self.lag_low >= 0 else high) >> BITS
         lag_high = (self.lag_high * (high if self.lag_high >= 0 else low) >> BITS) + 1
-        moves = (flights.turn * high >> BITS) + SLACK
         by_c = (sin[j] - sin[q]) * ONE // PI2 + (cos[j] * n >> shift)
-        c_low, c_high = flights.times_k(by_c, moves)
-        by_g = abs((cos[j] - cos[q]) * ONE // PI2 - (sin[j] * n >> shift)) + moves
+        c_low, c_high = flights.times_k(by_c)
+        by_g = abs((cos[j] - cos[q]) * ONE // PI2 - (sin[j] * n >> shift)) + SLACK
         speed = ONE // (2 * flights.per_unit)
-        radius = (flights.alpha_high * high >> BITS) * speed + by_g * flights.g_half
+        radius = (flights.alpha_high * d >> BITS) * speed + by_g * flights.g_half
         radius = (radius >> BITS) + SLACK
-        found = value, n, low, high, lag_low, lag_high, c_low, c_high, radius
+        found = value, n, d, lag_low, lag_high, c_low, c_high, radius
         self.heights[m] = found
         return found
 
@@ -275,10 +278,8 @@ class Walk:
         flights, j = self.flights, self.j
         q = p & 2 * flights.columns - 1
         value = (p - j) * flights.half + flights.velocity[q] - flights.velocity[j]
-        moves = flights.turn * (2 if p & 1 else 1) + SLACK
-        by_c = flights.cos[j] - flights.cos[q]
-        c_low, c_high = flights.times_k(by_c, moves)
-        by_g = abs(flights.sin[j] - flights.sin[q]) + moves
+        c_low, c_high = flights.times_k(flights.cos[j] - flights.cos[q])
+        by_g = abs(flights.sin[j] - flights.sin[q]) + SLACK
         radius = self.lag * flights.half + by_g * flights.g_half
         radius += flights.alpha_high * (ONE // (2 * flights.per_unit))
         if p & 1:
@@ -301,9 +302,9 @@ class Walk:
         flights = self.flights
         s_low, s_high, rebound, least, most = row
         found = self.heights.get(m) or self.height_at(m)
-        value, n, low, high, lag_low, lag_high, c_low, c_high, radius = found
+        value, n, d, lag_low, lag_high, c_low, c_high, radius = found
         by_x = max(lag_high - least, most - lag_low)
-        by_alpha = max((s_high * high >> BITS) + 1 - c_low, c_high - (s_low * low >> BITS))
+        by_alpha = max((s_high * d >> BITS) + 1 - c_low, c_high - (s_low * d >> BITS))
         radius += by_x * flights.half + by_alpha * flights.alpha_half >> BITS
         value += rebound * n >> flights.shift
         return value - radius, value + radius

@@ -30,18 +30,15 @@ class Mutant(NamedTuple):
     new: str
 
 
-def read() -> tuple[list[Mutant], list[Mutant]]:
-    """The mutants that matter, and those of terms that are redundant."""
-    found: tuple[list[Mutant], list[Mutant]] = ([], [])
-    redundant = False
+def read() -> list[Mutant]:
+    """All of the mutants, in their order."""
+    found = []
     for block in Path(__file__).with_suffix(".txt").read_text().rstrip("\n").split("\n\n"):
         if block.startswith("# "):
-            redundant = "redundant" in block.lower()
             continue
         head, old, new = block.split("\n")
         file, name = head.split(": ")
-        change = [one[2:].replace("\\n", "\n") for one in (old, new)]
-        found[redundant].append(Mutant(file, name, *change))
+        found.append(Mutant(file, name, *(one[2:].replace("\\n", "\n") for one in (old, new))))
     return found
 
 
