@@ -296,6 +296,23 @@ def _of_settling(f: Lines) -> str:
     )
 
 
+def _of_return(f: Lines) -> str:
+    settling = f.named("settling")
+    lengths = [len(word.split()) for word in f.all("word")]
+    points = []
+    ends = zip(settling.all("contraction"), settling.all("word"))
+    for k, (name, word) in enumerate(ends, 1):
+        steps = lengths[int(word.split()[0]) - 1]
+        point = _vector(Lines(name, f.texts).one("point"))
+        points.append(f"e_{k} = {point} = f^{steps}(e_{k})" if steps > 1 else f"e_{k} = {point}")
+    return (
+        f"{settling.named('descent').for_domain()}f^(N + n)(s) - f^n(e) tends to 0 for every state"
+        f" s of the space, with an integer N and e = {' or '.join(points)}; and the orbit of each"
+        " e is stable: |f^n(s) - f^n(e)| is as small as one likes for all n >= 0 and all states s"
+        " near e"
+    )
+
+
 # -------------------------------------------------------------------------------------------------
 # The table of the rules.
 
@@ -444,6 +461,17 @@ RULES = {
             "inside": "the domain of the descent is part of that of contraction {0}",
             "ends": "a state of the last stage that follows the word of contraction {0} is in its"
             " set `on`",
+        },
+    ),
+    "returns": Rule(
+        "map settling (word )+",
+        _of_return,
+        {
+            "inside": "the domain of the descent is part of that of the map",
+            "word": "where piece {0} of the other map applies, so do the pieces of its word, one"
+            " after the other, and they lead to the same state",
+            "piece": "on the set `on` of contraction {0} one piece of the other map applies, the"
+            " first of the contraction's word",
         },
     ),
 }

@@ -104,6 +104,7 @@ class Kind(Enum):
     OTHER_MAP = "two statements about different maps are joined"
     WORD = "a word has at least one piece"
     WORDS = "words of every length hold none of these"
+    WORD_EACH = "a word for each piece of the other map is expected"
     PREMISES = "the premises of a rule are missing or left over"
     # certificates and files
     KEYS = "a certificate with missing or left over keys"

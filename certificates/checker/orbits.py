@@ -145,6 +145,19 @@ class Orbits:
             now = {name: f"{name}_{count}" for name in self.moving}
             yield now, put(guard, now), [put(image, now) for image in images]
 
+    def along(
+        self, word: Sequence[int], start: Sequence[str]
+    ) -> tuple[list[str], list[str], list[str]]:
+        """From a start along a word: the lines that name the states before each of its pieces, the
+        guards of these, and the state after the last.
+        """
+        rows, guards, here = [], [], [*start]
+        for now, guard, images in self.follow(word):
+            rows += [f"let {now[name]} = {term}" for name, term in zip(self.state, here)]
+            guards.append(guard)
+            here = images
+        return rows, guards, here
+
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
         lets = [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
@@ -490,17 +503,13 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
     """
     f = Orbits(statement, known, work)
     (word,) = statement.get("word")
-    here = f.terms("start")
-    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
+    points = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
     apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
-    shown = [put(f.space, {name: f"{name}_0" for name in f.state})]
-    for now, guard, images in f.follow(word):
-        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
-        shown.append(guard)
-        here = images
-    shown.insert(2, apart)
-    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
-    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
+    inside = put(f.space, {name: f"{name}_0" for name in f.state})
+    rows, (first, *others), here = f.along(word, f.terms("start"))
+    back = (f"{name}_0 = ({last})" for name, last in zip(f.state, here))
+    show = "show " + all_of([inside, first, apart, *others, *back])
+    return f.with_domain({"start": f.for_all(*points, *rows, show)})
 
 
 def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
@@ -618,6 +627,49 @@ def premises_of_settling(statement: Statement, known: Known, work: Work) -> Prem
     return premises
 
 
+def premises_of_return(statement: Statement, known: Known, work: Work) -> Premises:
+    """A map f; what `settles` says of a map g with the same parameters, state and space; and for
+    each piece of g a word of pieces of f, by which g leads at once.  For all parameters in the
+    descent's domain and all states s of the space, one of the points e of `settles` has f^(N+n)(s)
+    - f^n(e) -> 0 for an integer N; f^n(e) is back at e after as many steps as the word of a piece
+    has pieces; and for every d > 0 there is a c > 0 such that |f^n(s) - f^n(e)| < d for all n >= 0
+    and all states s of the space with |s - e| < c.
+
+    Premises: the descent's domain is part of f's domain; where the guard of a piece of g holds, the
+    pieces of its word apply in turn, and their last image is that of g; the set `on` of each
+    contraction of `settles` lies where one piece of g applies, the first of its word.
+
+    An orbit of g is one of f with states left out.  On the set `on`, which g takes into itself and
+    which has e in it, g is f^K by one word of length K, and for j < K f^j is one term in the state,
+    made by + - * / and powers, so it is continuous.  g^n(s) is in that set from some n = M on, and
+    tends to e; so for each j < K f^j(g^(M+n)(s)) -> f^j(e).  Likewise where s is near e: all g^n(s)
+    are near it, in the set, and f^j of them near f^j(e).
+    """
+    f = Orbits(earlier(statement, known, "map"), known, work)
+    settling = earlier(statement, known, "settling")
+    g = Orbits(earlier(settling, known, "descent"), known, work)
+    # on another space there are other orbits of f, and states near a point of which g says nothing
+    same = all(f.map.get(key) == g.map.get(key) for key in ("over", "integer", "state", "space"))
+    require(same, Kind.OTHER_MAP, statement.name)
+    words = statement.get("word")
+    require(len(words) == len(g.pieces), Kind.WORD_EACH, statement.name)
+    premises = {"inside": g.for_all(f"show {f.domain}")}
+    for k, (((guard,), images), word) in enumerate(zip(g.pieces, words)):
+        rows, guards, here = f.along(word, f.state)
+        # no state on the way is given to be in the space: it is one of f where the guards hold
+        same_end = (f"({last}) = ({image})" for last, image in zip(here, images))
+        applies = [f"given {g.space}", f"given {guard}", *rows]
+        show = "show " + all_of([*guards, *same_end])
+        premises[f"word-{k + 1}"] = g.for_all(*applies, show, extra=g.state)
+    for k, (one, word) in enumerate(
+        zip(all_earlier(settling, known, "contraction"), settling.get("word"))
+    ):
+        end, ((guard,), _) = Orbits(one, known, work), at(g.pieces, word[0] - 1)
+        on = f"given {g.domain}", f"given {end.own.get('on')[0]}"
+        premises[f"piece-{k + 1}"] = end.at(*on, f"show {guard}")
+    return premises
+
+
 def require_one_in_all(words: Sequence[Sequence[int]], letters: int, name: str, work: Work) -> None:
     """Every word of some length, in letters from 1 on, holds one of these words.
 
@@ -651,6 +703,7 @@ ORBIT_RULES = {
     "unstable": premises_of_instability,
     "exactly": premises_of_sharpness,
     "settles": premises_of_settling,
+    "returns": premises_of_return,
 }
 
 
