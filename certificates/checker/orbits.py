@@ -136,7 +136,7 @@ class Orbits:
 
     def follow(
         self, word: Sequence[int], start: Sequence[str] = ()
-    ) -> tuple[list[tuple[Mapping[str, str], list[str], str]], list[str]]:
+    ) -> tuple[list[tuple[dict[str, str], list[str], str]], list[str]]:
         """The steps by the pieces of a word, and the state after the last: for each step NAME_k for
         the names of what moves, k the number of steps before it; the lines that name this state, of
         the first the start if it is given; and the guard of the piece.
