@@ -265,7 +265,7 @@ def _continuous(f: Frame, own: checker.Statement, k: int) -> str:
             own,
             lets=state + f.lets(whole, [image]),
             term=coq_term(image),
-            open_t=opened("of_t", f.state).replace(". ", "; "),
+            open_t=opened("of_t", [f"of_{n}" for n in range(len(f.axes))]).replace(". ", "; "),
         )
         for image in images
     ]
