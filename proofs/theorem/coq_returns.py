@@ -127,7 +127,7 @@ Qed.
 """
 
 RETURNS = """\
-(* Each point is back after some steps, its orbit is stable, and every orbit comes to one of these. *)
+(* Each point is back, its orbit is stable, and every orbit comes to one of these. *)
 Theorem $theorem : ${all}Inner.Descent.domain$a ->
   ($ends) /\\
   forall of_s, Map.space$a of_s -> exists of_e, In of_e (Inner.Settling.points$a) /\\
