@@ -55,6 +55,7 @@ KINDS = {  # kind of rule -> what it says, in a few words
     "attracts": "every orbit tends to the point",
     "escapes": "a periodic orbit stays away",
     "settles": "every orbit tends to one of several points",
+    "returns": "every orbit tends to one of several orbits",
     "descends": "a falling rank leads to the trap",
     "into": "a falling rank leads to a smaller space, where every orbit tends to the point",
     "contracts": "orbits in the trap close in on the point",

@@ -20,7 +20,7 @@ from juggleproof.proofs.reports.latex import glyph
 from juggleproof.proofs.reports.opening import PROOF
 from juggleproof.proofs.reports.page import KINDS, LONGEST, VERDICTS, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
-from tests.certificates.checker.test_settles import TWO
+from tests.certificates.checker.test_returns import LOOP
 from tests.proofs.reports.browser import Element, NotNested, parts_of, read_html, read_whole
 from tests.proofs.reports.runs import contents, drawn, page
 
@@ -325,7 +325,7 @@ def test_list_without_a_script_says_each_outcome_holds() -> None:
 
 def test_every_line_of_a_rule_is_a_formula_or_a_link_holds() -> None:
     kinds = set()
-    for text in (SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, TWO):
+    for text in (SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, LOOP):
         for name, rule in read(text).items():
             kinds.add(rule.kind)
             shown = statement(Shown(name, rule.text(), "certified", None, "", "", "", {}))
