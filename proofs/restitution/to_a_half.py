@@ -10,7 +10,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from juggleproof.certificates.language import AnyStatement, Formula, MapRule, conjunction, equal, term
+from juggleproof.certificates.language import (
+    AnyStatement,
+    Formula,
+    MapRule,
+    conjunction,
+    equal,
+    term,
+)
 from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import from_here
