@@ -4,7 +4,7 @@ impacts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import accumulate
@@ -79,12 +79,11 @@ def grid(low: Fraction, high: Fraction) -> list[Fraction]:
     return [low, *(Fraction(int(k), STEPS) for k in range(int(first), int(last) + 1)), high]
 
 
-def branches(flights: Flights, over: Range) -> Iterator[list[Arc]]:
-    """For each impact of the orbit the closing speeds over this range of alpha."""
+def branches(flights: Flights, over: Range) -> list[Arc]:
+    """The closing speeds at each impact of the orbit over this range of alpha."""
     alphas = grid(*over)
     speeds = zip(*([w for _, w in impacts(flights, alpha)] for alpha in alphas))
-    for one in speeds:
-        yield joined([*zip(map(float, alphas), map(float, one))])
+    return [arc for one in speeds for arc in joined([*zip(map(float, alphas), map(float, one))])]
 
 
 @styled
@@ -92,7 +91,7 @@ def attractors(settled: Sequence[Range], flights: Flights, proved: Range, exist:
     """The attracting orbits over alpha, and ranges in which all orbits tend to some e_K; one of
     other flights is proved to attract in one range, and to exist in another.
     """
-    plane = Plane(blank(6.4, 4.4), (0.075, 0.115, 0.91, 0.865), (0, 1), UP)
+    plane = Plane(blank(6.4, 4.4), (0.085, 0.115, 0.9, 0.865), (0, 1), UP)
     plane.frame(TICKS, ticks(range(0, UP[1] + 1, 2)), r"$\alpha$", "$w$ at impacts", 24)
     for index, (low, high) in enumerate(joined_ranges(settled)):
         corners = [(low, UP[0]), (high, UP[0]), (high, UP[1]), (low, UP[1]), (low, UP[0])]
@@ -101,18 +100,15 @@ def attractors(settled: Sequence[Range], flights: Flights, proved: Range, exist:
         )
     for K in range(1, MOST + 1):
         begins = Fraction(K - 1, K + 1)
-        for arcs in branches((K,), (begins, Fraction(1))):
-            plane.line(arcs, f"e-{K}", linewidth=1.2)
+        plane.line(branches((K,), (begins, Fraction(1))), f"e-{K}", linewidth=1.2)
         plane.text((1, K), f"$e_{K}$", (-9, 8), fontsize=8)
         if K > 1:
             plane.dots([(float(begins), K + 1)], f"begins-{K}", 3.2, filled=False)
-    for index, arcs in enumerate(branches(flights, proved)):
-        plane.line(arcs, f"unequal-{index}", linewidth=0.9, edgecolor=B2.colour)
+    plane.line(branches(flights, proved), "unequal", linewidth=0.9, edgecolor=B2.colour)
     beside = [(flights, (exist[0], proved[0])), (flights, (proved[1], exist[1]))]
     seen = [(flights, around(flights, alpha)) for flights, alpha in SEEN]
     for count, (of, over) in enumerate([*beside, *seen]):
-        for arcs in branches(of, over):
-            plane.line(arcs, f"simulated-{count}", B2, linewidth=0.7)
+        plane.line(branches(of, over), f"simulated-{count}", B2, linewidth=0.7)
     return plane.figure
 
 
