@@ -102,9 +102,11 @@ def every_orbit_settles(claim_id: str) -> list[AnyStatement]:
     pieces = (*flights, (IMPACT & (w >= chosen.fast), STRUCK[1]), FLOWN)
     setting = replace(NORMAL, space=space, pieces=pieces)
     here, runs = f"{claim_id}/impacts", chosen.runs.split()
-    descent = Descent(chosen.factor * u + (1 - w) / 2, (slow,), (SPEED,))
+    # none but fast impacts are followed by a flight of the longest kind
+    shorter = slow & strikes(flown(chosen.longest - 1))
+    descent = Descent(chosen.factor * u + (1 - w) / 2, (slow, shorter), (SPEED,))
     fast, on_high = chosen.longest + 1, chosen.longest + 2
-    words = [*chosen.never.split(), str(fast), str(on_high)]
+    words = [*chosen.never.split(), *map(str, (chosen.longest, fast, on_high))]
     return [
         the_map("map", replace(NORMAL, space=space), of_alpha),
         the_map("impacts", setting, of_alpha),
@@ -149,7 +151,7 @@ def closer_to(K: int, on: Formula) -> Contraction:
     return Contraction(on, (wide, high), (1 + alpha) / 2, radius, term(100))
 
 
-# The words were found by search (`benchmarks`), and are judged here.
+# The runs and the words were found by `python -m juggleproof.benchmarks.words`.
 RANGES = {
     "restitution-to-three-fifths": Restitutions(
         Fraction(1, 2),
@@ -157,7 +159,7 @@ RANGES = {
         Fraction(13, 2),
         24,
         "111 2222 3333",
-        "13 14 23 24 34 44 212 331 1112 2112 22221 33332",
+        "13 23 212 2112",
     ),
     "restitution-three-fifths": Restitutions(
         Fraction(3, 5),
@@ -165,7 +167,7 @@ RANGES = {
         Fraction(13, 2),
         24,
         "111 2222 3333",
-        "13 14 23 24 34 44 212 331 1112 2112 22221 33332",
+        "13 23 212 2112",
     ),
     "restitution-to-two-thirds": Restitutions(
         Fraction(3, 5),
@@ -173,7 +175,7 @@ RANGES = {
         Fraction(7),
         24,
         "111 2222 3333 4444",
-        "13 14 15 23 24 25 34 35 45 55 121 212 331 441 442 1112 12221 22221 33332 44443 21122112",
+        "13 14 23 24 34 121 212 12221 21122112",
     ),
     "restitution-two-thirds": Restitutions(
         Fraction(2, 3),
@@ -181,8 +183,7 @@ RANGES = {
         Fraction(7),
         24,
         "111 2222 3333 4444",
-        "13 14 15 24 25 34 35 45 55 121 212 231 232 312 323 331 423 441 442 1112 1223 2223 2333"
-        " 3322 4433 12221 22221 33332 44443 12332112 1221122112",
+        "13 14 24 34 121 212 231 232 323 331 3322 12221 332112 21122112",
     ),
     "restitution-to-five-sevenths": Restitutions(
         Fraction(2, 3),
@@ -190,9 +191,8 @@ RANGES = {
         Fraction(8),
         40,
         "111 2222 3333 4444 5555",
-        "13 14 15 16 24 25 26 34 35 36 41 45 46 51 56 61 62 66 121 212 231 232 312 323 331 423 442"
-        " 523 552 553 1112 1223 2223 2333 3221 3223 4332 5422 6554 12221 22221 33332 44443 55554"
-        " 123322 3321122 12211221122 332112332112",
+        "13 14 15 24 25 34 35 45 121 212 231 232 323 331 1223 2223 2333 3223 12221 123322"
+        " 3321122 12211221122 332112332112",
     ),
     "restitution-five-sevenths": Restitutions(
         Fraction(5, 7),
@@ -200,9 +200,8 @@ RANGES = {
         Fraction(8),
         40,
         "111 2222 3333 4444 5555",
-        "13 14 15 16 24 25 26 34 35 36 41 45 46 51 56 61 62 66 121 212 231 232 312 323 331 423 442"
-        " 522 523 552 553 1112 1223 2223 2333 3221 3223 4332 5422 6554 12221 22221 33332 44443"
-        " 55554 123322 3321122 12211221122 332112332112",
+        "13 14 15 24 25 34 35 45 121 212 231 232 323 331 1223 2223 2333 3223 12221 123322"
+        " 3321122 211221122 332112332112",
     ),
 }
 
