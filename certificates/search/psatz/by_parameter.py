@@ -1,0 +1,224 @@
+"""One leaf: facts that are linear in all variables but one, a parameter between two bounds.
+
+Where such facts f_0 .. f_m contradict one another, a sum of multiples l_i f_i with l_i > 0 has no
+variable but the parameter, and is < 0 between the bounds.  The l_i are the minors of the matrix of
+the coefficients, up to a common factor, which is left out; as polynomials in the parameter they and
+the sum have Bernstein forms with coefficients >= 0.
+
+Source: Motzkin's transposition theorem, and Cramer's rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, islice
+from math import comb, prod
+
+from flint import fmpq, fmpq_poly, fmpz_mpoly
+
+from juggleproof.certificates.algebra.numbers import bernstein, exact, fraction, univariate
+from juggleproof.certificates.nodes import Node
+from juggleproof.certificates.search.psatz.facts import Factors, merge
+from juggleproof.certificates.search.psatz.lifting import lift
+from juggleproof.certificates.search.psatz.parameters import Axis, bounds
+from juggleproof.certificates.search.psatz.problem import Problem
+from juggleproof.certificates.work import Budget
+
+Coefficients = Sequence[fmpq_poly]  # of a fact: of each variable but the parameter, then of 1
+MOST_OTHERS = 4  # variables beside the parameter
+MOST_SETS = 20_000  # of facts that are tried
+TO_FIND_A_FORM = 20  # units of work
+HIGHER = 12  # degrees beyond that of a polynomial, in which its form may have no negative numbers
+INSIDE = tuple(Fraction(k, 8) for k in (1, 4, 7))  # where signs are looked at first
+
+
+@dataclass(frozen=True)
+class Part:
+    """A number > 0 times powers of bounds, times the square of a power of the parameter."""
+
+    number: Fraction
+    factors: Factors
+    power: int
+
+
+def search_by_parameter(problem: Problem, budget: Budget) -> Node | None:
+    """The node of such a contradiction; None where the facts are not of this kind, or no few of
+    them contradict one another in this way.
+
+    Raises Exhausted where the budget ends.
+    """
+    axes = [one for one in bounds(problem).values() if one.low is not None and one.high is not None]
+    if problem.reduction.left or len(axes) != 1:
+        return None
+    (axis,) = axes
+    rows = linear_rows(problem, axis.variable)
+    if rows is None:
+        return None
+    used, roots = contradiction(problem, axis, rows, budget) or ([], [])
+    return lift(problem, used, [], roots) if used else None
+
+
+def linear_rows(problem: Problem, parameter: int) -> dict[int, Coefficients] | None:
+    """The coefficients of the facts in which other variables occur, by their numbers; None where
+    one is not linear in them, or there are many.
+    """
+    polys = problem.polys()
+    others = [
+        v
+        for v in range(len(problem.ring.names))
+        if v != parameter and any(poly.degrees()[v] for poly in polys)
+    ]
+    if not 0 < len(others) <= MOST_OTHERS:
+        return None
+    rows: dict[int, Coefficients] = {}
+    for k, fact in enumerate(problem.facts):
+        row = row_of(fact.poly, others, parameter)
+        if row is None:
+            return None
+        if any(row[:-1]):
+            rows[k] = row
+    return rows
+
+
+def row_of(poly: fmpz_mpoly, others: Sequence[int], parameter: int) -> Coefficients | None:
+    """The coefficients of a polynomial that is linear in the others; None for any other."""
+    found = [dict[int, int]() for _ in range(len(others) + 1)]
+    for monomial, c in zip(poly.monoms(), poly.coeffs()):
+        own = [place for place, v in enumerate(others) if monomial[v]]
+        if len(own) > 1 or any(monomial[others[place]] > 1 for place in own):
+            return None
+        found[own[0] if own else -1][int(monomial[parameter])] = int(c)
+    return [
+        fmpq_poly([by_power.get(k, 0) for k in range(max(by_power, default=0) + 1)])
+        for by_power in found
+    ]
+
+
+Used = list[tuple[tuple[Factors, int], Fraction]]
+
+
+def contradiction(
+    problem: Problem, axis: Axis, rows: dict[int, Coefficients], budget: Budget
+) -> tuple[Used, list[fmpz_mpoly]] | None:
+    """A sum of products that vanishes, by as few facts as there are."""
+    low, high = (problem.facts[k].end(axis.variable) for k in (axis.low, axis.high))
+    inside = [exact(low + (high - low) * part) for part in INSIDE]
+    sets = (
+        chosen
+        for size in range(2, len(next(iter(rows.values()), ())) + 1)
+        for chosen in combinations(rows, size)
+    )
+    for chosen in islice(sets, MOST_SETS):
+        budget.spend(1)
+        multiples = multiples_of([rows[k] for k in chosen], inside)
+        if multiples is None:
+            continue
+        total = sum((m * rows[k][-1] for m, k in zip(multiples, chosen)), fmpq_poly([]))
+        if any(total(at) > 0 for at in inside):
+            continue
+        budget.spend(TO_FIND_A_FORM)
+        parts = identity(problem, axis, [*zip(multiples, chosen)], total)
+        if parts is not None:
+            powers = sorted({part.power for _, part in parts if part.power})
+            used = [
+                (
+                    (merge(own, part.factors), powers.index(part.power) if part.power else -1),
+                    part.number,
+                )
+                for own, part in parts
+            ]
+            return used, [problem.ring.ctx.gen(axis.variable) ** power for power in powers]
+    return None
+
+
+def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[fmpq_poly] | None:
+    """Polynomials, > 0 at these places, whose sum of products with the rows has no variable but
+    the parameter; None where there are none, or not one such line of them.
+    """
+    variables = range(len(rows[0]) - 1)
+    for columns in combinations(variables, len(rows) - 1):
+        found = []
+        for k in range(len(rows)):
+            others = [[row[v] for v in columns] for j, row in enumerate(rows) if j != k]
+            found.append(determinant(others) * (-1) ** k)
+        if not any(found):
+            continue
+        if not all(found):
+            return None
+        signs = {(one(at) > 0) - (one(at) < 0) for one in found for at in inside}
+        if len(signs) > 1 or 0 in signs:
+            return None
+        if any(sum((m * row[v] for m, row in zip(found, rows)), fmpq_poly([])) for v in variables):
+            return None
+        common = found[0]
+        for one in found[1:]:
+            common = common.gcd(one)
+        # primitive, of one sign: the common factor may have changed it
+        found = [one // common for one in found]
+        scale = prod((one.denom() for one in found), start=1)
+        if found[0](inside[0]) < 0:
+            scale = -scale
+        return [one * scale for one in found]
+    return None
+
+
+def determinant(matrix: Sequence[Sequence[fmpq_poly]]) -> fmpq_poly:
+    """Of a small matrix, by its first row."""
+    if not matrix:
+        return fmpq_poly([1])
+    total = fmpq_poly([])
+    for k, entry in enumerate(matrix[0]):
+        if entry:
+            minor = determinant([[*row[:k], *row[k + 1 :]] for row in matrix[1:]])
+            total += entry * minor * (-1) ** k
+    return total
+
+
+def identity(
+    problem: Problem,
+    axis: Axis,
+    multiples: Sequence[tuple[fmpq_poly, int]],
+    total: fmpq_poly,
+) -> list[tuple[Factors, Part]] | None:
+    """The terms of the sum of these multiples of facts, and of what has to be added to it for 0;
+    None where one of the polynomials has no form as a sum of such terms.
+    """
+    terms: list[tuple[Factors, Part]] = []
+    for poly, fact in [*((poly, fact) for poly, fact in multiples), (-total, -1)]:
+        if not poly:
+            continue
+        parts = [*nonnegative(problem, axis, poly, fact < 0)]
+        if not parts:
+            return None
+        terms += [(((fact, 1),) if fact >= 0 else (), part) for part in parts]
+    strict = any(
+        not part.power and all(problem.facts[k].strict for k, _ in merge(own, part.factors))
+        for own, part in terms
+    )
+    return terms if strict else None
+
+
+def nonnegative(problem: Problem, axis: Axis, poly: fmpq_poly, strict: bool) -> Iterator[Part]:
+    """A polynomial in the parameter as a sum of parts: an even power of the parameter apart, in
+    Bernstein's form; no parts where none of the degrees tried has one without negative numbers.
+    """
+    low, high = (problem.facts[k].end(axis.variable) for k in (axis.low, axis.high))
+    coefficients = poly.coeffs()
+    first = next(k for k, c in enumerate(coefficients) if c)
+    power = 0 if strict else first // 2
+    rest = fmpq_poly(coefficients[2 * power :])
+    for degree in range(rest.degree(), rest.degree() + HIGHER):
+        values = bernstein(rest, low, high, degree)
+        if all(value >= 0 for value in values):
+            slopes = [
+                abs(int(univariate(problem.facts[k].poly, axis.variable).coeffs()[1].p))
+                for k in (axis.low, axis.high)
+            ]
+            for k, value in enumerate(values):
+                if value:
+                    number = fraction(value) * comb(degree, k) / (high - low) ** degree
+                    number /= slopes[0] ** k * slopes[1] ** (degree - k)
+                    yield Part(number, axis.factors(k, degree), power)
+            return
