@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
+from itertools import islice
 
 from flint import fmpq
 
@@ -27,7 +28,7 @@ Side = tuple[fmpq, fmpq, fmpq]  # a, b, c: the points with a x + b w + c >= 0
 TRIED = 4  # restitutions in a range, beside those next to its ends
 NEXT_TO = Fraction(1, 10**6)
 FASTEST = 100  # closing speeds that are looked at
-LONGEST = 15  # flights in a word
+LONGEST = 40  # flights in a word
 
 
 def flown(periods: int, alpha: fmpq, impact: Point) -> Point:
@@ -64,12 +65,11 @@ def cut(polygon: Sequence[Point], side: Side) -> list[Point]:
     return found if len(found) > 2 else []
 
 
-def followed(alpha: fmpq, most: int, longest: int) -> list[set[Word]]:
-    """The words of each length, from 0 on, that impacts with flights of at most `most` follow."""
+def followed(alpha: fmpq, most: int) -> Iterator[set[Word]]:
+    """The words of 1, 2 and more flights, of at most `most` periods each, that impacts follow."""
     triangle = [(fmpq(0), fmpq(0)), (fmpq(0), fmpq(FASTEST)), (fmpq(FASTEST), fmpq(FASTEST))]
     level: dict[Word, list[Point]] = {(): triangle}
-    found = [{()}]
-    for _ in range(longest):
+    while True:
         after: dict[Word, list[Point]] = {}
         for word, polygon in level.items():
             for periods in range(1, most + 1):
@@ -79,8 +79,7 @@ def followed(alpha: fmpq, most: int, longest: int) -> list[set[Word]]:
                 if part:
                     after[(*word, periods)] = [flown(periods, alpha, one) for one in part]
         level = after
-        found.append(set(level))
-    return found
+        yield set(level)
 
 
 def impossible(levels: Sequence[Collection[Word]], most: int) -> list[Word]:
@@ -94,13 +93,13 @@ def impossible(levels: Sequence[Collection[Word]], most: int) -> list[Word]:
     ]
 
 
-def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word:
-    """Flights of so many periods, so often that no others follow."""
+def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word | None:
+    """Flights of so many periods, so often that no others follow; None where longer words tell."""
     for count in range(1, len(levels) - 1):
         others = ((periods,) * count + (last,) for last in range(1, most + 1) if last != periods)
         if not any(word in levels[count + 1] for word in others):
             return (periods,) * count
-    raise ValueError(f"other flights follow {len(levels)} flights of {periods} periods")
+    return None
 
 
 def one_in_all(words: Sequence[Word], most: int) -> bool:
@@ -112,22 +111,22 @@ def one_in_all(words: Sequence[Word], most: int) -> bool:
     return True
 
 
-def find_words(
-    alphas: Sequence[Fraction], most: int, longest: int = LONGEST
-) -> tuple[list[Word], list[Word]]:
+def find_words(alphas: Sequence[Fraction], most: int) -> tuple[list[Word], list[Word]]:
     """For each length up to `most` the run of flights after which all others are equal; and words
     that no impact follows, so that one of all these is in every long word.
 
-    Raises ValueError where the words of `longest` flights are too short for that.
+    Raises ValueError where words of `LONGEST` flights are too short for that.
     """
-    levels: list[set[Word]] = [set() for _ in range(longest + 1)]
-    for alpha in alphas:
-        for level, words in zip(levels, followed(exact(alpha), most, longest)):
-            level |= words
-    runs = [run_of(periods, levels, most) for periods in range(1, most + 1)]
-    found = impossible(levels, most)
-    if not one_in_all([*runs, *found], most):
-        raise ValueError(f"words of {longest} flights are too short")
+    levels: list[Collection[Word]] = [{()}]
+    for level in islice(zip(*(followed(exact(alpha), most) for alpha in alphas)), LONGEST):
+        levels.append(set().union(*level))
+        ends = (run_of(periods, levels, most) for periods in range(1, most + 1))
+        runs = [run for run in ends if run is not None]
+        found = impossible(levels, most)
+        if len(runs) == most and one_in_all([*runs, *found], most):
+            break
+    else:
+        raise ValueError(f"words of {LONGEST} flights are too short")
     for word in sorted(found, key=lambda word: -len(word)):
         others = [one for one in found if one != word]
         if one_in_all([*runs, *others], most):

@@ -1,5 +1,5 @@
-"""For 1/2 < alpha <= 5/7 every orbit tends to the orbit of some e_K, but for few states where a
-range of some e_K begins.
+"""For 1/2 < alpha < 3643/5000 every orbit tends to the orbit of some e_K, but for few states where
+a range of some e_K begins.
 
 Impacts are sorted by the length of the flight that follows. No state has certain words of such
 lengths; every long word holds one of these, or a run of flights of K periods that is long enough
@@ -48,7 +48,7 @@ STRUCK, FLOWN = PIECES
 class Restitutions:
     """A range of alpha, with what is chosen to prove of it that every orbit tends to some e_K."""
 
-    least: Fraction  # two of the (K - 1)/(K + 1), or one of them twice
+    least: Fraction  # from one of the (K - 1)/(K + 1), up to the next at most; or one of them twice
     most: Fraction
     fast: Fraction  # the closing speed from which on impacts are led on by f
     factor: int  # of the root of the energy, in the rank
@@ -203,6 +203,16 @@ RANGES = {
         "13 14 15 24 25 34 35 45 121 212 231 232 323 331 1223 2223 2333 3223 12221 123322"
         " 3321122 211221122 332112332112",
     ),
+    "restitution-beyond-five-sevenths": Restitutions(
+        Fraction(5, 7),
+        Fraction(3643, 5000),
+        Fraction(8),
+        48,
+        "11111 22222 333333 444444 555555 666666",
+        "13 14 15 16 24 25 26 34 35 36 45 46 56 121 212 231 232 323 331 2223 2333 3221 11122"
+        " 21112 211222 332222 2233223 3222111 3321122 33211112 211221122 332221122 3321123322"
+        " 332112332112 12332221123322 3223322211233223322211233223",
+    ),
 }
 
 
@@ -252,3 +262,11 @@ def every_orbit_but_seven_tends_to_one_of_five() -> list[AnyStatement]:
     stable, but those of seven states: the orbit of e_6, and what flies to it.
     """
     return every_orbit_settles("restitution-five-sevenths")
+
+
+@claim("restitution-beyond-five-sevenths", "restitution", "5/7 < alpha < 3643/5000", parameters=())
+def every_orbit_tends_to_one_of_six() -> list[AnyStatement]:
+    """For 5/7 < alpha < 3643/5000 every orbit of H tends to the orbit of one of e_1, .., e_6; all
+    of these are stable.
+    """
+    return every_orbit_settles("restitution-beyond-five-sevenths")
