@@ -185,29 +185,28 @@ def identity(
     """The terms of the sum of these multiples of facts, and of what has to be added to it for 0;
     None where one of the polynomials has no form as a sum of such terms.
     """
-    terms: list[tuple[Factors, Part]] = []
-    for poly, fact in [*((poly, fact) for poly, fact in multiples), (-total, -1)]:
-        if not poly:
-            continue
-        parts = [*nonnegative(problem, axis, poly, fact < 0)]
-        if not parts:
-            return None
-        terms += [(((fact, 1),) if fact >= 0 else (), part) for part in parts]
-    strict = any(
-        not part.power and all(problem.facts[k].strict for k, _ in merge(own, part.factors))
-        for own, part in terms
-    )
-    return terms if strict else None
+    for least in (True, False):  # squares of powers of the parameter are not known to be > 0
+        terms: list[tuple[Factors, Part]] = []
+        for poly, fact in [*multiples, (-total, None)]:
+            parts = [*nonnegative(problem, axis, poly, least or fact is not None)] if poly else []
+            if poly and not parts:
+                return None
+            terms += [(() if fact is None else ((fact, 1),), part) for part in parts]
+        for own, part in terms:
+            factors = merge(own, part.factors)
+            if not part.power and all(problem.facts[k].strict for k, _ in factors):
+                return terms
+    return None
 
 
-def nonnegative(problem: Problem, axis: Axis, poly: fmpq_poly, strict: bool) -> Iterator[Part]:
-    """A polynomial in the parameter as a sum of parts: an even power of the parameter apart, in
-    Bernstein's form; no parts where none of the degrees tried has one without negative numbers.
+def nonnegative(problem: Problem, axis: Axis, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
+    """A polynomial in the parameter as a sum of parts: an even power of it `apart`, in Bernstein's
+    form; no parts where none of the degrees tried has one without negative numbers.
     """
     low, high = (problem.facts[k].end(axis.variable) for k in (axis.low, axis.high))
     coefficients = poly.coeffs()
     first = next(k for k, c in enumerate(coefficients) if c)
-    power = 0 if strict else first // 2
+    power = first // 2 if apart else 0
     rest = fmpq_poly(coefficients[2 * power :])
     for degree in range(rest.degree(), rest.degree() + HIGHER):
         values = bernstein(rest, low, high, degree)

@@ -4,7 +4,6 @@ from the theorem's definition.
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
