@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -25,3 +26,13 @@ def test_words_fail_without_room_for_them(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(words, "LONGEST", 3)
     with pytest.raises(ValueError, match="words of 3 flights are too short"):
         find_words([Fraction(7, 10)], 5)
+
+
+def test_table_is_printed_beside_what_is_found_holds(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chosen = RANGES["restitution-to-three-fifths"]
+    monkeypatch.setattr(words, "RANGES", {"a": chosen, "b": replace(chosen, never="13")})
+    words.main()
+    first, *_, second, _, _ = capsys.readouterr().out.splitlines()
+    assert first.startswith("a: as stated") and second.startswith("b: differs")
