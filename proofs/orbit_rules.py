@@ -298,18 +298,19 @@ def _of_settling(f: Lines) -> str:
 
 def _of_return(f: Lines) -> str:
     settling = f.named("settling")
-    lengths = [len(word.split()) for word in f.all("word")]
+    names, starts = settling.all("contraction"), settling.all("word")
     points = []
-    ends = zip(settling.all("contraction"), settling.all("word"))
-    for k, (name, word) in enumerate(ends, 1):
-        steps = lengths[int(word.split()[0]) - 1]
-        point = _vector(Lines(name, f.texts).one("point"))
-        points.append(f"e_{k} = {point} = f^{steps}(e_{k})" if steps > 1 else f"e_{k} = {point}")
+    for k, (name, start) in enumerate(zip(names, starts), 1):
+        steps = len(f.all("word")[int(start.split()[0]) - 1].split())
+        e = f"e_{k}" if len(names) > 1 else "e"
+        back = f" = f^{steps}({e})" if steps > 1 else f" = f({e})"
+        points.append(f"{e} = {_vector(Lines(name, f.texts).one('point'))}{back}")
+    to = f"one of {', '.join(points)}" if len(points) > 1 else points[0]
     return (
-        f"{settling.named('descent').for_domain()}f^(N + n)(s) - f^n(e) tends to 0 for every state"
-        f" s of the space, with an integer N and e = {' or '.join(points)}; and the orbit of each"
-        " e is stable: |f^n(s) - f^n(e)| is as small as one likes for all n >= 0 and all states s"
-        " near e"
+        f"{settling.named('descent').for_domain()}every orbit tends to that of {to}:"
+        " f^(N + n)(s) - f^n(e) tends to 0, for every state s of the space, with such an e and an"
+        " integer N >= 0; and each such orbit is stable: |f^n(s) - f^n(e)| is small for all n >= 0"
+        " where |s - e| is"
     )
 
 

@@ -5,7 +5,7 @@ Each rule writes its premises itself, as text, and a certificate has to prove ex
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from .algebra import Kind, Rejected, Work, require
 from .language import NAMED, Known, Statement, read_statements
@@ -134,29 +134,24 @@ class Orbits:
         every = [*extra, *self.inputs]
         return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=every)
 
-    def follow(self, word: Sequence[int]) -> Iterator[tuple[Mapping[str, str], str, list[str]]]:
-        """For each piece of a word: NAME_k for the names of what moves, after k steps, and the
-        piece's guard and images in these.
+    def follow(
+        self, word: Sequence[int], start: Sequence[str] = ()
+    ) -> tuple[list[tuple[dict[str, str], list[str], str]], list[str]]:
+        """The steps by the pieces of a word, and the state after the last: for each step NAME_k for
+        the names of what moves, k the number of steps before it; the lines that name this state, of
+        the first the start if it is given; and the guard of the piece.
         """
         require(word, Kind.WORD, self.own.name)  # after no step, every start is back
+        steps = []
+        here = [*start]
         for count, piece in enumerate(word):
             (guard,), images = at(self.pieces, piece - 1)
             self.work.spend(PER_LETTER * sum(map(len, [guard, *images])))
             now = {name: f"{name}_{count}" for name in self.moving}
-            yield now, put(guard, now), [put(image, now) for image in images]
-
-    def along(
-        self, word: Sequence[int], start: Sequence[str]
-    ) -> tuple[list[str], list[str], list[str]]:
-        """From a start along a word: the lines that name the states before each of its pieces, the
-        guards of these, and the state after the last.
-        """
-        rows, guards, here = [], [], [*start]
-        for now, guard, images in self.follow(word):
-            rows += [f"let {now[name]} = {term}" for name, term in zip(self.state, here)]
-            guards.append(guard)
-            here = images
-        return rows, guards, here
+            lets = [f"let {now[name]} = {term}" for name, term in zip(self.state, here)]
+            steps.append((now, lets, put(guard, now)))
+            here = [put(image, now) for image in images]
+        return steps, here
 
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
@@ -503,13 +498,16 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
     """
     f = Orbits(statement, known, work)
     (word,) = statement.get("word")
-    points = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
+    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
     apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
-    inside = put(f.space, {name: f"{name}_0" for name in f.state})
-    rows, (first, *others), here = f.along(word, f.terms("start"))
-    back = (f"{name}_0 = ({last})" for name, last in zip(f.state, here))
-    show = "show " + all_of([inside, first, apart, *others, *back])
-    return f.with_domain({"start": f.for_all(*points, *rows, show)})
+    shown = [put(f.space, {name: f"{name}_0" for name in f.state})]
+    steps, here = f.follow(word, f.terms("start"))
+    for _, lets, guard in steps:
+        rows += lets
+        shown.append(guard)
+    shown.insert(2, apart)
+    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
+    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
 def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
@@ -604,12 +602,9 @@ def premises_of_settling(statement: Statement, known: Known, work: Work) -> Prem
     def following(word: Sequence[int], *rows: str) -> list[str]:
         """For all states of the last stage that follow a word, NAME_0 in place of NAME."""
         along: list[str] = []
-        here: list[str] = []
-        for now, guard, images in f.follow(word):
-            along += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
-            along += [put(row, now) for row in (f"given {f.space}", *f.roots, f"given {stage}")]
-            along.append(f"given {guard}")
-            here = images
+        for now, lets, guard in f.follow(word)[0]:
+            known = [put(row, now) for row in (f"given {f.space}", *f.roots, f"given {stage}")]
+            along += [*lets, *known, f"given {guard}"]
         return f.for_all(*along, *rows, extra=[f"{name}_0" for name in f.state])
 
     premises = {}
@@ -655,12 +650,13 @@ def premises_of_return(statement: Statement, known: Known, work: Work) -> Premis
     require(len(words) == len(g.pieces), Kind.WORD_EACH, statement.name)
     premises = {"inside": g.for_all(f"show {f.domain}")}
     for k, (((guard,), images), word) in enumerate(zip(g.pieces, words)):
-        rows, guards, here = f.along(word, f.state)
-        # no state on the way is given to be in the space: it is one of f where the guards hold
-        same_end = (f"({last}) = ({image})" for last, image in zip(here, images))
-        applies = [f"given {g.space}", f"given {guard}", *rows]
-        show = "show " + all_of([*guards, *same_end])
-        premises[f"word-{k + 1}"] = g.for_all(*applies, show, extra=g.state)
+        rows = [f"given {g.space}", f"given {guard}"]
+        steps, here = f.follow(word, f.state)
+        for _, lets, applies in steps:
+            # nothing is given on the way: that this piece applies is to be shown
+            rows += [*lets, f"have {applies}"]
+        same_end = all_of(f"({last}) = ({image})" for last, image in zip(here, images))
+        premises[f"word-{k + 1}"] = g.for_all(*rows, f"show {same_end}", extra=g.state)
     for k, (one, word) in enumerate(
         zip(all_earlier(settling, known, "contraction"), settling.get("word"))
     ):

@@ -239,7 +239,8 @@ def view_of(entry: Entry) -> ClaimView:
 @dataclass(frozen=True)
 class Derived:
     """A derived expression: its anchor, the paper's name for it, what it is, its equation as
-    markup, its entries as text, its letters, and what it is made from.
+    markup (none where it is too long to be read), its entries as text, its letters, and what it is
+    made from.
     """
 
     anchor: str
@@ -254,13 +255,16 @@ class Derived:
 def derivations(contents: Contents) -> list[Derived]:
     """Every derived expression once."""
     titles = {one.function: markup.prose(one.title) for one in contents.derivations}
+    texts = {
+        one.function: one.line.rpartition(f"{one.sentence} ")[2] for one in contents.derivations
+    }
     return [
         Derived(
             anchor(one.function),
             mathml(SYMBOLS[one.function]) if one.function in SYMBOLS else "",
             titles[one.function],
-            equation(one.function, one.rows),
-            one.line.rpartition(f"{one.sentence} ")[2],
+            equation(one.function, one.rows) if len(texts[one.function]) <= LONGEST else "",
+            texts[one.function],
             markup.letters(re.findall(r"[A-Za-z]\w*", str(one.rows))),
             [(titles[name], anchor(name)) for name in one.uses if name in titles],
         )

@@ -97,7 +97,7 @@ def settles(claim_id: str, space: Formula, of_alpha: Formula) -> list[AnyStateme
             "settles",
             (
                 ("descent", f"{claim_id}/descends"),
-                # in the last stage there are no fast impacts, no flights of 3 periods and no flights
+                # the last stage has no fast impacts, no flights of 3 periods, and no other states
                 *(("never", piece) for piece in ("1", "4", "5")),
                 *(("contraction", f"{claim_id}/e-1"), ("word", "2")),
                 *(("contraction", f"{claim_id}/e-2"), ("word", "3")),
