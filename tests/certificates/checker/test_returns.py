@@ -11,9 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import Expected, refused
-from tests.certificates.checker.maps import PUSH, checked, edited, searched, up_to
+from tests.certificates.checker.maps import PUSH, checked, edited, read, searched, up_to
 
 # On the right two steps lead out beyond 10 and back nearer to 2; on the left one leads nearer to
 # -2.
@@ -299,3 +300,22 @@ def test_rejects_a_relation() -> None:
     outcome, reason = checked(text, {**searched(PUSH), **searched(LOOP)})["loop/returns"]
     assert outcome == "rejected"
     assert refused(reason, (Kind.EARLIER, "map push/relation"))
+
+
+@pytest.mark.parametrize(("root", "name"), [("", "x_0"), ("root x_1 = sqrt(a)", "x_1")])
+def test_rejects_a_parameter_or_root_with_the_name_of_a_state_on_the_way(
+    root: str, name: str
+) -> None:
+    text = edited(LOOP, "descends", "rank 0", f"{root}\nrank 0") if root else LOOP
+    text = text if root else text.replace("over a", "over a x_0")
+    statements = read(text)
+    premises = checker.premises_of(statements["loop/returns"], statements)
+    with pytest.raises(checker.Rejected) as info:
+        checker.Unfolding(premises["word-1"], checker.Context())
+    assert refused(info.value, (Kind.NAME, name)), info.value
+
+
+def test_rejects_words_that_take_too_much_work() -> None:
+    text = edited(LOOP, "returns", "word 3 5", f"word{' 3 5' * 20_000}")
+    _, reason = checked(text, searched(LOOP))["loop/returns"]
+    assert refused(reason, Kind.WORK)

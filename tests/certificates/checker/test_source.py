@@ -22,6 +22,7 @@ ORDER = [
     "text",
     "language",
     "rules",
+    "maps",
     "orbits",
     "settling",
 ]  # each rests on those before it
@@ -113,7 +114,7 @@ def test_every_check_passes_its_meter_on() -> None:
     """A context or a proof without one would begin a meter of its own."""
     calls = [
         node
-        for name in ("rules", "orbits", "settling")
+        for name in ("rules", "maps", "orbits", "settling")
         for node in ast.walk(TREES[name])
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     ]
