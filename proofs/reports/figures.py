@@ -5,7 +5,7 @@ the trap with what they show.
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -49,7 +49,7 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
     """
     needed("matplotlib")
     entries = (contents or gather()).entries
-    given = {
+    given: dict[str, Callable[[], tuple[object, ...]]] = {
         "fig-ranges": lambda: (rows(entries), without_alpha(entries)),
         "fig-trap": what_the_trap_shows,
         "fig-attractors": lambda: what_attracts(entries),
@@ -142,8 +142,8 @@ def what_attracts(entries: Iterable[Judged]) -> tuple[list[Range], Flights, Rang
             raise ClaimError(f"{claim_id} holds on no range that can be drawn")
         return found[0][0], found[-1][1]
 
-    other = (span(f"restitution-unequal{part}") for part in ("", "-ends"))
-    return ([span(claim_id) for claim_id in SETTLED], FLIGHTS, *other)
+    attracts, exists = (span(f"restitution-unequal{part}") for part in ("", "-ends"))
+    return [span(claim_id) for claim_id in SETTLED], FLIGHTS, attracts, exists
 
 
 def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, bool]]]:

@@ -11,7 +11,7 @@ from itertools import accumulate
 
 from matplotlib.figure import Figure
 
-from juggleproof.scenes.figures.arcs import Arc, Place, column, joined, straight
+from juggleproof.scenes.figures.arcs import Arc, column, joined, straight
 from juggleproof.scenes.figures.drawing import Plane, blank, styled, ticks
 from juggleproof.scenes.figures.look import B2, Look, R
 from juggleproof.symbolic import normal_impact_after
@@ -28,18 +28,20 @@ SEEN = (
 )
 SETTLED = Look(R.colour, "", tint=0.14)
 Range = tuple[Fraction, Fraction]
+Impact = tuple[Fraction, Fraction]
 Flights = tuple[int, ...]
 
 
-def after(periods: int, alpha: Fraction, impact: Place) -> Place:
+def after(periods: int, alpha: Fraction, impact: Impact) -> Impact:
     """The impact after a flight of so many periods."""
-    return column(_image(periods), alpha=alpha, x=impact[0], w=impact[1])
+    x, w = column(_image(periods), alpha=alpha, x=impact[0], w=impact[1])
+    return Fraction(x), Fraction(w)
 
 
 _image = cache(lambda periods: normal_impact_after((periods,)))
 
 
-def impacts(flights: Flights, alpha: Fraction) -> list[Place]:
+def impacts(flights: Flights, alpha: Fraction) -> list[Impact]:
     """The impacts that flights of so many periods bring back, of which each need not be one.
 
     >>> [tuple(map(str, state)) for state in impacts((1,), Fraction(1, 4))]

@@ -18,7 +18,8 @@ from math import comb, prod
 
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
-from juggleproof.certificates.algebra.numbers import bernstein, exact, fraction, univariate
+from juggleproof.certificates.algebra.numbers import bernstein, exact, fraction
+from juggleproof.certificates.algebra.polynomials import constant_of
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.psatz.facts import Factors, merge
 from juggleproof.certificates.search.psatz.lifting import lift
@@ -49,15 +50,42 @@ def search_by_parameter(problem: Problem, budget: Budget) -> Node | None:
 
     Raises Exhausted where the budget ends.
     """
-    axes = [one for one in bounds(problem).values() if one.low is not None and one.high is not None]
+    bounded = [interval(problem, axis) for axis in bounds(problem).values()]
+    axes = [one for one in bounded if one is not None]
     if problem.reduction.left or len(axes) != 1:
         return None
-    (axis,) = axes
-    rows = linear_rows(problem, axis.variable)
+    (between,) = axes
+    rows = linear_rows(problem, between.axis.variable)
     if rows is None:
         return None
-    used, roots = contradiction(problem, axis, rows, budget) or ([], [])
+    used, roots = contradiction(problem, between, rows, budget) or ([], [])
     return lift(problem, used, [], roots) if used else None
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A parameter with its bounds: their ends, and their slopes but for the sign."""
+
+    axis: Axis
+    low: Fraction
+    high: Fraction
+    slopes: tuple[int, int]
+
+    def part(self, k: int, degree: int, coefficient: fmpq, power: int) -> Part:
+        """The k-th term of a Bernstein form of this degree."""
+        number = fraction(coefficient) * comb(degree, k) / (self.high - self.low) ** degree
+        number /= self.slopes[0] ** k * self.slopes[1] ** (degree - k)
+        return Part(number, self.axis.factors(k, degree), power)
+
+
+def interval(problem: Problem, axis: Axis) -> Interval | None:
+    """The bounds of a parameter that has two."""
+    if axis.low is None or axis.high is None:
+        return None
+    v, facts = axis.variable, (problem.facts[axis.low], problem.facts[axis.high])
+    low, high = (fact.end(v) for fact in facts)
+    lower, upper = (abs(constant_of(fact.poly.derivative(v)) or 1) for fact in facts)
+    return Interval(axis, low, high, (lower, upper))
 
 
 def linear_rows(problem: Problem, parameter: int) -> dict[int, Coefficients] | None:
@@ -100,11 +128,10 @@ Used = list[tuple[tuple[Factors, int], Fraction]]
 
 
 def contradiction(
-    problem: Problem, axis: Axis, rows: dict[int, Coefficients], budget: Budget
+    problem: Problem, between: Interval, rows: dict[int, Coefficients], budget: Budget
 ) -> tuple[Used, list[fmpz_mpoly]] | None:
     """A sum of products that vanishes, by as few facts as there are."""
-    low, high = (problem.facts[k].end(axis.variable) for k in (axis.low, axis.high))
-    inside = [exact(low + (high - low) * part) for part in INSIDE]
+    inside = [exact(between.low + (between.high - between.low) * part) for part in INSIDE]
     sets = (
         chosen
         for size in range(2, len(next(iter(rows.values()), ())) + 1)
@@ -119,7 +146,7 @@ def contradiction(
         if any(total(at) > 0 for at in inside):
             continue
         budget.spend(TO_FIND_A_FORM)
-        parts = identity(problem, axis, [*zip(multiples, chosen)], total)
+        parts = identity(problem, between, [*zip(multiples, chosen)], total)
         if parts is not None:
             powers = sorted({part.power for _, part in parts if part.power})
             used = [
@@ -129,7 +156,7 @@ def contradiction(
                 )
                 for own, part in parts
             ]
-            return used, [problem.ring.ctx.gen(axis.variable) ** power for power in powers]
+            return used, [problem.ring.ctx.gen(between.axis.variable) ** power for power in powers]
     return None
 
 
@@ -178,7 +205,7 @@ def determinant(matrix: Sequence[Sequence[fmpq_poly]]) -> fmpq_poly:
 
 def identity(
     problem: Problem,
-    axis: Axis,
+    between: Interval,
     multiples: Sequence[tuple[fmpq_poly, int]],
     total: fmpq_poly,
 ) -> list[tuple[Factors, Part]] | None:
@@ -188,7 +215,7 @@ def identity(
     for least in (True, False):  # squares of powers of the parameter are not known to be > 0
         terms: list[tuple[Factors, Part]] = []
         for poly, fact in [*multiples, (-total, None)]:
-            parts = [*nonnegative(problem, axis, poly, least or fact is not None)] if poly else []
+            parts = [*nonnegative(between, poly, least or fact is not None)] if poly else []
             if poly and not parts:
                 return None
             terms += [(() if fact is None else ((fact, 1),), part) for part in parts]
@@ -199,25 +226,17 @@ def identity(
     return None
 
 
-def nonnegative(problem: Problem, axis: Axis, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
+def nonnegative(between: Interval, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
     """A polynomial in the parameter as a sum of parts: an even power of it `apart`, in Bernstein's
     form; no parts where none of the degrees tried has one without negative numbers.
     """
-    low, high = (problem.facts[k].end(axis.variable) for k in (axis.low, axis.high))
     coefficients = poly.coeffs()
-    first = next(k for k, c in enumerate(coefficients) if c)
-    power = first // 2 if apart else 0
+    power = next(k for k, c in enumerate(coefficients) if c) // 2 if apart else 0
     rest = fmpq_poly(coefficients[2 * power :])
     for degree in range(rest.degree(), rest.degree() + HIGHER):
-        values = bernstein(rest, low, high, degree)
+        values = bernstein(rest, between.low, between.high, degree)
         if all(value >= 0 for value in values):
-            slopes = [
-                abs(int(univariate(problem.facts[k].poly, axis.variable).coeffs()[1].p))
-                for k in (axis.low, axis.high)
-            ]
             for k, value in enumerate(values):
                 if value:
-                    number = fraction(value) * comb(degree, k) / (high - low) ** degree
-                    number /= slopes[0] ** k * slopes[1] ** (degree - k)
-                    yield Part(number, axis.factors(k, degree), power)
+                    yield between.part(k, degree, value, power)
             return
