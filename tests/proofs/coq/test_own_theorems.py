@@ -18,6 +18,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
@@ -180,6 +181,21 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(
     assert [name for name in answers if "Axioms:" in answers[name].output] == [*ALONE, "all"]
     for name in (*ALONE, "all"):
         assert axioms(answers[name]) <= REALS
+
+
+@pytest.mark.skipif(not ALL, reason="takes minutes of coqc; CI runs it")
+@pytest.mark.parametrize("name", ["restitution-to-a-half/returns", "restitution-half/returns"])
+def test_coqc_accepts_that_all_orbits_up_to_a_half_tend_to_one_of_two_holds(
+    name: str, tmp_path: Path
+) -> None:
+    """Of the ball's map itself, on all of x >= 0, but for four states at 1/2."""
+    store, claim_id = Store(DEFAULT), name.partition("/")[0]
+    texts = {one: text for one, text in store.texts.items() if one.startswith(f"{claim_id}/")}
+    answer = alone(
+        tmp_path, written(name, texts, {one: store.certificate(one, texts[one]) for one in texts})
+    )
+    assert answer.accepted, answer.output
+    assert axioms(answer) <= REALS
 
 
 def forged(own: str, premise: str, other: str) -> dict[str, Any]:
