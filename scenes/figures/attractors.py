@@ -17,7 +17,7 @@ from juggleproof.scenes.figures.look import B2, Look, R
 from juggleproof.symbolic import normal_impact_after
 
 UP = (0, 10)
-STEPS, FINE = 60, 400  # of alpha from 0 to 1, along a branch and where its ends are sought
+STEPS, FINE = 30, 400  # of alpha from 0 to 1, along a branch and where its ends are sought
 MOST = 9  # periods of the flights of the e_K that are drawn: those of more begin above
 TICKS = {0.0: "0", 1 / 3: "1/3", 0.5: "1/2", 0.6: "3/5", 2 / 3: "2/3", 5 / 7: "5/7", 1.0: "1"}
 # the flights of orbits that `juggleproof simulate juggler --words` saw at 0.78 and at 0.8, with an
@@ -75,7 +75,7 @@ def grid(low: Fraction, high: Fraction) -> list[Fraction]:
     """The ends and the steps between them.
 
     >>> [str(alpha) for alpha in grid(Fraction(1, 3), Fraction(3, 8))]
-    ['1/3', '7/20', '11/30', '3/8']
+    ['1/3', '11/30', '3/8']
     """
     first, last = low * STEPS // 1 + 1, -(-high * STEPS // 1) - 1
     return [low, *(Fraction(int(k), STEPS) for k in range(int(first), int(last) + 1)), high]
