@@ -11,17 +11,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
-    ClaimError,
     Formula,
     MapRule,
     conjunction,
     equal,
     term,
 )
-from juggleproof.proofs.paper.names import alpha, at, claim, derived_vector, encoded, w
+from juggleproof.proofs.paper.names import alpha, at, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import RADIUS, WEIGHTS
 from juggleproof.proofs.theorem.definition import (
@@ -77,12 +75,8 @@ class Restitutions:
 
 
 def flown(*periods: int) -> Vector:
-    """The impact after flights of so many periods: of one as derived, of more by that again."""
-    if len(periods) == 1:
-        return derived_vector("normal_impact_after", periods)
-    found = encoded(symbolic.normal_impact_after(periods))
-    if not isinstance(found, Vector):
-        raise ClaimError(f"flights of {periods} periods lead to no state")
+    """The impact after flights of so many periods."""
+    found: Vector = derived_vector("normal_impact_after", periods)
     return found
 
 

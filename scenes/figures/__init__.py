@@ -194,7 +194,7 @@ TABLE = (
         " to attract a box of states; the short lines are one orbit of 12 unequal flights. Dashed:"
         " orbits that simulations end in.",
         "Over alpha from 0 to 1 there are nine falling curves, e_1 to e_9; e_K begins at an open"
-        " circle at alpha = (K - 1)/(K + 1), at closing speed K + 1. All is shaded up to 5/7."
+        " circle at alpha = (K - 1)/(K + 1), at closing speed K + 1. All is shaded up to 0.7286."
         " Beyond, from 0.73 to about 0.8, there are bundles of short lines between the curves.",
         "attractors.attractors",
     ),
