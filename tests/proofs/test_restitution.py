@@ -19,7 +19,7 @@ from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
-from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START
+from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START, on_the_orbit
 from juggleproof.proofs.theorem.definition import holds_at, value_of
 from juggleproof.proofs.theorem.orbits import State, step
 
@@ -178,6 +178,8 @@ def test_orbit_of_unequal_flights_comes_back_holds() -> None:
     alpha = Fraction(3, 4)
     start = state_at(alpha, START)
     assert flights(start, len(FLIGHTS)) == (FLIGHTS, start)
+    for count in range(len(FLIGHTS)):
+        assert flights(start, count)[1] == state_at(alpha, on_the_orbit(count))
     for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
         away = Fraction(1, 2000)
         corner = State(alpha, start.x + left * PERIODS * away, start.w + down * away)
