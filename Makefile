@@ -44,10 +44,11 @@ docs: $(VENV)/tools
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-docs.lock
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
-# The pictures of README and of docs; the figure of the report on white, so that it can be read on a dark page.
+# The pictures of README and of docs; the figures of the report on white, so that it can be read on a dark page.
 figure: $(VENV)/tools
 	$(BIN)/juggleproof report --format figures -o build > /dev/null
-	sed '0,/fill: none/s//fill: #ffffff/' build/figures/fig-trap.svg > docs/img/fig-trap.svg
+	for slug in fig-trap fig-attractors; do \
+	  sed '0,/fill: none/s//fill: #ffffff/' build/figures/$$slug.svg > docs/img/$$slug.svg; done
 	$(BIN)/juggleproof simulate juggler --picture bifurcation -o docs/img/bifurcation.svg
 
 # What certifying needs, and no more.

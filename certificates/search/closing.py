@@ -16,6 +16,7 @@ from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import close_in_one_variable
+from juggleproof.certificates.search.psatz.by_parameter import search_by_parameter
 from juggleproof.certificates.search.psatz.facts import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
@@ -50,6 +51,8 @@ MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
 MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
+LONG = 12  # terms of a node, beyond which a shorter one is looked for
+BY_PARAMETER = 25_000  # units of work for that
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -216,6 +219,7 @@ class Closing:
         factors = two_factors(problem) if 1 < self.effort < SQUARED and node is None else []
         node = node or (self.by_factors(inside, factors, depth) if factors else None)
         node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
+        node = self.by_few(problem, node)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
             node = close_by_variables(inside, problem.ring, self.budget)
@@ -236,6 +240,16 @@ class Closing:
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
+
+    def by_few(self, problem: Problem, node: Node | None) -> Node | None:
+        """The same, or in place of none or of a long one a node that a few facts make."""
+        if node is not None and (node[0] != "psatz" or len(node[1]) <= LONG):
+            return node
+        try:
+            few = search_by_parameter(problem, self.budget.part(BY_PARAMETER))
+        except Exhausted:
+            return node
+        return few if node is None or few and len(str(few)) < len(str(node)) else node
 
     def forms(self, state: State, coupled: bool) -> Node | None:
         """Quadratic forms with parameters in a box, with little work where not `coupled`."""

@@ -5,7 +5,8 @@ the trap with what they show.
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from sympy import Expr, Rational, Symbol
@@ -17,6 +18,8 @@ from juggleproof.proofs.reports.contents import Contents, gather
 from juggleproof.proofs.reports.contents import Entry as Judged
 from juggleproof.proofs.reports.results import NO_RANGE
 from juggleproof.proofs.reports.words import read
+from juggleproof.proofs.restitution.settling import RANGES
+from juggleproof.proofs.restitution.unequal import FLIGHTS
 from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 from juggleproof.scenes.figures import TABLE, Entry
 
@@ -26,6 +29,8 @@ if TYPE_CHECKING:
     from juggleproof.scenes.figures.ours import Row
 
 FORMS = ("svg", "pdf")
+Range = tuple[Fraction, Fraction]
+Flights = tuple[int, ...]
 
 
 class Saved(NamedTuple):
@@ -44,9 +49,10 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
     """
     needed("matplotlib")
     entries = (contents or gather()).entries
-    given = {
+    given: dict[str, Callable[[], tuple[object, ...]]] = {
         "fig-ranges": lambda: (rows(entries), without_alpha(entries)),
         "fig-trap": what_the_trap_shows,
+        "fig-attractors": lambda: what_attracts(entries),
     }
     return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
 
@@ -119,6 +125,25 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
     from juggleproof.scenes.figures import drawing
 
     return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)
+
+
+SETTLED = ("theorem", "theorem-one-third", "restitution-to-a-half", "restitution-half", *RANGES)
+
+
+def what_attracts(entries: Iterable[Judged]) -> tuple[list[Range], Flights, Range, Range]:
+    """The ranges of the claims by which every orbit tends to some e_K; and the flights of another
+    orbit, where it attracts, and where it exists. Raises ClaimError where one of them fails.
+    """
+    sharp = {entry.claim.id: entry.sharp for entry in entries if entry.verdict == "holds"}
+
+    def span(claim_id: str) -> Range:
+        found = read(sharp.get(claim_id, NO_RANGE).removeprefix("at least "))[0][1]
+        if not found:
+            raise ClaimError(f"{claim_id} holds on no range that can be drawn")
+        return found[0][0], found[-1][1]
+
+    attracts, exists = (span(f"restitution-unequal{part}") for part in ("", "-ends"))
+    return [span(claim_id) for claim_id in SETTLED], FLIGHTS, attracts, exists
 
 
 def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, bool]]]:

@@ -438,8 +438,11 @@ def descends(
     of_alpha: Formula,
     descent: Descent,
     lemmas: Sequence[Formula] = (),
+    piece: int = 1,
 ) -> MapRule:
-    """Every orbit is led to the last stage by the fall of the rank, by lemmas for impacts."""
+    """Every orbit is led to the last stage by the fall of the rank, by lemmas for impacts, which
+    are this piece.
+    """
     stages = [setting.here(stage) for stage in descent.stages]
     rank, roots = setting.here(descent.rank), _roots(descent.roots, setting)
     return MapRule(
@@ -450,7 +453,7 @@ def descends(
             *(("root", f"{name} = sqrt({under})") for name, under in roots),
             ("rank", str(rank)),
             *(("stage", str(stage)) for stage in stages),
-            *(("lemma", f"falls-1: {setting.here(lemma)}") for lemma in lemmas),
+            *(("lemma", f"falls-{piece}: {setting.here(lemma)}") for lemma in lemmas),
         ),
         _terms([under for _, under in roots], rank, stages),
     )

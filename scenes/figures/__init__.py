@@ -1,12 +1,13 @@
-"""The figures of the paper, drawn again from what is derived, and two that it lacks; in the paper's
-order.
+"""The figures of the paper, drawn again from what is derived, and three that it lacks; in the
+paper's order.
 
     arcs     derived expressions as numbers, and arcs of parabolas
     look     the look of figures
     drawing  how figures are saved, and a plane to draw on
     states   the plane of the sampled states
     paper    the figures of the paper
-    ours     the two that it lacks
+    ours     two that it lacks
+    attractors  what orbits come to, for every restitution
 """
 
 from __future__ import annotations
@@ -183,6 +184,19 @@ TABLE = (
         " range; the theorem and what leads to it end at 1/3, others a little before or beyond it,"
         " and subharmonic orbits begin there.",
         "ours.ranges",
+    ),
+    Entry(
+        "",
+        "fig-attractors",
+        "What orbits come to, for every restitution",
+        "The closing speeds w at the impacts of orbits that attract. Shaded: every orbit is proved"
+        " to tend to the orbit of some e_K, but for few states at the open circles. Solid: proved"
+        " to attract a box of states; the short lines are one orbit of 12 unequal flights. Dashed:"
+        " orbits that simulations end in.",
+        "Over alpha from 0 to 1 there are nine falling curves, e_1 to e_9; e_K begins at an open"
+        " circle at alpha = (K - 1)/(K + 1), at closing speed K + 1. All is shaded up to 0.7286."
+        " Beyond, from 0.73 to about 0.8, there are bundles of short lines between the curves.",
+        "attractors.attractors",
     ),
 )
 

@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.reports.figures import what_the_trap_shows
 from tests.docs.pages import PAGES, ROOT, code, text_of
 from tests.proofs.reports.browser import chromium, requests, resize, scheme
+from tests.scenes.figures.drawn import figure
 
 # -------------------------------------------------------------------------------------------------
 # The site: built without a warning, with formulas as MathML; it loads nothing from elsewhere and
@@ -83,13 +83,12 @@ def test_pages_fit_a_phone_and_follow_the_readers_colours_holds(site: Path) -> N
 # The pictures of README.md and of the pages are those that the program draws.
 
 
-def test_the_trap_is_what_the_program_draws_holds() -> None:
+@pytest.mark.parametrize("slug", ["fig-trap", "fig-attractors"])
+def test_figures_of_the_report_are_what_the_program_draws_holds(slug: str) -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-    from juggleproof.scenes.figures import TABLE, drawing
+    from juggleproof.scenes.figures import drawing
 
-    slug = "fig-trap"
-    entry = next(one for one in TABLE if one.slug == slug)
-    drawn = drawing.svg(entry.draw(*what_the_trap_shows()), slug).decode()
+    drawn = drawing.svg(figure(slug), slug).decode()
     on_white = drawn.replace("fill: none", "fill: #ffffff", 1)
     committed = (ROOT / f"docs/img/{slug}.svg").read_text(encoding="utf-8")
     assert committed == on_white, "run `make figure`"

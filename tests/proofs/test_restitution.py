@@ -17,6 +17,7 @@ from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
+from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
 from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START, on_the_orbit
 from juggleproof.proofs.theorem.definition import holds_at, value_of
@@ -51,6 +52,15 @@ WEAKENED = [
     ("restitution-to-a-half/returns", "word 1 2 2", "word 1 2 1"),
     ("restitution-half/impacts", " and (x - 0)^2 + (w - (-2))^2 > 0", ""),
     ("restitution-half/map", " and (x - 0)^2 + (w - (-2))^2 > 0", ""),
+    ("restitution-to-three-fifths/settles", "never 2 1 2\n", ""),
+    ("restitution-to-three-fifths/settles", "word 1 1 1", "word 1 1"),
+    ("restitution-to-three-fifths/settles", "never 2 1 1 2", "never 2 2 1 1"),
+    ("restitution-to-three-fifths/descends", "rank 24*u", "rank 8*u"),
+    ("restitution-to-three-fifths/descends", "5*alpha < 3", "5*alpha <= 3"),
+    ("restitution-to-three-fifths/e-2", "size 100", "size 1"),
+    ("restitution-to-three-fifths/returns", "word 1 2 2\n", "word 1 2 1\n"),
+    ("restitution-three-fifths/impacts", " and (x - 0)^2 + (w - 5)^2 > 0", ""),
+    ("restitution-beyond-five-sevenths/descends", "5000*alpha < 3643", "alpha < 3/4"),
     ("restitution-unequal/comes-back", "word 1 1 1 2", "word 1 1 2 1"),
     ("restitution-unequal/comes-back", "alpha > 73/100", "alpha > 72/100"),
     ("restitution-unequal/contracts", "rate 2*alpha^12", "rate alpha^12"),
@@ -133,6 +143,35 @@ def test_every_orbit_tends_to_one_of_two_fails_without_the_exceptions() -> None:
     assert not any(holds_at(last, state.point()) for state in states)
     near = State(half, states[0].x + Fraction(1, 100), states[0].w)
     assert 3 not in flights(near, 8)[0][1:]
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_words_that_no_state_has_are_in_no_exact_orbit_holds(name: str) -> None:
+    chosen = RANGES[name]
+    alpha = (2 * chosen.least + 3 * chosen.most) / 5
+    runs = chosen.runs.split()
+    ended = set()
+    for count in range(12):
+        start = State(alpha, Fraction(count % 4, 5), Fraction(2 + 3 * count, 5))
+        text = "".join(map(str, flights(start, 24)[0]))
+        # the first flights may be those of a fast impact
+        assert not any(word in text[4:] for word in chosen.never.split())
+        ended.add(next(run for run in runs if text.endswith(run)))
+    assert len(ended) > 1
+
+
+@pytest.mark.parametrize("name", [name for name, one in RANGES.items() if one.least == one.most])
+def test_exceptions_tend_to_the_orbit_that_begins_holds(name: str) -> None:
+    chosen = RANGES[name]
+    states = [state_at(chosen.least, place) for place in chosen.exceptions()]
+    assert flights(states[0], 2) == ((chosen.longest,) * 2, states[0])
+    assert step(states[0]) in states and all(step(state) in states for state in states[1:])
+
+
+def test_there_are_exceptions_fails_without_a_range_that_begins() -> None:
+    half = Fraction(1, 2)
+    assert not Restitutions(half, Fraction(3, 5), Fraction(7), 24, "11 22", "").exceptions()
+    assert not Restitutions(half, half, Fraction(7), 24, "11 22 33", "").exceptions()
 
 
 def test_orbit_of_unequal_flights_comes_back_holds() -> None:

@@ -4,7 +4,6 @@ from the theorem's definition.
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,23 +15,12 @@ from juggleproof.certificates.language import ClaimError, equal, reals
 from juggleproof.proofs.reports import figures
 from juggleproof.proofs.reports.figures import rows, without_alpha
 from juggleproof.proofs.reports.words import read
+from tests.proofs.reports.results_table import results
 
 if TYPE_CHECKING:
     from juggleproof.scenes.figures.ours import Interval
 
 F = Fraction
-RESULTS = Path(__file__).resolve().parents[3] / "docs/results.md"
-ROW = re.compile(r"\| <a.*</a>([\w.-]+) \| [^|]* \| \[?(\w+)[^|]* \| [^|]* \| `?([^|`]*)`? \|")
-
-
-def results() -> list[SimpleNamespace]:
-    """Entries as in the table of results: id, verdict and range."""
-    found = [ROW.fullmatch(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
-    return [
-        SimpleNamespace(claim=SimpleNamespace(id=one[1]), verdict=one[2], sharp=one[3])
-        for one in found
-        if one
-    ]
 
 
 @pytest.mark.parametrize(

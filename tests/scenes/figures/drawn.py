@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import pytest
 from sympy import Symbol
 
-from juggleproof.proofs.reports.figures import what_the_trap_shows
+from juggleproof.proofs.reports.figures import what_attracts, what_the_trap_shows
 from juggleproof.scenes.figures import TABLE
 from juggleproof.scenes.figures.ours import Row
+from tests.proofs.reports.results_table import results
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,6 +34,7 @@ def figure(slug: str) -> Figure:
     given: dict[str, Callable[[], tuple[object, ...]]] = {
         "fig-ranges": lambda: (ROWS, 3),
         "fig-trap": what_the_trap_shows,
+        "fig-attractors": lambda: what_attracts(results()),
     }
     return next(one for one in TABLE if one.slug == slug).draw(*given.get(slug, tuple)())
 

@@ -1,0 +1,173 @@
+"""Words of flights that no impact has, for the claims that all orbits tend to some e_K: a search at
+a few exact restitutions, which proves nothing of the others.
+
+    python -m juggleproof.benchmarks.words
+
+Impacts with the same next flights are a convex polygon. A word is taken for impossible where its
+polygon is empty, or has no area, at all the restitutions tried; of these words as few are kept, the
+long ones dropped first, as leave no way round the runs of equal flights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from fractions import Fraction
+from itertools import islice
+
+from flint import fmpq
+
+from juggleproof.benchmarks.processes import cpu_seconds
+from juggleproof.certificates.algebra.numbers import exact
+from juggleproof.proofs.restitution.settling import RANGES, Restitutions
+
+Point = tuple[fmpq, fmpq]  # an impact (x, w)
+Word = tuple[int, ...]  # periods of flights that follow one another
+Side = tuple[fmpq, fmpq, fmpq]  # a, b, c: the points with a x + b w + c >= 0
+TRIED = 4  # restitutions in a range, beside those next to its ends
+NEXT_TO = Fraction(1, 10**6)
+FASTEST = 100  # closing speeds that are looked at
+LONGEST = 40  # flights in a word
+
+
+def flown(periods: int, alpha: fmpq, impact: Point) -> Point:
+    """The next impact."""
+    x, w = impact
+    return alpha * (periods * w - x) - periods * (periods - 1), 2 * periods - alpha * w
+
+
+def sides(periods: int, alpha: fmpq) -> Iterator[Side]:
+    """Where the next flight lasts so many periods: the state after it has 0 <= x <= w."""
+    yield -alpha, alpha * periods, fmpq(-periods * (periods - 1))
+    yield alpha, -alpha * (periods + 1), fmpq(periods * (periods + 1))
+
+
+def cut(polygon: Sequence[Point], side: Side) -> list[Point]:
+    """The part of a convex polygon on a side; no points where it has no area.
+
+    >>> square = [(fmpq(a), fmpq(b)) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    >>> cut(square, (fmpq(-1), fmpq(0), fmpq(1, 2)))
+    [(0, 0), (1/2, 0), (1/2, 1), (0, 1)]
+    >>> cut(square, (fmpq(-1), fmpq(0), fmpq(0)))
+    []
+    """
+    a, b, c = side
+    values = [a * x + b * w + c for x, w in polygon]
+    found: list[Point] = []
+    for k, (here, value) in enumerate(zip(polygon, values)):
+        (x, w), last = polygon[k - 1], values[k - 1]
+        if value * last < 0:
+            part = last / (last - value)
+            found.append((x + part * (here[0] - x), w + part * (here[1] - w)))
+        if value >= 0:
+            found.append(here)
+    return found if len(found) > 2 else []
+
+
+def followed(alpha: fmpq, most: int) -> Iterator[set[Word]]:
+    """The words of 1, 2 and more flights, of at most `most` periods each, that impacts follow."""
+    triangle = [(fmpq(0), fmpq(0)), (fmpq(0), fmpq(FASTEST)), (fmpq(FASTEST), fmpq(FASTEST))]
+    level: dict[Word, list[Point]] = {(): triangle}
+    while True:
+        after: dict[Word, list[Point]] = {}
+        for word, polygon in level.items():
+            for periods in range(1, most + 1):
+                part = polygon
+                for side in sides(periods, alpha):
+                    part = cut(part, side)
+                if part:
+                    after[(*word, periods)] = [flown(periods, alpha, one) for one in part]
+        level = after
+        yield set(level)
+
+
+def impossible(levels: Sequence[Collection[Word]], most: int) -> list[Word]:
+    """The words that are followed nowhere, both of whose parts without an end are."""
+    return [
+        (*word, periods)
+        for shorter, level in zip(levels, levels[1:])
+        for word in sorted(shorter)
+        for periods in range(1, most + 1)
+        if (*word, periods) not in level and (*word, periods)[1:] in shorter
+    ]
+
+
+def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word | None:
+    """Flights of so many periods, so often that no others follow; None where longer words tell."""
+    for count in range(1, len(levels) - 1):
+        others = ((periods,) * count + (last,) for last in range(1, most + 1) if last != periods)
+        if not any(word in levels[count + 1] for word in others):
+            return (periods,) * count
+    return None
+
+
+def one_in_all(words: Collection[Word], most: int) -> bool:
+    """Whether every long word in flights of at most `most` periods holds one of these.
+
+    >>> one_in_all([(1, 1), (2,)], 2), one_in_all([(1, 1), (2, 2)], 2)
+    (True, False)
+    """
+    held = {*words}
+    begun = {word[:n] for word in words for n in range(len(word))}
+    left: set[Word] = {()}  # of what is read, the longest end with which one of these begins
+    for _ in begun:
+        read = [(*end, periods) for end in left for periods in range(1, most + 1)]
+        ends = [[word[n:] for n in range(len(word) + 1)] for word in read]
+        left = {next(filter(begun.__contains__, one)) for one in ends if held.isdisjoint(one)}
+    return not left
+
+
+def find_words(alphas: Sequence[Fraction], most: int) -> tuple[list[Word], list[Word]]:
+    """For each length up to `most` the run of flights after which all others are equal; and words
+    that no impact follows, so that one of all these is in every long word.
+
+    Raises ValueError where words of `LONGEST` flights are too short for that.
+    """
+    levels: list[Collection[Word]] = [{()}]
+    for level in islice(zip(*(followed(exact(alpha), most) for alpha in alphas)), LONGEST):
+        levels.append(set().union(*level))
+        ends = (run_of(periods, levels, most) for periods in range(1, most + 1))
+        runs = [run for run in ends if run is not None]
+        found = impossible(levels, most)
+        if len(runs) == most and one_in_all([*runs, *found], most):
+            break
+    else:
+        raise ValueError(f"words of {LONGEST} flights are too short")
+    for word in sorted(found, key=lambda word: -len(word)):
+        others = [one for one in found if one != word]
+        if one_in_all([*runs, *others], most):
+            found = others
+    return runs, sorted(found, key=lambda word: (len(word), word))
+
+
+def restitutions(least: Fraction, most: Fraction) -> list[Fraction]:
+    """Where the search looks: in a range and next to its ends, or on both sides of one."""
+    if least == most:
+        return [least - NEXT_TO, most + NEXT_TO]
+    step = (most - least) / TRIED
+    inside = [least + step * (k + Fraction(1, 2)) for k in range(TRIED)]
+    return [least + NEXT_TO, *inside, most - NEXT_TO]
+
+
+def written(words: Sequence[Word]) -> str:
+    """The words as the table of claims has them."""
+    return " ".join("".join(map(str, word)) for word in words)
+
+
+def search_for(chosen: Restitutions) -> tuple[str, str]:
+    """The runs and the words of a row of the table."""
+    runs, never = find_words(restitutions(chosen.least, chosen.most), chosen.longest - 1)
+    return written(runs), written(never)
+
+
+def main() -> None:
+    """Prints what is found for each row of the table."""
+    for claim, chosen in RANGES.items():
+        began = cpu_seconds()
+        runs, never = search_for(chosen)
+        same = (runs, never) == (chosen.runs, chosen.never)
+        print(f"{claim}: {'as stated' if same else 'differs'}, {cpu_seconds() - began:.1f} s")
+        print(f"  {runs}\n  {never}")
+
+
+if __name__ == "__main__":
+    main()

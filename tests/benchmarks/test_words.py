@@ -1,0 +1,38 @@
+"""The search for words of flights that no impact has finds those of the claims."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from juggleproof.benchmarks import words
+from juggleproof.benchmarks.words import find_words, restitutions, search_for, written
+from juggleproof.proofs.restitution.settling import RANGES
+
+
+@pytest.mark.parametrize("name", ["restitution-to-three-fifths", "restitution-two-thirds"])
+def test_words_of_the_claims_are_those_found_holds(name: str) -> None:
+    assert search_for(RANGES[name]) == (RANGES[name].runs, RANGES[name].never)
+
+
+def test_words_are_found_again_below_a_half_holds() -> None:
+    runs, never = find_words(restitutions(Fraction(1, 3), Fraction(1, 2)), 2)
+    assert written(runs) == "1 22" and written(never) == ""
+
+
+def test_words_fail_without_room_for_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(words, "LONGEST", 3)
+    with pytest.raises(ValueError, match="words of 3 flights are too short"):
+        find_words([Fraction(7, 10)], 5)
+
+
+def test_table_is_printed_beside_what_is_found_holds(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chosen = RANGES["restitution-to-three-fifths"]
+    monkeypatch.setattr(words, "RANGES", {"a": chosen, "b": replace(chosen, never="13")})
+    words.main()
+    first, *_, second, _, _ = capsys.readouterr().out.splitlines()
+    assert first.startswith("a: as stated") and second.startswith("b: differs")
