@@ -116,8 +116,9 @@ class Floats(Protocol):
     REST_SPEED,
     STEP,
     SPLIT,
-) = range(16)
-PARAMETERS = 16
+    REACH,
+) = range(17)
+PARAMETERS = 17
 
 # a state; for the last two see `contact`
 TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)
@@ -146,8 +147,9 @@ FLIGHT, PIVOT, FACE = 0.0, 1.0, 2.0
 NOTES = 16
 
 # how a run ended
-DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, NO_PROGRESS = range(5)
+DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, TOO_MANY_EVENTS = range(5)
 
+MOMENT = 1e-10  # seconds: how long a flight or a phase of contact lasts that would end at once
 QUARTER = pi / 2
 
 

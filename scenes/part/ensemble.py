@@ -24,12 +24,12 @@ from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, 
 
 CHUNK = 91
 WHY = {
-    body.TOO_MANY_STEPS: "the search for an impact took too many steps",
+    body.TOO_MANY_STEPS: "one flight or phase of contact took more than a million steps",
     body.JAMMED: "a corner jammed: friction is too large for the impact law",
     body.TOO_MANY_IMPACTS: "impacts at one time did not come to an end",
-    body.NO_PROGRESS: "events did not come to an end",
+    body.TOO_MANY_EVENTS: "more than a million events in a second; a larger rest speed ends them",
 }
-Job = tuple[Array, Array, float, Array]  # parameters, states, until, notes
+CONTACT = {body.FLIGHT: "in flight", body.PIVOT: "on a corner", body.FACE: "on a face"}
 J = TypeVar("J")  # a job
 R = TypeVar("R")  # its result
 
@@ -67,21 +67,33 @@ def fresh_notes(count: int, since: float = 0.0) -> Array:
     return notes
 
 
+class Job(NamedTuple):
+    """A chunk of blocks to be moved on to a time; `first` is the number of its first block."""
+
+    parameters: Array
+    states: Array
+    until: float
+    notes: Array
+    first: int = 0
+
+
 def advanced(job: Job) -> tuple[Array, Array]:
     """A chunk of blocks, moved on: states and notes; SceneError where a counted bound on the work
     is reached.
     """
-    p, states, until, notes = job[0], job[1].copy(), job[2], job[3].copy()
-    _refuse_failed(states, follow_all(p, states, until, notes))
+    states, notes = job.states.copy(), job.notes.copy()
+    _refuse_failed(states, follow_all(job.parameters, states, job.until, notes), job.first)
     return states, notes
 
 
-def _refuse_failed(states: Array, codes: Array) -> None:
-    """SceneError for the first block whose run did not end as asked."""
+def _refuse_failed(states: Array, codes: Array, first: int) -> None:
+    """SceneError for the first block whose run did not end as asked: where it is stuck."""
     for k in np.flatnonzero(codes):
+        t, X, Y, theta, V_X, V_Y, omega = states[k, :7]
         raise SceneError(
-            f"block {k}, at t = {states[k, body.TIME]:.6g} s and theta ="
-            f" {states[k, body.THETA]:.6g}: {WHY[int(codes[k])]}"
+            f"block {first + k} is stuck at t = {t:.6g} s, {CONTACT[states[k, body.MODE]]}, at"
+            f" X = {X:.6g} m, Y = {Y:.6g} m, theta = {theta:.6g}, with V_X = {V_X:.3g} m/s,"
+            f" V_Y = {V_Y:.3g} m/s, omega = {omega:.3g} rad/s: {WHY[int(codes[k])]}"
         )
 
 
@@ -109,7 +121,7 @@ def run(
         raise SceneError(f"notes of shape {notes.shape}: {(len(states), body.NOTES)} is needed")
     p = setting.parameters()
     jobs = [
-        (p, states[k : k + CHUNK], until, notes[k : k + CHUNK])
+        Job(p, states[k : k + CHUNK], until, notes[k : k + CHUNK], k)
         for k in range(0, len(states), CHUNK)
     ]
     return joined(run_jobs(advanced, jobs, executor))
@@ -166,6 +178,7 @@ class FrameJob(NamedTuple):
     parameters: Array
     states: Array
     times: Array
+    first: int
 
 
 def frames(
@@ -194,7 +207,7 @@ def frames(
             " choose fewer times"
         )
     jobs = [
-        FrameJob(setting.parameters(), states[k : k + CHUNK], at)
+        FrameJob(setting.parameters(), states[k : k + CHUNK], at, k)
         for k in range(0, len(states), CHUNK)
     ]
     return np.concatenate(run_jobs(sampled, jobs, executor), axis=1)
@@ -205,7 +218,8 @@ def sampled(job: FrameJob) -> Array:
     states = job.states.copy()
     seen = np.zeros((len(states), len(job.times), body.STATE))
     notes = fresh_notes(len(states))
-    _refuse_failed(states, sample_all(job.parameters, states, job.times, notes, seen))
+    codes = sample_all(job.parameters, states, job.times, notes, seen)
+    _refuse_failed(states, codes, job.first)
     return np.ascontiguousarray(seen.transpose(1, 0, 2))
 
 

@@ -21,6 +21,7 @@ from juggleproof.scenes.part.body import (
     HALF_LONG,
     HALF_SHORT,
     LEAST_GAP,
+    MOMENT,
     OMEGA,
     PHASE_Y,
     STEPS,
@@ -44,7 +45,6 @@ NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton'
 # metres: the roots of corners whose gaps at the end of a step differ by no more are all computed,
 # so that the order of the corners does not matter
 EQUAL_GAPS = 1e-15
-LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
 # of the time at which a corner comes down to a height, the second in seconds
 MOST_GUESSES, TIME_RESOLUTION = 100, 1e-14
 
@@ -93,7 +93,7 @@ def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
         if gap < height and s - guess <= TIME_RESOLUTION and guess <= s:
             break
         s = guess if early < guess < late else (early + late) / 2
-    return max(late, LEAST_FLIGHT)
+    return max(late, MOMENT)
 
 
 @compiled
@@ -137,7 +137,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 step = min(step, safe_step(above, rate, fall))
         first = False
         if met:
-            s += max(min(back, step), min(LEAST_FLIGHT - s, 0.0))
+            s += max(min(back, step), min(MOMENT - s, 0.0))
             ended = DONE
             break
         s += step

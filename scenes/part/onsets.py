@@ -125,9 +125,9 @@ def table_one(
     for frequency, amplitude, _ in PAPER:
         shaken = changed(setting, f_x=frequency, A_x=peak * amplitude)
         p = shaken.parameters()
-        jobs += [
-            (p, standing(shaken, row), horizon, fresh_notes(ANGLES, horizon / 2)) for row in angles
-        ]
+        for row in angles:
+            notes = fresh_notes(ANGLES, horizon / 2)
+            jobs.append(Job(p, standing(shaken, row), horizon, notes, len(jobs) * ANGLES))
     done: list[tuple[Array, Array]] = []
     try:
         run_jobs(advanced, jobs, executor, report, done)

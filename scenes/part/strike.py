@@ -20,10 +20,12 @@ from juggleproof.scenes.part.body import (
     JAMMED,
     LARGEST_REMOVED,
     MODE,
+    MOMENT,
     OMEGA,
     PIVOT,
     PULLS,
     QUARTER,
+    REACH,
     REST_SPEED,
     RESTITUTION,
     SLIDE,
@@ -183,6 +185,7 @@ def first_turn(i: int, theta: float) -> float:
 # added. Coming to rest moves a corner by at most two tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
+ROUNDED_HOP = 1e-7  # of the speed of a corner that turns: its hops are lost in rounding
 STILL = 1e-12  # metres a second: closing speeds below are rounding
 # relative rounding that the guarantees are counted with, and that of a difference of speeds
 SLACK, ROUNDING = 1e-12, 1e-14
@@ -196,6 +199,15 @@ def energy(p: Floats, z: Floats, glide: float, rise: float) -> float:
 
 
 @compiled
+def rest_speed(p: Floats, omega: float) -> float:
+    """Below which speed (m/s) a corner stays: the scene's, but where the block turns fast at least
+    so much that hops are not lost in rounding (see `Scene.least_rest_speed`).
+    """
+    turning = abs(omega) * p[REACH]
+    return max(p[REST_SPEED], turning * max(ROUNDED_HOP, 4 * abs(omega) * MOMENT))
+
+
+@compiled
 def strike_at(
     p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats
 ) -> int:
@@ -205,7 +217,7 @@ def strike_at(
     k2, mu = p[GYRATION], p[FRICTION]
     S0, C0 = z[V_X] - z[OMEGA] * y - glide, z[V_Y] + z[OMEGA] * x - rise
     B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
-    e = p[RESTITUTION] if -C0 >= p[REST_SPEED] else 0.0
+    e = p[RESTITUTION] if -C0 >= rest_speed(p, z[OMEGA]) else 0.0
     sigma = first_slide(S0, B1, B3, mu)
     mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
     if mode == JAMMING:
@@ -238,7 +250,7 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
     level, touch = table_height(p, t), 2 * p[TOLERANCE]
     carried = p[G] + table_lift(p, t) > 0
     for _ in range(MOST_IMPACTS):
-        touching, slow, resting = 0, 0, -1
+        touching, slow, resting, rest = 0, 0, -1, rest_speed(p, z[OMEGA])
         fastest, first, second, lowest = -STILL, -1, -1, 2 * touch
         for i in range(4):
             gap = z[Y] + corner_y(p, i, c, s) - level
@@ -246,7 +258,7 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
                 continue
             C = z[V_Y] + z[OMEGA] * corner_x(p, i, c, s) - rise
             touching += 1
-            slow += abs(C) < p[REST_SPEED]
+            slow += abs(C) < rest
             if abs(C) <= STILL and gap < lowest:
                 resting, lowest = i, gap
             if C < fastest:
@@ -278,7 +290,7 @@ def lie_down(p: Floats, z: Floats, t: float, level: float, rise: float, notes: F
     turns = floor(z[THETA] / QUARTER + 0.5)
     glide = table_glide(p, t)
     before = energy(p, z, glide, rise)
-    if abs(z[V_X] - glide) < p[REST_SPEED]:
+    if abs(z[V_X] - glide) < rest_speed(p, z[OMEGA]):
         z[V_X] = glide
     z[THETA], z[OMEGA], z[V_Y] = turns * QUARTER, 0.0, rise
     z[Y] = level + (p[HALF_LONG] if turns % 2 == 0 else p[HALF_SHORT])
