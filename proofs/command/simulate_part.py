@@ -173,6 +173,7 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
             peak=AMPLITUDES[options.amplitudes],
             executor=executor,
             report=progress(),
+            check=options.check,
         )
         clear()
         # before anything is printed, to a reader who may not stay

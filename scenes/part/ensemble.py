@@ -37,16 +37,19 @@ R = TypeVar("R")  # its result
 @dataclass(frozen=True)
 class Run:
     """Where blocks are after a run, shape (n, 10), and what was noted of them, shape (n, 16);
-    columns are named in `juggleproof.scenes.part.body`.
+    columns are named in `juggleproof.scenes.part.body`.  `checked`: whether guarantees were.
     """
 
     states: Array
     notes: Array
+    checked: bool
 
     def violations(self) -> dict[str, int]:
-        """How often an impact broke a guarantee of the impact law, and corners how deep in the
-        table: all are to be 0.
+        """How often an impact broke a guarantee of the impact law, and a flight ended with a corner
+        deeper in the table than the tolerance: all are to be 0; SceneError where none was checked.
         """
+        if not self.checked:
+            raise SceneError("a run that is not checked tells of no violations; give check=True")
         return {
             name: int(self.notes[:, column].sum())
             for name, column in (
@@ -54,6 +57,7 @@ class Run:
                 ("impulses outside the friction cone", body.CONES),
                 ("energy gained", body.GAINS),
                 ("corners left closing", body.CLOSINGS),
+                ("corners too deep", body.SINKS),
             )
         }
 
@@ -104,9 +108,11 @@ def run(
     *,
     notes: Array | None = None,
     executor: Executor | None = None,
+    check: bool = False,
 ) -> Run:
     """Moves blocks on to the time `until`, in seconds; `states` of shape (n, 10) stay as they are.
     SceneError for arrays of other shapes, and where a counted bound on the work is reached.
+    `check`: whether broken guarantees are counted.
 
     Without an executor the chunks are shared over the cores by threads; kernels do not hold the
     interpreter's lock.
@@ -119,19 +125,21 @@ def run(
     notes = fresh_notes(len(states)) if notes is None else notes
     if notes.shape != (len(states), body.NOTES):
         raise SceneError(f"notes of shape {notes.shape}: {(len(states), body.NOTES)} is needed")
-    p = setting.parameters()
+    p = setting.parameters(check)
     jobs = [
         Job(p, states[k : k + CHUNK], until, notes[k : k + CHUNK], k)
         for k in range(0, len(states), CHUNK)
     ]
-    return joined(run_jobs(advanced, jobs, executor))
+    return joined(run_jobs(advanced, jobs, executor), check)
 
 
-def joined(parts: Iterable[tuple[Array, Array]]) -> Run:
+def joined(parts: Iterable[tuple[Array, Array]], checked: bool) -> Run:
     """Chunks in their order as one run."""
     chunks = list(parts)
     return Run(
-        np.concatenate([part[0] for part in chunks]), np.concatenate([part[1] for part in chunks])
+        np.concatenate([part[0] for part in chunks]),
+        np.concatenate([part[1] for part in chunks]),
+        checked,
     )
 
 

@@ -18,9 +18,9 @@ from juggleproof.scenes.part.body import (
     Floats,
     compiled,
 )
-from juggleproof.scenes.part.flight import fly
+from juggleproof.scenes.part.flight import land
 from juggleproof.scenes.part.rest import lie, note_turn, pivot
-from juggleproof.scenes.part.strike import strike
+from juggleproof.scenes.part.strike import strike_all
 
 # -------------------------------------------------------------------------------------------------
 # Orbits.
@@ -42,10 +42,10 @@ def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     if z[MODE] == PIVOT:
         return pivot(p, z, until, notes)
     before, theta = z[TIME], z[THETA]
-    code = fly(p, z, until, notes)
+    code, c, s, u, v = land(p, z, until, notes)
     note_turn(p, notes, before, theta, z[TIME], z[THETA])
     if code == DONE and z[TIME] < until:
-        return strike(p, z, notes)
+        return strike_all(p, z, c, s, u, v, notes)
     return code
 
 

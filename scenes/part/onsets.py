@@ -116,12 +116,14 @@ def table_one(
     peak: float = 1.0,
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
+    check: bool = False,
 ) -> Table:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the
     table is replaced by that of each row.
 
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak
-    to peak.  `report` is called with how many ensembles are done, and of how many.
+    to peak.  `report` is called with how many ensembles are done, and of how many.  `check`:
+    whether broken guarantees are counted.
     SceneError for numbers out of range, and without numba; `Interrupted`, with the rows that are
     done, where it is interrupted.
     """
@@ -141,7 +143,7 @@ def table_one(
                 phase_x=setting.phase_x + float(moved),
             )
             states, notes = standing(shaken, angles), fresh_notes(ANGLES, horizon / 2)
-            p = shaken.parameters()
+            p = shaken.parameters(check)
             jobs.append(Job(p, states, horizon, notes, len(jobs) * ANGLES))
     done: list[tuple[Array, Array]] = []
     try:
@@ -149,8 +151,8 @@ def table_one(
     except KeyboardInterrupt:
         if len(done) < ensembles:
             raise
-        raise Interrupted(_table(done, ensembles, horizon)) from None
-    return _table(done, ensembles, horizon)
+        raise Interrupted(_table(done, ensembles, horizon, check)) from None
+    return _table(done, ensembles, horizon, check)
 
 
 class Interrupted(KeyboardInterrupt):
@@ -160,14 +162,16 @@ class Interrupted(KeyboardInterrupt):
         self.table = table
 
 
-def _table(done: Sequence[tuple[Array, Array]], ensembles: int, horizon: float) -> Table:
+def _table(
+    done: Sequence[tuple[Array, Array]], ensembles: int, horizon: float, checked: bool
+) -> Table:
     """The rows of `PAPER` that are done."""
     count = len(done) // ensembles
     rows = tuple(
         row_of(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon)
         for k, row in enumerate(PAPER[:count])
     )
-    return Table(rows, joined(done[: count * ensembles]))
+    return Table(rows, joined(done[: count * ensembles], checked))
 
 
 def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> Row:

@@ -76,8 +76,10 @@ class Scene:
     rest_speed: float
     launch: Launch
 
-    def parameters(self) -> Array:
-        """The numbers that the kernels take (`juggleproof.scenes.part.body`)."""
+    def parameters(self, check: bool = True) -> Array:
+        """The numbers that the kernels take (`juggleproof.scenes.part.body`); `check`: whether they
+        count how often an impact breaks a guarantee.
+        """
         p = np.zeros(body.PARAMETERS)
         p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
         p[body.A_X], p[body.W_X], p[body.PHASE_X] = self.A_x, 2 * math.pi * self.f_x, self.phase_x
@@ -93,6 +95,7 @@ class Scene:
             self.step(),
         )
         p[body.SPLIT], p[body.REACH] = math.atan(self.a / self.b), math.hypot(self.a, self.b)
+        p[body.CHECKED] = check
         return p
 
     def least_rest_speed(self) -> float:

@@ -20,7 +20,7 @@ from juggleproof.scenes.part.strike import strike
 # Scenes that broke an earlier integrator, and drawn ones: every run ends, with finite states,
 # nothing gained and no corner in the table.
 
-GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS]
+GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS, body.SINKS]
 
 
 def drawn(seed: int) -> tuple[Scene, Array]:
@@ -187,10 +187,37 @@ def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> Non
 
 
 # -------------------------------------------------------------------------------------------------
+# The far corners of long flat blocks, which rattle for long, do not work their way into the table.
+
+LYING = math.pi / 2
+LONG: list[dict[str, float]] = [
+    {"a": 0.02, "b": 0.65, "e": 0.999, "rest_speed": 1e-6},
+    {"a": 0.0042, "b": 0.91, "e": 0.999, "mu": 0.1, "rest_speed": 1.8e-6, "tolerance": 2.5e-12},
+    {"a": 0.028, "b": 0.79, "e": 0.9999, "mu": 0.1, "rest_speed": 3.6e-6, "tolerance": 4.4e-13},
+    {"a": 0.005, "b": 1.5, "e": 0.99, "mu": 1.2, "rest_speed": 1e-5},
+]
+
+
+@pytest.mark.parametrize("given", LONG, ids=str)
+def test_corners_of_a_long_block_do_not_sink_holds(given: dict[str, float]) -> None:
+    block = scene(**{"mu": 0.5, "A_y": 0.0, **given})
+    angles = LYING - 10.0 ** np.arange(-7.0, -1.0)
+    impacts = check(block, standing(block, [*angles, 1e-5]), 1.0)[:, body.IMPACTS]
+    assert impacts.max() > 1000
+
+
+def test_corner_that_is_too_deep_is_counted_holds() -> None:
+    block = scene(e=0.5, mu=0.0, A_y=0.0)
+    z, notes = moving(block, 0, block.b, 0.0, 0.0, 0.01, 0.0), fresh_notes(1)
+    z[0, body.Y] -= 3 * block.tolerance
+    follow_all(block.parameters(), z, 1e-3, notes)
+    assert notes[0, body.SINKS] == 1 and notes[0, body.LEAST_GAP] < -2.9 * block.tolerance
+
+
+# -------------------------------------------------------------------------------------------------
 # Chatter on a still table comes to an end, in events that what is left to move bounds; where it
 # cannot, the run says where it is stuck.
 
-LYING = math.pi / 2
 CHATTER: list[tuple[float, dict[str, float]]] = [
     (1e-9, {"e": 0.5, "mu": 1.3, "g": 1000.0, "rest_speed": 1e-6}),
     (1e-9, {"e": 0.7, "mu": 1.3, "g": 1000.0, "rest_speed": 1e-6, "a": 0.005}),
