@@ -23,7 +23,7 @@ COMPILED = numba is not None
 KERNELS = ("body", "flight", "strike", "rest", "motion")  # the files that are compiled
 
 
-def _digest() -> str:
+def kernel_digest() -> str:
     """A digest of all kernels: numba looks at the file of a function only, not at those of the
     functions that it calls.
     """
@@ -46,7 +46,7 @@ def _folder() -> Path | None:
             if chosen
             else Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "juggleproof"
         )
-        folder = root / f"numba-{_digest()}"
+        folder = root / f"numba-{kernel_digest()}"
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return None

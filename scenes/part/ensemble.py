@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from math import atan, degrees, floor, radians
+from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import NamedTuple, TypeVar
+from zipfile import BadZipFile
 
 import numpy as np
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
+from juggleproof.scenes.part.body import kernel_digest
 from juggleproof.scenes.part.motion import follow_all, sample_all
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
@@ -22,7 +28,7 @@ from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, 
 # Many blocks at once, chunks of them on any executor of `concurrent.futures`; the results do not
 # depend on which.
 
-CHUNK = 91
+CHUNK, MOST_CHUNKS = 91, 1000
 WHY = {
     body.TOO_MANY_STEPS: "one flight or phase of contact took more than a million steps",
     body.JAMMED: "a corner jammed: friction is too large for the impact law",
@@ -90,6 +96,41 @@ def advanced(job: Job) -> tuple[Array, Array]:
     return states, notes
 
 
+def advanced_once(job: Job, keep: Path) -> tuple[Array, Array]:
+    """The same; kept in a file of the folder `keep`, and read from there where it was computed
+    before, from the same numbers and by the same kernels.
+    """
+    digest = hashlib.sha256(kernel_digest().encode())
+    for part in (job.parameters, job.states, np.float64(job.until), job.notes):
+        digest.update(part.tobytes())
+    path = keep / f"{digest.hexdigest()[:32]}.npz"
+    try:
+        with np.load(path, allow_pickle=False) as kept:
+            states, notes = kept["states"], kept["notes"]
+        if states.shape == job.states.shape and notes.shape == job.notes.shape:
+            return states, notes
+    except (OSError, ValueError, KeyError, BadZipFile):
+        pass  # none, or one that was not written to its end
+    states, notes = advanced(job)
+    with NamedTemporaryFile(dir=keep, suffix=".part", delete=False) as file:
+        np.savez(file, allow_pickle=False, states=states, notes=notes)
+    os.replace(file.name, path)
+    return states, notes
+
+
+def worker(keep: Path | None) -> Callable[[Job], tuple[Array, Array]]:
+    """What moves chunks on, and keeps them in a folder where there is one; SceneError for a folder
+    that cannot be made.
+    """
+    if keep is None:
+        return advanced
+    try:
+        keep.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise SceneError(f"{keep}: no folder to keep chunks in ({fault.strerror})") from None
+    return partial(advanced_once, keep=keep)
+
+
 def _refuse_failed(states: Array, codes: Array, first: int) -> None:
     """SceneError for the first block whose run did not end as asked: where it is stuck."""
     for k in np.flatnonzero(codes):
@@ -109,10 +150,14 @@ def run(
     notes: Array | None = None,
     executor: Executor | None = None,
     check: bool = False,
+    report: Callable[[int, int], None] | None = None,
+    keep: Path | None = None,
 ) -> Run:
     """Moves blocks on to the time `until`, in seconds; `states` of shape (n, 10) stay as they are.
     SceneError for arrays of other shapes, and where a counted bound on the work is reached.
-    `check`: whether broken guarantees are counted.
+    `check`: whether broken guarantees are counted; `report` is called with how many chunks are
+    done, and of how many; `keep`: a folder for what is done, from which a run that was ended goes
+    on.
 
     Without an executor the chunks are shared over the cores by threads; kernels do not hold the
     interpreter's lock.
@@ -126,11 +171,12 @@ def run(
     if notes.shape != (len(states), body.NOTES):
         raise SceneError(f"notes of shape {notes.shape}: {(len(states), body.NOTES)} is needed")
     p = setting.parameters(check)
+    size = max(CHUNK, -(-len(states) // MOST_CHUNKS))
     jobs = [
-        Job(p, states[k : k + CHUNK], until, notes[k : k + CHUNK], k)
-        for k in range(0, len(states), CHUNK)
+        Job(p, states[k : k + size], until, notes[k : k + size], k)
+        for k in range(0, len(states), size)
     ]
-    return joined(run_jobs(advanced, jobs, executor), check)
+    return joined(run_jobs(worker(keep), jobs, executor, report), check)
 
 
 def joined(parts: Iterable[tuple[Array, Array]], checked: bool) -> Run:

@@ -20,7 +20,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.ensemble import Job, Run, advanced, fresh_notes, joined, run_jobs
+from juggleproof.scenes.part.ensemble import Job, Run, fresh_notes, joined, run_jobs, worker
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
@@ -117,13 +117,14 @@ def table_one(
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
     check: bool = False,
+    keep: Path | None = None,
 ) -> Table:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the
     table is replaced by that of each row.
 
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak
     to peak.  `report` is called with how many ensembles are done, and of how many.  `check`:
-    whether broken guarantees are counted.
+    whether broken guarantees are counted; `keep`: a folder for what is done, as in `run`.
     SceneError for numbers out of range, and without numba; `Interrupted`, with the rows that are
     done, where it is interrupted.
     """
@@ -147,7 +148,7 @@ def table_one(
             jobs.append(Job(p, states, horizon, notes, len(jobs) * ANGLES))
     done: list[tuple[Array, Array]] = []
     try:
-        run_jobs(advanced, jobs, executor, report, done)
+        run_jobs(worker(keep), jobs, executor, report, done)
     except KeyboardInterrupt:
         if len(done) < ensembles:
             raise
