@@ -73,7 +73,7 @@ def side(p: Floats, theta: float) -> int:
     whenever theta passes from one to the other.
     """
     split = p[SPLIT]
-    turns = floor((theta + split) / pi)
+    turns = floor((theta + split) * (1 / pi))
     return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)
 
 
