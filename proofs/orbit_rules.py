@@ -296,6 +296,24 @@ def _of_settling(f: Lines) -> str:
     )
 
 
+def _of_return(f: Lines) -> str:
+    settling = f.named("settling")
+    names, starts = settling.all("contraction"), settling.all("word")
+    points = []
+    for k, (name, start) in enumerate(zip(names, starts), 1):
+        steps = len(f.all("word")[int(start.split()[0]) - 1].split())
+        e = f"e_{k}" if len(names) > 1 else "e"
+        back = f" = f^{steps}({e})" if steps > 1 else f" = f({e})"
+        points.append(f"{e} = {_vector(Lines(name, f.texts).one('point'))}{back}")
+    to = f"one of {', '.join(points)}" if len(points) > 1 else points[0]
+    return (
+        f"{settling.named('descent').for_domain()}every orbit tends to that of {to}:"
+        " f^(N + n)(s) - f^n(e) tends to 0, for every state s of the space, with such an e and an"
+        " integer N >= 0; and each such orbit is stable: |f^n(s) - f^n(e)| is small for all n >= 0"
+        " where |s - e| is"
+    )
+
+
 # -------------------------------------------------------------------------------------------------
 # The table of the rules.
 
@@ -444,6 +462,17 @@ RULES = {
             "inside": "the domain of the descent is part of that of contraction {0}",
             "ends": "a state of the last stage that follows the word of contraction {0} is in its"
             " set `on`",
+        },
+    ),
+    "returns": Rule(
+        "map settling (word )+",
+        _of_return,
+        {
+            "inside": "the domain of the descent is part of that of the map",
+            "word": "where piece {0} of the other map applies, so do the pieces of its word, one"
+            " after the other, and they lead to the same state",
+            "piece": "on the set `on` of contraction {0} one piece of the other map applies, the"
+            " first of the contraction's word",
         },
     ),
 }

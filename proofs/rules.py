@@ -14,7 +14,7 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
     rule refutes the conclusion outside of it.
     """
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
-    for inner in ("attraction", "descent"):
+    for inner in ("attraction", "settling", "descent"):
         if inner in rows:
             return rule_domain(rows[inner], texts)[0], inner == "attraction"
     return rows.get("domain", ""), False

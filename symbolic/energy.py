@@ -375,9 +375,11 @@ def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
     >>> lowest_terms(normal_impact_beside((1, 2), 2)[1] - normal_periodic_impact((1, 2))[1])
     alpha**2*z2
     """
-    start = normal_periodic_impact(flights) + state(z1, z2)
-    after = normal_impact_after(flights[:count]).xreplace({x: start[0], w: start[1]})
-    return state(*(lowest_terms(entry) for entry in after))
+    after = normal_impact_after(flights[:count])
+    start = normal_periodic_impact(flights)
+    there = after.xreplace({x: start[0], w: start[1]})
+    beside = after.jacobian([x, w]) * state(z1, z2)
+    return state(*(lowest_terms(there[i]) + beside[i].expand() for i in (0, 1)))
 
 
 @cache

@@ -14,6 +14,7 @@ reading order, each resting on those before it:
     text.py      terms and formulas as syntax trees; definitions, written out where they are used
     language.py  what a file of statements means: formulas, statements, unfolding
     rules.py     states, the rules that close them, proofs, witnesses and counterexamples
+    maps.py      a map, with what is said of it, as premises about its orbits are written
     orbits.py    the rules for orbits of maps, each with the premises that it rests on
     settling.py  what settles one statement, and a folder of them
 

@@ -2,7 +2,7 @@
 
 This file knows of no statement and no proof.  Numbers are integers and fractions of integers; there
 is no float.  It begins with what all files share: why something is rejected (`Kind`, `Rejected`,
-`require`), and the meter of one check (`Work`).
+`require`, `at`), and the meter of one check (`Work`).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from enum import Enum
 from fractions import Fraction
 from functools import reduce
 from math import comb, gcd, lcm, prod
-from typing import Union
+from typing import Any, TypeVar, Union
 
 MAX_DEGREE = 4000
 MAX_VARIABLES = 400
@@ -21,6 +21,7 @@ MAX_BITS = 40000
 MAX_WORK = 2 * 10**7
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 MASK = (1 << BITS) - 1
+T = TypeVar("T")
 
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
@@ -104,6 +105,7 @@ class Kind(Enum):
     OTHER_MAP = "two statements about different maps are joined"
     WORD = "a word has at least one piece"
     WORDS = "words of every length hold none of these"
+    WORD_EACH = "a word for each piece of the other map is expected"
     PREMISES = "the premises of a rule are missing or left over"
     # certificates and files
     KEYS = "a certificate with missing or left over keys"
@@ -149,6 +151,13 @@ def require(holds: object, kind: Kind, offender: object = "") -> None:
     """
     if not holds:
         raise Rejected(kind, offender)
+
+
+def at(sequence: Sequence[T], index: Any) -> T:
+    """An entry by its number: True is no number, and -1 is not the last one."""
+    require(type(index) is int and 0 <= index < len(sequence), Kind.INDEX, index)
+    entry: T = sequence[index]
+    return entry
 
 
 class Work:

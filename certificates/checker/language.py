@@ -373,6 +373,7 @@ NAMED = {  # the kinds of statements that a line may name
     "attraction": ["attracts", "into"],
     "escape": ["escapes"],
     "unstable": ["unstable"],
+    "settling": ["settles"],
 }
 LINES = {  # how what follows each keyword is read
     **dict.fromkeys(
@@ -417,6 +418,7 @@ ORDERS = {
     "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "exactly": r"attraction (escape |unstable )+",
     "settles": r"descent (never )*(contraction word )+",
+    "returns": r"map settling (word )+",
 }
 
 

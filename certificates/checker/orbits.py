@@ -5,18 +5,13 @@ Each rule writes its premises itself, as text, and a certificate has to prove ex
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Sequence
 
-from .algebra import Kind, Rejected, Work, require
+from .algebra import Kind, Rejected, Work, at, require
 from .language import NAMED, Known, Statement, read_statements
-from .rules import Hint, at, prove
+from .maps import PER_LETTER, Orbits, Premises, all_earlier, all_of, earlier, where
+from .rules import Hint, prove
 from .text import names_in, put
-
-PER_LETTER = 20  # elementary products that a letter of a premise stands for
-
-Premises = Mapping[str, list[str]]  # {name: lines of a statement}
-
-# ------------------------------------------------------------ a map, and what is said of it
 
 
 def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
@@ -50,222 +45,6 @@ def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Prem
         "start": [*head, "show " + " and ".join(start)],
         "step": [*head, *reached, "show " + " and ".join(step)],
     }
-
-
-class Orbits:
-    """A map, or a relation, with the lines of a statement about it, from which the text of the
-    premises is written.
-    """
-
-    def __init__(self, statement: Statement, known: Known, work: Work) -> None:
-        self.own = statement
-        self.work = work
-        if statement.kind in ("map", "relation"):
-            self.map = statement
-        else:
-            self.map = earlier(statement, known, "map", "relation")
-        (self.parameters,) = self.map.get("over")
-        (self.state,) = self.map.get("state")
-        integers = self.map.rows("integer")
-        # the next state of a state that is an integer may be none
-        require(names_in(*integers) <= set(self.parameters), Kind.NO_VARIABLE, self.map.name)
-        self.integers = [f"integer {line}" for line in integers]
-        self.inputs = [name for line in self.map.get("input") for name in line]
-        (self.space,) = self.map.get("space")
-        (self.domain,) = statement.rows("domain")
-        self.pieces = self.map.get("piece")
-        # the names of the point, and the variables in place of the state's where they are used
-        self.point = [name + "_point" for name in self.state]
-        self.gaps: list[str] = []
-        self.have = [f"given {line}" for line in statement.rows("have")]
-        self.moving = set(self.state)  # what has another value at the next state
-        self.roots = []
-        self.fixed = []
-        for line in statement.rows("root"):
-            name, _, under = line.partition(" = ")
-            if self.moving & names_in(under):
-                self.moving.add(name)
-                self.roots.append("root " + line)
-            else:
-                self.fixed.append("root " + line)
-        fits = all(
-            len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces
-        )
-        # nothing but parameters, state and inputs: x_next in a guard would mean the image itself
-        named = names_in(*(text for piece in self.pieces for side in piece for text in side))
-        known_names = {*self.parameters, *self.state, *self.inputs}
-        require(fits and named <= known_names, Kind.PIECE, self.map.name)
-
-    def next(self, text: str) -> str:
-        """The same of the next state."""
-        return put(text, {name: name + "_next" for name in self.moving})
-
-    def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
-        """For all parameters in the domain, with the roots of parameters; around a point, for all
-        points with what the lines `have` say.
-        """
-        named = self.point if self.have else []
-        known = self.have or self.let_point()
-        # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, *known, self.domain, *rows])))
-        return [*self.head(*named, *extra), *known, *rows]
-
-    def head(self, *more: str) -> list[str]:
-        """For all parameters in the domain, and more variables, with the roots of parameters."""
-        forall = "forall " + " ".join([*self.parameters, *more])
-        return [forall, *self.integers, f"range {self.domain}", *self.fixed]
-
-    def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
-        """For all parameters in the domain and all states of the space."""
-        sums = zip(self.state, self.point, self.gaps)
-        places = [f"let {name} = {point} + {gap}" for name, point, gap in sums]
-        names = [*(self.gaps or self.state), *extra]
-        return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
-
-    def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
-        """Where the k-th piece applies, for all inputs: something of the next state; the map's
-        premises say that it is in the space.
-        """
-        (guard,), images = self.pieces[k]
-        known = []
-        if self.own is not self.map:  # else the map would be assumed to do what is to be shown
-            known = ["given " + self.next(self.space), *map(self.next, self.roots)]
-        image = self.let_next(images)
-        every = [*extra, *self.inputs]
-        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=every)
-
-    def follow(self, word: Sequence[int]) -> Iterator[tuple[Mapping[str, str], str, list[str]]]:
-        """For each piece of a word: NAME_k for the names of what moves, after k steps, and the
-        piece's guard and images in these.
-        """
-        require(word, Kind.WORD, self.own.name)  # after no step, every start is back
-        for count, piece in enumerate(word):
-            (guard,), images = at(self.pieces, piece - 1)
-            self.work.spend(PER_LETTER * sum(map(len, [guard, *images])))
-            now = {name: f"{name}_{count}" for name in self.moving}
-            yield now, put(guard, now), [put(image, now) for image in images]
-
-    def let_next(self, terms: Sequence[str]) -> list[str]:
-        """The lines that name the terms of the next state, or of any other."""
-        lets = [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
-        gaps = zip(self.gaps, self.state, self.point)
-        return lets + [f"let {gap}_next = {name}_next - {point}" for gap, name, point in gaps]
-
-    def around(self) -> Orbits:
-        """The same around the point: NAME_gap is NAME - NAME_point, and the variable in place of
-        NAME.
-        """
-        self.gaps = [name + "_gap" for name in self.state]
-        self.moving.update(self.gaps)
-        return self
-
-    def let_point(self) -> list[str]:
-        """Around a point: its names stand for its terms."""
-        terms = self.terms("point") if self.gaps else []
-        return [f"let {name} = {term}" for name, term in zip(self.point, terms)]
-
-    def let_names(self, text: str) -> list[str]:
-        """For premises of others: what a text's names of the point and of gaps stand for."""
-        if not names_in(text) & {*self.point, *(name + "_gap" for name in self.state)}:
-            return []
-        gaps = zip(self.around().gaps, self.state, self.point)
-        return [*self.let_point(), *(f"let {gap} = {name} - {at}" for gap, name, at in gaps)]
-
-    def at_the_point(self) -> list[str]:
-        """The point, which has its terms, is in the space, and what the lines `have` say is so."""
-        shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
-        return [*self.head(), *self.let_point(), "show " + all_of(shown)]
-
-    def within_gaps(self, distance: str, after: str = "") -> str:
-        """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
-        after is "_next".
-        """
-        reach = f"({distance})"
-        gaps = [gap + after for gap in self.gaps]
-        return all_of(f"-{reach} <= {gap} and {gap} <= {reach}" for gap in gaps)
-
-    def in_space(self, point: Sequence[str], *roots: str) -> list[str]:
-        """A point is in the space."""
-        return self.for_all(*roots, *self.let_next(point), "show " + self.next(self.space))
-
-    def within(
-        self, distance: str, point: Sequence[str], weights: Sequence[str] = (), after: str = ""
-    ) -> str:
-        """|s - e| <= distance, e the point, in the sup norm, with weights if there are any; of the
-        next state where after is "_next".
-        """
-        parts = []
-        for name, e, weight in zip(self.state, point, weights or ["1"] * len(point)):
-            reach = f"({distance})*({weight})"
-            side = f"{name}{after} - ({e})"
-            parts.append(f"-{reach} <= {side} and {side} <= {reach}")
-        return all_of(parts)
-
-    def values(self, keyword: str, names: Sequence[str]) -> list[tuple[list[str], list[str]]]:
-        """[(guards, terms)] of the lines of this keyword, each with one guard or none, and a term
-        for each of the names, which premises give to what is at least the greatest of the terms.
-        """
-        values = self.own.get(keyword)
-        fits = all(len(guards) < 2 and len(terms) == len(names) for guards, terms in values)
-        # the terms are of the state alone: with `value` in them, V(s) <= value would say nothing
-        used = names_in(*(text for sides in values for side in sides for text in side))
-        require(fits and used.isdisjoint(names), Kind.VALUE, self.own.name)
-        return [*values]
-
-    def at_most(self, keyword: str, names: Sequence[str]) -> list[str]:
-        """Where their guards hold, the terms of each line are at most what the names stand for."""
-        return [
-            "given " + where(guards, (f"({term}) <= {name}" for term, name in zip(terms, names)))
-            for guards, terms in self.values(keyword, names)
-        ]
-
-    def terms(self, keyword: str, *more: str) -> list[str]:
-        """One term for each state variable, in the parameters and what more is named."""
-        terms: list[str]
-        (terms,) = self.own.get(keyword)
-        constants = {*self.parameters, *more, *(line.split(" ")[1] for line in self.fixed)}
-        # with a state variable in it, the point would move with the state
-        fits = len(terms) == len(self.state) and names_in(*terms) <= constants
-        require(fits, Kind.STATE_TERMS, self.own.name)
-        return terms
-
-    def with_domain(self, premises: Premises) -> Premises:
-        """Beside other premises: a state of the space, for parameters in the domain, which is part
-        of the map's domain.
-        """
-        some = "exists " + " ".join([*self.parameters, *self.state])
-        possible = [*self.integers, some, f"with {self.domain}", f"show {self.space}"]
-        inside = {}
-        if self.own is not self.map:
-            inside = {"inside": self.for_all("show " + self.map.rows("domain")[0])}
-        return {"possible": possible, **inside, **premises}
-
-
-def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
-    """What the one line with one of these keywords names."""
-    (one,) = all_earlier(statement, known, *keywords)
-    return one
-
-
-def all_earlier(statement: Statement, known: Known, *keywords: str) -> list[Statement]:
-    """What the lines with these keywords name: earlier statements, certified, each of a kind that
-    its line needs.
-    """
-    lines = [(NAMED[keyword], name) for keyword, name in statement.lines if keyword in keywords]
-    for kinds, name in lines:
-        fits = name in known and known[name].kind in kinds
-        require(fits, Kind.EARLIER, f"{' or '.join(kinds)} {name}")
-    return [known[name] for _, name in lines]
-
-
-def where(guards: Sequence[str], parts: Iterable[str]) -> str:
-    """All of the parts hold, where the guards do."""
-    text = " and ".join(parts)
-    return f"(not ({all_of(guards)}) or {text})" if guards else text
-
-
-def all_of(parts: Iterable[str], op: str = " and ") -> str:
-    return op.join(f"({part})" for part in parts)
 
 
 def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
@@ -490,14 +269,13 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
     """
     f = Orbits(statement, known, work)
     (word,) = statement.get("word")
-    here = f.terms("start")
     rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
     apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
     shown = [put(f.space, {name: f"{name}_0" for name in f.state})]
-    for now, guard, images in f.follow(word):
-        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+    steps, here = f.follow(word, f.terms("start"))
+    for _, lets, guard in steps:
+        rows += lets
         shown.append(guard)
-        here = images
     shown.insert(2, apart)
     shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
     return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
@@ -595,12 +373,9 @@ def premises_of_settling(statement: Statement, known: Known, work: Work) -> Prem
     def following(word: Sequence[int], *rows: str) -> list[str]:
         """For all states of the last stage that follow a word, NAME_0 in place of NAME."""
         along: list[str] = []
-        here: list[str] = []
-        for now, guard, images in f.follow(word):
-            along += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
-            along += [put(row, now) for row in (f"given {f.space}", *f.roots, f"given {stage}")]
-            along.append(f"given {guard}")
-            here = images
+        for now, lets, guard in f.follow(word)[0]:
+            known = [put(row, now) for row in (f"given {f.space}", *f.roots, f"given {stage}")]
+            along += [*lets, *known, f"given {guard}"]
         return f.for_all(*along, *rows, extra=[f"{name}_0" for name in f.state])
 
     premises = {}
@@ -615,6 +390,50 @@ def premises_of_settling(statement: Statement, known: Known, work: Work) -> Prem
         on = [put(row, first) for row in (*roots, f"show {end.own.get('on')[0]}")]
         premises[f"inside-{i + 1}"] = f.for_all(f"show {end.domain}")
         premises[f"ends-{i + 1}"] = following(word, *on)
+    return premises
+
+
+def premises_of_return(statement: Statement, known: Known, work: Work) -> Premises:
+    """A map f; what `settles` says of a map g with the same parameters, state and space; and for
+    each piece of g a word of pieces of f, by which g leads at once.  For all parameters in the
+    descent's domain and all states s of the space, one of the points e of `settles` has f^(N+n)(s)
+    - f^n(e) -> 0 for an integer N; f^n(e) is back at e after as many steps as the word of a piece
+    has pieces; and for every d > 0 there is a c > 0 such that |f^n(s) - f^n(e)| < d for all n >= 0
+    and all states s of the space with |s - e| < c.
+
+    Premises: the descent's domain is part of f's domain; where the guard of a piece of g holds, the
+    pieces of its word apply in turn, and their last image is that of g; the set `on` of each
+    contraction of `settles` lies where one piece of g applies, the first of its word.
+
+    An orbit of g is one of f with states left out.  On the set `on`, which g takes into itself and
+    which has e in it, g is f^K by one word of length K, and for j < K f^j is one term in the state,
+    made by + - * / and powers, so it is continuous.  g^n(s) is in that set from some n = M on, and
+    tends to e; so for each j < K f^j(g^(M+n)(s)) -> f^j(e).  Likewise where s is near e: all g^n(s)
+    are near it, in the set, and f^j of them near f^j(e).
+    """
+    f = Orbits(earlier(statement, known, "map"), known, work)
+    settling = earlier(statement, known, "settling")
+    g = Orbits(earlier(settling, known, "descent"), known, work)
+    # on another space there are other orbits of f, and states near a point of which g says nothing
+    same = all(f.map.get(key) == g.map.get(key) for key in ("over", "integer", "state", "space"))
+    require(same, Kind.OTHER_MAP, statement.name)
+    words = statement.get("word")
+    require(len(words) == len(g.pieces), Kind.WORD_EACH, statement.name)
+    premises = {"inside": g.for_all(f"show {f.domain}")}
+    for k, (((guard,), images), word) in enumerate(zip(g.pieces, words)):
+        rows = [f"given {g.space}", f"given {guard}"]
+        steps, here = f.follow(word, f.state)
+        for _, lets, applies in steps:
+            # nothing is given on the way: that this piece applies is to be shown
+            rows += [*lets, f"have {applies}"]
+        same_end = all_of(f"({last}) = ({image})" for last, image in zip(here, images))
+        premises[f"word-{k + 1}"] = g.for_all(*rows, f"show {same_end}", extra=g.state)
+    for k, (one, word) in enumerate(
+        zip(all_earlier(settling, known, "contraction"), settling.get("word"))
+    ):
+        end, ((guard,), _) = Orbits(one, known, work), at(g.pieces, word[0] - 1)
+        on = f"given {g.domain}", f"given {end.own.get('on')[0]}"
+        premises[f"piece-{k + 1}"] = end.at(*on, f"show {guard}")
     return premises
 
 
@@ -651,6 +470,7 @@ ORBIT_RULES = {
     "unstable": premises_of_instability,
     "exactly": premises_of_sharpness,
     "settles": premises_of_settling,
+    "returns": premises_of_return,
 }
 
 

@@ -9,10 +9,10 @@ rule takes from it is either checked, or cannot make a false step true.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from math import prod
-from typing import Any, TypeVar
+from typing import Any
 
 from .algebra import (
     BITS,
@@ -22,6 +22,7 @@ from .algebra import (
     Rational,
     Rejected,
     Work,
+    at,
     axis_first,
     bernstein,
     halved,
@@ -49,7 +50,6 @@ from .language import (
 from .text import parse, rational
 
 Hint = Any  # of a certificate, which anyone may have written: what does not fit is refused
-T = TypeVar("T")
 
 # ------------------------------------------------------------ states
 
@@ -102,13 +102,6 @@ class State:
 def state_of(unfolding: Unfolding, count: int | None = None) -> State:
     """The state that assumes the premises of an unfolding, or the first `count` of them."""
     return State(unfolding.context).assume(join("and", unfolding.premises[:count]))
-
-
-def at(sequence: Sequence[T], index: Hint) -> T:
-    """An entry by its number: True is no number, and -1 is not the last one."""
-    require(type(index) is int and 0 <= index < len(sequence), Kind.INDEX, index)
-    entry: T = sequence[index]
-    return entry
 
 
 # ---------------------------- PROOF RULES: each closes a state, that is, shows that it has no point

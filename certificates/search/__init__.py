@@ -26,7 +26,7 @@ The files and folders, each after those that it imports:
 - `points`: points, counterexamples and witnesses, as the checker's `finds` takes them
 - `certificate`: the certificate of a statement for all reals or of existence, and of map rules:
   `universal`, `iterates`, `map`, `relation`, `descends`, `contracts`, `lyapunov`, `attracts`,
-  `into`, `escapes`, `unstable`, `exactly`, `settles`
+  `into`, `escapes`, `unstable`, `exactly`, `settles`, `returns`
 - `sharp`, `sharp_plane`: sharp ranges over one parameter, or over several; rule `sharp`
 
 What takes a budget raises `Exhausted` where that ends, unless its docstring has what it returns

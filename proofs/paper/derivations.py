@@ -169,7 +169,10 @@ class Derivation:
     @property
     def title(self) -> str:
         """What is derived, in words: the sentence up to its colon, without formula or source."""
-        arguments = self.function.partition("(")[2].rstrip(")")
+        arguments = ", ".join(
+            " ".join(map(str, one)) if isinstance(one, tuple) else str(one)
+            for one in self.origin.arguments
+        )
         title = re.sub(
             r" \((section|equation|inequality|appendix|after|figure)[^()]*\)",
             "",

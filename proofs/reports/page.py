@@ -55,6 +55,7 @@ KINDS = {  # kind of rule -> what it says, in a few words
     "attracts": "every orbit tends to the point",
     "escapes": "a periodic orbit stays away",
     "settles": "every orbit tends to one of several points",
+    "returns": "every orbit tends to one of several orbits",
     "descends": "a falling rank leads to the trap",
     "into": "a falling rank leads to a smaller space, where every orbit tends to the point",
     "contracts": "orbits in the trap close in on the point",
@@ -238,7 +239,8 @@ def view_of(entry: Entry) -> ClaimView:
 @dataclass(frozen=True)
 class Derived:
     """A derived expression: its anchor, the paper's name for it, what it is, its equation as
-    markup, its entries as text, its letters, and what it is made from.
+    markup (none where it is too long to be read), its entries as text, its letters, and what it is
+    made from.
     """
 
     anchor: str
@@ -253,13 +255,16 @@ class Derived:
 def derivations(contents: Contents) -> list[Derived]:
     """Every derived expression once."""
     titles = {one.function: markup.prose(one.title) for one in contents.derivations}
+    texts = {
+        one.function: one.line.rpartition(f"{one.sentence} ")[2] for one in contents.derivations
+    }
     return [
         Derived(
             anchor(one.function),
             mathml(SYMBOLS[one.function]) if one.function in SYMBOLS else "",
             titles[one.function],
-            equation(one.function, one.rows),
-            one.line.rpartition(f"{one.sentence} ")[2],
+            equation(one.function, one.rows) if len(texts[one.function]) <= LONGEST else "",
+            texts[one.function],
             markup.letters(re.findall(r"[A-Za-z]\w*", str(one.rows))),
             [(titles[name], anchor(name)) for name in one.uses if name in titles],
         )

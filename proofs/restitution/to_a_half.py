@@ -1,8 +1,8 @@
 """For 1/3 < alpha <= 1/2 every orbit tends to that of e_1 or to that of e_2, but for four states at
 1/2.
 
-The map here leads by f from flights and from fast impacts, and from slow impacts by T_1, T_2 or T_3
-to the next one: by f, f^2 or f^3 (`restitution-flights`). Where one flight of 2 periods follows
+A second map leads by f from flights and from fast impacts, and from slow impacts by f, f^2 or f^3
+at once to the next one, which is T_1, T_2 or T_3 of it. Where one flight of 2 periods follows
 another all flights last 2 periods from then on; else all last 1 at last.
 """
 
@@ -10,7 +10,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from juggleproof.certificates.language import AnyStatement, Formula, conjunction, equal, term
+from juggleproof.certificates.language import (
+    AnyStatement,
+    Formula,
+    MapRule,
+    conjunction,
+    equal,
+    term,
+)
 from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import from_here
@@ -19,10 +26,10 @@ from juggleproof.proofs.theorem.definition import (
     IMPACT,
     NORMAL,
     PIECES,
+    SPACE,
     SPEED,
     Contraction,
     Descent,
-    Setting,
     contracts,
     descends,
     the_map,
@@ -60,11 +67,15 @@ SPED_UP = replace(NORMAL, pieces=((IMPACT & (w >= FAST), STRUCK[1]), *FROM_SLOW_
 TO_ONE_OR_TWO = Descent(24 * u + (1 - w) / 2, (SLOW, ONE | TWO, ONE | TWO_AND_TWO), (SPEED,))
 
 
-def settles(claim_id: str, setting: Setting, of_alpha: Formula) -> list[AnyStatement]:
-    """The map, its descent to flights of 1 or of 2 periods for good, and the contractions there."""
-    here = f"{claim_id}/map"
+def settles(claim_id: str, space: Formula, of_alpha: Formula) -> list[AnyStatement]:
+    """The map f, and the map of impacts that makes several steps of it; the descent of that to
+    flights of 1 or of 2 periods for good, and the contractions there; to which all orbits of both
+    tend.
+    """
+    here, setting = f"{claim_id}/impacts", replace(SPED_UP, space=space)
     return [
-        the_map("map", setting, of_alpha),
+        the_map("map", replace(NORMAL, space=space), of_alpha),
+        the_map("impacts", setting, of_alpha),
         descends("descends", here, setting, of_alpha, TO_ONE_OR_TWO, AT_IMPACTS),
         *(
             contracts(
@@ -82,18 +93,33 @@ def settles(claim_id: str, setting: Setting, of_alpha: Formula) -> list[AnyState
             )
             for K, on in ((1, ONE), (2, TWO_AND_TWO))
         ),
+        MapRule(
+            "settles",
+            (
+                ("descent", f"{claim_id}/descends"),
+                # the last stage has no fast impacts, no flights of 3 periods, and no other states
+                *(("never", piece) for piece in ("1", "4", "5")),
+                *(("contraction", f"{claim_id}/e-1"), ("word", "2")),
+                *(("contraction", f"{claim_id}/e-2"), ("word", "3")),
+            ),
+        ),
+        MapRule(
+            "returns",
+            (
+                ("map", f"{claim_id}/map"),
+                ("settling", f"{claim_id}/settles"),
+                *(("word", word) for word in ("1", "1", "1 2", "1 2 2", "2")),
+            ),
+        ),
     ]
 
 
 @claim("restitution-to-a-half", "restitution", "1/3 < alpha < 1/2", parameters=())
 def every_orbit_tends_to_one_of_two_between_a_third_and_a_half() -> list[AnyStatement]:
-    """For 1/3 < alpha < 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1
-    in the one, to that of e_2 in the other; both are stable.
-
-    The orbits are those of the map that leads by f^K from a slow impact to the next one, and by f
-    from all other states.
+    """For 1/3 < alpha < 1/2 every orbit of H tends to e_1 or to the orbit of e_2; both are
+    stable.
     """
-    return settles("restitution-to-a-half", SPED_UP, BETWEEN)
+    return settles("restitution-to-a-half", SPACE, BETWEEN)
 
 
 EXCEPTIONS = tuple(Vector((j * (LONGEST - j), LONGEST + 1 - 2 * j)) for j in range(LONGEST + 1))
@@ -101,9 +127,7 @@ EXCEPTIONS = tuple(Vector((j * (LONGEST - j), LONGEST + 1 - 2 * j)) for j in ran
 
 @claim("restitution-half", "restitution", "alpha = 1/2", parameters=())
 def every_orbit_but_four_tends_to_one_of_two_at_a_half() -> list[AnyStatement]:
-    """At alpha = 1/2 every orbit of H enters one of two sets, and tends to the impact of e_1 in the
-    one, to that of e_2 in the other, but those of four states: the orbit of e_3, and what flies to
-    it. The orbits are those of the map of `restitution-to-a-half`.
+    """At alpha = 1/2 every orbit of H tends to e_1 or to the orbit of e_2, and both are stable, but
+    those of four states: the orbit of e_3, and what flies to it.
     """
-    others = replace(SPED_UP, space=SPED_UP.space & is_none_of(*EXCEPTIONS))
-    return settles("restitution-half", others, HALF)
+    return settles("restitution-half", SPACE & is_none_of(*EXCEPTIONS), HALF)

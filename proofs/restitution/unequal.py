@@ -24,7 +24,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs.paper.derivations import Origin, made_by
-from juggleproof.proofs.paper.names import alpha, always, at, claim, equals
+from juggleproof.proofs.paper.names import alpha, always, claim, equals
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import is_impact
 from juggleproof.proofs.theorem.definition import (
@@ -59,26 +59,28 @@ SMALL = conjunction(
 RANGE = conjunction(SPACED) & WHOLE
 
 
-def derived_along(name: str, *arguments: int) -> Vector:
-    """A derived state along the flights, in lowest terms."""
-    column = getattr(symbolic, name)(FLIGHTS, *arguments)
-    origin = Origin(name, (FLIGHTS, *arguments))
-    found: Vector = made_by(origin, Vector(tuple(map(tidy, column))))
+def derived_along(name: str, flights: tuple[int, ...], *arguments: int) -> Vector:
+    """A derived state along the flights: in lowest terms, and what z1 and z2 add to it."""
+    entries = []
+    for entry in getattr(symbolic, name)(flights, *arguments):
+        there = entry.subs({symbolic.z1: 0, symbolic.z2: 0})
+        kept, *added = (tidy(part) for part in (there, entry - there) if part != 0)
+        entries.append(sum(added, kept))
+    found: Vector = made_by(Origin(name, (flights, *arguments)), Vector(tuple(entries)))
     return found
 
 
-START = derived_along("normal_periodic_impact")
+def on_the_orbit(count: int) -> Vector:
+    """The impact after so many flights from the start: the first of those that then follow."""
+    return derived_along("normal_periodic_impact", FLIGHTS[count:] + FLIGHTS[:count])
+
+
+START = on_the_orbit(0)
 
 
 def beside(count: int) -> Vector:
     """The impact after so many flights, from (z1, z2) beside the start."""
-    return derived_along("normal_impact_beside", count)
-
-
-def on_the_orbit(count: int) -> Vector:
-    """The impact after so many flights from the start."""
-    found: Vector = at(beside(count), {"z1": term(0), "z2": term(0)})
-    return found
+    return derived_along("normal_impact_beside", FLIGHTS, count)
 
 
 def above(state: Vector) -> Formula:
@@ -101,7 +103,7 @@ BESIDE = replace(
     NORMAL,
     state=(z1, z2),
     space=SMALL,
-    pieces=((equal(term(0), 0), derived_along("normal_return_beside")),),
+    pieces=((equal(term(0), 0), derived_along("normal_return_beside", FLIGHTS)),),
     fixed=Vector((0, 0)),
     place=Vector((z1, z2)),
 )

@@ -13,6 +13,7 @@ premises the checker writes.
     coq_kinds      the words of a map, and of a relation, in such a file
     coq_values     the rules on Lyapunov's and Chetaev's functions for such a file
     coq_settles    that every orbit tends to one of several points, for such a file
+    coq_returns    that every orbit comes to that of one of several points, for such a file
     coq_rules      a theorem on the orbits of any map or relation as one file of Coq
     coq_rule_templates  the parts of such a file without data
 """

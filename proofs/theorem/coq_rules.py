@@ -32,6 +32,7 @@ from juggleproof.proofs.theorem.coq_ranks import (
     times,
 )
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
+from juggleproof.proofs.theorem.coq_returns import returning_definitions, returning_proofs
 from juggleproof.proofs.theorem.coq_settles import (
     end_module,
     settling_definitions,
@@ -96,8 +97,7 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
     within = _modules(f.known[name])
     for one in _chain(name, f.known):
         own = f.known[one]
-        if own.kind == "into":
-            inner = own.get("attraction")[0]
+        for inner in _inner(own):
             yield "Module Inner.\n"
             yield from _chain_rows(inner, _frame(inner, f.known, f.kind), certificates)
             yield "End Inner.\n"
@@ -127,14 +127,22 @@ def _refutations(own: checker.Statement) -> list[str]:
 
 
 def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
-    """The map rules that a statement rests on, the map first, and the statement; with those on the
-    smaller space that a map leads into where the whole is asked for.
+    """The map rules that a statement rests on, the map first, and the statement; with those on
+    another map where the whole is asked for.
     """
     own, chain = known[name], []
     for one in rests_on(own):
-        if whole or own.kind != "into" or one != own.get("attraction")[0]:
+        if whole or one not in _inner(own):
             chain += [each for each in _chain(one, known, whole) if each not in chain]
     return [*chain, name]
+
+
+def _inner(own: checker.Statement) -> list[str]:
+    """What a statement names of another map: of that on the smaller space that it leads into, or of
+    that which makes several steps at once.
+    """
+    within = {"into": "attraction", "returns": "settling"}.get(own.kind, "")
+    return own.get(within)
 
 
 def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[str]:
@@ -156,6 +164,8 @@ def _theory(statements: Sequence[checker.Statement]) -> str:
         modules["Lyapunov"] = "Lyapunov.v"
     if "settles" in rules:
         modules["Attractors"] = "Attractors.v"
+    if "returns" in rules:
+        modules["Returns"] = "Returns.v"
     if has_ranks:
         modules["Ranks"] = "Ranks.v"
     if "relation" in rules:
@@ -511,4 +521,5 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),
     "settles": (settling_definitions, settling_proofs),
+    "returns": (returning_definitions, returning_proofs),
 }

@@ -63,7 +63,8 @@ def end_module(own: checker.Statement, name: str) -> str:
     return f"End_{own.get('contraction').index(name) + 1}"
 
 
-def _word(pieces: Sequence[int]) -> str:
+def word_of_coq(pieces: Sequence[int]) -> str:
+    """A list of numbers."""
     return f"({''.join(f'{k} :: ' for k in pieces)}nil)%nat"
 
 
@@ -78,7 +79,7 @@ def _last(f: Frame, own: checker.Statement) -> int:
 def settling_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The pieces by their numbers, what follows a word, and the ends: a word, a point and a set."""
     ends = [
-        f"({_word(word)}, ({at}.point$a, {at}.set$a))"
+        f"({word_of_coq(word)}, ({at}.point$a, {at}.set$a))"
         for word, at in zip(own.get("word"), _ends(own))
     ]
     cases = "".join(f"{k}%nat => Map.guard_{k}$a | " for k in f.pieces)
@@ -127,9 +128,9 @@ def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     yield f.fill(
         SETTLES,
         own,
-        words=_listed([_word(word) for word in (*never, *words)]) + "%list",
-        never=_listed([_word(word) for word in never]) + "%list",
-        letters=_word(f.pieces),
+        words=_listed([word_of_coq(word) for word in (*never, *words)]) + "%list",
+        never=_listed([word_of_coq(word) for word in never]) + "%list",
+        letters=word_of_coq(f.pieces),
         long=f"{sum(map(len, (*never, *words)))}%nat",
         stable=f.fill(
             " /\\\n  ".join(
@@ -181,7 +182,7 @@ def _followed(
         FOLLOWED,
         own,
         lemma=lemma,
-        word=_word(word),
+        word=word_of_coq(word),
         shown=f.fill(shown, own),
         along=conjunctive([*names, "_"]),
         descent=reading_name(own.get("descent")[0]),

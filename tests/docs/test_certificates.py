@@ -127,6 +127,9 @@ CHANGES = [
     ("example/settles", "never 1", "never 1 2", "1 1 1 .. holds no word"),
     ("example/settles", "never 1", "never 2", "1/2 follows it"),
     ("example/settles", "word 2", "word 3", "no piece 3"),
+    ("example/returns", "word 1\n", "", "a piece has no word"),
+    ("example/returns", "word 1", "word 1 1", "the next state need not be 1 or more"),
+    ("example/returns", "word 1", "word 2", "the guard is another"),
 ]
 
 

@@ -38,10 +38,12 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_INTO,
     FAILING_WITH_GUARDS,
 )
+from tests.certificates.checker.test_returns import LOOP
 from tests.certificates.checker.test_settles import TWO
 
 STATEMENTS_OF = [
-    read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, TWO, ASKED)
+    read(text)
+    for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, SCALE, COUNT, WHOLE, TWO, LOOP, ASKED)
 ]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
@@ -91,6 +93,10 @@ CONCLUSIONS = {
     " if and only if -1 < a < 1",
     "two/settles": "for 0 < a < 1: f^n(s) tends to one of e_1 = 2, e_2 = -2 for every state s of"
     " the space, and each is stable",
+    "loop/returns": "for 0 < a < 1/2: every orbit tends to that of one of e_1 = 2 = f^2(e_1),"
+    " e_2 = -2 = f(e_2): f^(N + n)(s) - f^n(e) tends to 0, for every state s of the space, with"
+    " such an e and an integer N >= 0; and each such orbit is stable: |f^n(s) - f^n(e)| is small"
+    " for all n >= 0 where |s - e| is",
     "asked/ends-in-roots": "for a > 9, every b: f^n(s) tends to e = (c, b) for every state s of the"
     " space, and e is stable; c = sqrt(a)",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"

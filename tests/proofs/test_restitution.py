@@ -18,7 +18,7 @@ from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
-from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START
+from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START, on_the_orbit
 from juggleproof.proofs.theorem.definition import holds_at, value_of
 from juggleproof.proofs.theorem.orbits import State, step
 
@@ -43,10 +43,13 @@ WEAKENED = [
     ("restitution-e-K/contracts", "rate (1 + alpha)/2", "rate alpha"),
     ("restitution-e-K/contracts", "size (1 - alpha)", "size (1/2 - alpha)"),
     ("restitution-e-K/contracts", "point (", "point 1 + ("),
-    ("restitution-to-a-half/map", "w >= 5", "w >= 6"),
+    ("restitution-to-a-half/impacts", "w >= 5", "w >= 6"),
     ("restitution-to-a-half/descends", "2*alpha < 1", "2*alpha <= 1"),
     ("restitution-to-a-half/descends", "rank 24*u", "rank u"),
     ("restitution-to-a-half/e-2", "3*alpha > 1", "3*alpha >= 1"),
+    ("restitution-to-a-half/map", "alpha*w - alpha*x", "alpha*w - x"),
+    ("restitution-to-a-half/returns", "word 1 2 2", "word 1 2 1"),
+    ("restitution-half/impacts", " and (x - 0)^2 + (w - (-2))^2 > 0", ""),
     ("restitution-half/map", " and (x - 0)^2 + (w - (-2))^2 > 0", ""),
     ("restitution-unequal/comes-back", "word 1 1 1 2", "word 1 1 2 1"),
     ("restitution-unequal/comes-back", "alpha > 73/100", "alpha > 72/100"),
@@ -136,6 +139,8 @@ def test_orbit_of_unequal_flights_comes_back_holds() -> None:
     alpha = Fraction(3, 4)
     start = state_at(alpha, START)
     assert flights(start, len(FLIGHTS)) == (FLIGHTS, start)
+    for count in range(len(FLIGHTS)):
+        assert flights(start, count)[1] == state_at(alpha, on_the_orbit(count))
     for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
         away = Fraction(1, 2000)
         corner = State(alpha, start.x + left * PERIODS * away, start.w + down * away)

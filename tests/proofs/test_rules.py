@@ -95,6 +95,8 @@ def test_the_range_of_several_attractors_is_that_of_the_descent_holds() -> None:
     ends = "never 1\ncontraction t/closes\nword 2"
     texts = SHARP | {"t/settles": f"statement t/settles\ndescent t/falls\n{ends}"}
     assert range_of_rule("t/settles", texts) == "at least 0 < a < 1/3"
+    texts["t/returns"] = "statement t/returns\nmap t/map\nsettling t/settles\nword 1\nword 2"
+    assert range_of_rule("t/returns", texts) == "at least 0 < a < 1/3"
 
 
 def test_a_rule_without_a_domain_has_no_range_holds() -> None:

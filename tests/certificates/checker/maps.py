@@ -788,6 +788,20 @@ never 2
 contraction asked/contracts
 word 1 1
 
+statement asked/faster
+over a b
+domain a > 1
+state x y
+space x >= 0
+piece x >= 2 -> x - 2, a*y
+piece x < 2 -> x^2, y + b
+
+statement asked/returns
+map asked/faster
+settling asked/ends-in-roots
+word 1 2 1
+word 2
+
 statement asked/powers
 forall x y w n
 integer n

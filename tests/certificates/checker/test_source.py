@@ -22,6 +22,7 @@ ORDER = [
     "text",
     "language",
     "rules",
+    "maps",
     "orbits",
     "settling",
 ]  # each rests on those before it
@@ -67,10 +68,10 @@ def test_lines_of_code_are_counted_without_comments_and_docstrings() -> None:
     )
 
 
-def test_there_are_at_most_1800_lines_of_code_with_all_rules() -> None:
-    """Counted at 100 columns, all files and all rules; 76 lines are the table of kinds."""
+def test_there_are_at_most_1840_lines_of_code_with_all_rules() -> None:
+    """Counted at 100 columns, all files and all rules; 77 lines are the table of kinds."""
     assert set(FILES) == {*ORDER, "__init__", "__main__"}
-    assert sum(map(code_lines, FILES.values())) <= 1800
+    assert sum(map(code_lines, FILES.values())) <= 1840
 
 
 def test_only_the_standard_library_and_earlier_files_are_imported() -> None:
@@ -113,7 +114,7 @@ def test_every_check_passes_its_meter_on() -> None:
     """A context or a proof without one would begin a meter of its own."""
     calls = [
         node
-        for name in ("rules", "orbits", "settling")
+        for name in ("rules", "maps", "orbits", "settling")
         for node in ast.walk(TREES[name])
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     ]

@@ -582,6 +582,38 @@ def of_settles(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     return {name: one._replace(name=f"{statement.name}.{name}") for name, one in premises.items()}
 
 
+def of_returns(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    whole = Setting(statements[statement.one("map")], statements)
+    settling = statements[statement.one("settling")]
+    first = Setting(statements[settling.one("descent")], statements)
+    for word in ("over", "integer", "state", "space"):
+        require(whole.map.all(word) == first.map.all(word), "a map of other states")
+    words = statement.all("word")
+    require(len(words) == len(first.pieces), "a word for each piece")
+    premises = {"inside": [*first.params(), Line("show", whole.domain)]}
+    for i, ((where, images), word) in enumerate(zip(first.pieces, words), 1):
+        require(max(word) <= len(whole.pieces), "a word of pieces")
+        lines = [*first.params(*first.state), Line("given", first.space), Line("given", where)]
+        terms = [*whole.here]
+        for n, k in enumerate(word):
+            names = {name: f"{name}_{n}" for name in whole.state}
+            lines += [Line("let", (names[x], term)) for x, term in zip(whole.state, terms)]
+            guard, after = whole.pieces[k - 1]
+            lines.append(Line("have", renamed(guard, names)))
+            terms = [renamed(term, names) for term in after]
+        premises[f"word-{i}"] = [*lines, Line("show", equal(terms, images))]
+    for i, name in enumerate(settling.all("contraction"), 1):
+        end = Setting(statements[name], statements)
+        guard, _ = first.pieces[settling.all("word")[i - 1][0] - 1]
+        lines = [*end.at_state(), Line("given", first.domain)]
+        lines += [Line("given", statements[name].one("on")), Line("show", guard)]
+        premises[f"piece-{i}"] = lines
+    return {
+        name: Statement(f"{statement.name}.{name}", "universal", tuple(lines))
+        for name, lines in premises.items()
+    }
+
+
 PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = {
     "map": of_map,
     "relation": of_map,
@@ -595,4 +627,5 @@ PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = 
     "escapes": of_escape,
     "exactly": of_exactly,
     "settles": of_settles,
+    "returns": of_returns,
 }

@@ -36,6 +36,7 @@ ORDERS = {
     "escapes": "map domain (root )*point start word ",
     "exactly": "attraction (escape |unstable )+",
     "settles": "descent (never )*(contraction word )+",
+    "returns": "map settling (word )+",
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
@@ -50,6 +51,7 @@ OTHERS = {  # the kinds of statements that a line may name
     "attraction": ("attracts", "into"),
     "escape": ("escapes",),
     "unstable": ("unstable",),
+    "settling": ("settles",),
 }
 # the names that a line may use beside those declared before it
 OWN = {

@@ -8,6 +8,7 @@ from juggleproof import MapRule, claim
 
 UNIT = "0 <= x and x <= 1"
 BELOW_1 = "0 < a and a < 1"
+BELOW_HALF = "0 < a and 2*a < 1"
 SQUARE = "0 <= x and x <= 10 and 0 <= y and y <= 10"
 RANGE = "1 <= a and a <= 4"
 
@@ -294,6 +295,37 @@ def two_points_attract() -> list[MapRule]:
         MapRule("up", (*of, ("on", "x >= 1"), ("point", "2"), *numbers)),
         MapRule("down", (*of, ("on", "x <= -1"), ("point", "-2"), *numbers)),
         MapRule("ends", (("descent", "parted/outside"), *words)),
+    ]
+
+
+@claim("returned")
+def an_orbit_of_two_states_attracts() -> list[MapRule]:
+    """What is at most 9 moves out to 10 or more and back; both steps at once contract to 2."""
+    over = (("over", "a"), ("domain", BELOW_HALF), ("state", "x"))
+    space = ("space", "(x >= 1 and x <= 9) or (x >= 10 and x <= 19)")
+    far = "x >= 10 and x - 9 > 0"
+    back = ("piece", f"{far} -> 2 + a*(10/(x - 9) - 2)")
+    of = (("map", "returned/twice"), ("domain", BELOW_HALF))
+    numbers = norm("1", rate="a", radius="1", size="8")
+    return [
+        MapRule("map", (*over, space, ("piece", "x <= 9 and x > 0 -> 9 + 10/x"), back)),
+        MapRule("twice", (*over, space, ("piece", "x <= 9 and x > 0 -> 2 + a*(x - 2)"), back)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", "0 = 0"), ("stage", "x <= 9"))),
+        MapRule("near", (*of, ("on", "x <= 9"), ("point", "2"), *numbers)),
+        MapRule(
+            "ends",
+            (
+                *(("descent", "returned/down"), ("never", "2")),
+                *(("contraction", "returned/near"), ("word", "1")),
+            ),
+        ),
+        MapRule(
+            "orbits",
+            (
+                *(("map", "returned/map"), ("settling", "returned/ends")),
+                *(("word", "1 2"), ("word", "2")),
+            ),
+        ),
     ]
 
 

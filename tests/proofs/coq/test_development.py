@@ -76,6 +76,8 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: C
         "Attractors.none_is_left",
         "Attractors.an_end_is_met",
         "Attractors.settles",
+        "Returns.by_coordinates",
+        "Returns.an_end",
         "Ranks.smaller_ends",
         "Ranks.lexicographic_descent",
         "Ranks.greatest_descent",

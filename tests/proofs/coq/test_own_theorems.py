@@ -18,6 +18,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
@@ -34,7 +35,7 @@ SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "gr
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
-PARTED = "parted/ends"
+PARTED, RETURNED = "parted/ends", "returned/orbits"
 ALONE = (SHARP,)  # compiled as it is written; tests of examples do that as well
 
 
@@ -70,10 +71,16 @@ CONCLUSIONS = {
     " /\\ States.stable (Map.space a) (Map.f a) (End_2.Contraction.point a)) /\\ forall of_s,"
     " Map.space a of_s -> exists of_e, In of_e (Settling.points a) /\\ Rules.converges (Map.f a)"
     " States.coordinate (fun of_j => States.coordinate of_j of_e) of_s.",
+    RETURNED: "Inner.Descent.domain a -> ((Rules.iterate (Map.f a) 2 (Inner.End_1.Contraction.point"
+    " a) = Inner.End_1.Contraction.point a /\\ Returns.orbit_stable States.coordinate (Map.f a)"
+    " (Map.space a) (Inner.End_1.Contraction.point a))) /\\ forall of_s, Map.space a of_s -> exists"
+    " of_e, In of_e (Inner.Settling.points a) /\\ Returns.joins States.coordinate (Map.f a) of_e"
+    " of_s.",
     NAMED: f"Descent.domain {WORDS} -> {settles('Contraction.point', WORDS)} /\\",
 }
-# A contraction, a Lyapunov function, one of instability, an escape, and the orbits of a relation.
-COMPILED = [*CONCLUSIONS] if ALL else [SHARP, SHIFTED, TURNED, CYCLE, INPUT, PARTED]
+# A contraction, a Lyapunov function, one of instability, an escape, the orbits of a relation, and
+# those of a map by one that makes two of its steps at once.
+COMPILED = [*CONCLUSIONS] if ALL else [SHARP, SHIFTED, TURNED, CYCLE, INPUT, RETURNED]
 
 
 def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
@@ -176,6 +183,21 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(
         assert axioms(answers[name]) <= REALS
 
 
+@pytest.mark.skipif(not ALL, reason="takes minutes of coqc; CI runs it")
+@pytest.mark.parametrize("name", ["restitution-to-a-half/returns", "restitution-half/returns"])
+def test_coqc_accepts_that_all_orbits_up_to_a_half_tend_to_one_of_two_holds(
+    name: str, tmp_path: Path
+) -> None:
+    """Of the ball's map itself, on all of x >= 0, but for four states at 1/2."""
+    store, claim_id = Store(DEFAULT), name.partition("/")[0]
+    texts = {one: text for one, text in store.texts.items() if one.startswith(f"{claim_id}/")}
+    answer = alone(
+        tmp_path, written(name, texts, {one: store.certificate(one, texts[one]) for one in texts})
+    )
+    assert answer.accepted, answer.output
+    assert axioms(answer) <= REALS
+
+
 def forged(own: str, premise: str, other: str) -> dict[str, Any]:
     """The certificates, with that of another premise in place of one."""
     certificates = copy.deepcopy(judged()[1])
@@ -218,6 +240,8 @@ def test_rejects_a_forged_certificate(
             (SHARP, "then image_1 a of_s\n  else of_s", "then of_s\n  else image_1 a of_s"),
             (PLANE, "(x / 4, (x + y) / 4)", "(x / 4, (x - y) / 4)"),
             (CYCLE, "(a + 1 - u) / (2 * a)", "(a + 1 + u) / (3 * a)"),
+            (RETURNED, "9 + 10 / x", "9 + 9 / x"),
+            (RETURNED, "1%nat => (1 :: 2 :: nil)%nat", "1%nat => (1 :: nil)%nat"),
             (INPUT, "- a <= u /\\ u <= a /\\ x < 1.", "u <= a /\\ x < 1."),
             (COUNTED, "let n := IZR n in n > 0 /\\ n > 1.", "let n := IZR n in n > 0."),
             (COUNTED, "(x / n, x ^ 2 - x)", "(x, x ^ 2 - x)"),
