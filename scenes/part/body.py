@@ -197,8 +197,8 @@ def corner(sx: float, sy: float) -> int:
 
 @compiled
 def turned(c: float, s: float, step: float) -> tuple[float, float]:
-    """Cosine and sine of an angle after a step of at most SMALL_TURN, by series, of half of it where
-    it is not tiny; to a rounding, and faster than sine and cosine.
+    """Cosine and sine of an angle after a step of at most SMALL_TURN, by series, of half of
+    it where it is not tiny; to a rounding, and faster than sine and cosine.
     """
     if abs(step) < TINY_TURN:
         q = step * step
