@@ -4,6 +4,7 @@ seconds.  In reading order:
     answers    what a method is asked, and what it answers
     questions  the questions about energy, from the derived expressions
     orbits     orbits and ensembles as work
+    blocks     blocks that fall on the vibrating table as work
     numerics   methods in interval arithmetic
     floats     methods in floating point
     solvers    methods that ask Z3, cvc5, QEPCAD B or Coq

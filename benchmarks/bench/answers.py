@@ -157,7 +157,14 @@ class Ensemble:
     alpha: Fraction = Fraction(3, 10)
 
 
-Work = Problem | Start | Ensemble
+@dataclass(frozen=True)
+class Drops:
+    """Blocks that fall on the vibrating table, so many copies of each of the known ones."""
+
+    copies: int = 500
+
+
+Work = Problem | Start | Ensemble | Drops
 
 # -------------------------------------------------------------------------------------------------
 # Answers, and what was measured of them.

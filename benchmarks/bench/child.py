@@ -14,7 +14,7 @@ import sys
 from fractions import Fraction
 
 from juggleproof.benchmarks.bench.answers import GaveUp, Measured
-from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
+from juggleproof.benchmarks.bench.methods import BLOCKS, ENSEMBLE, METHODS, ORBITS
 from juggleproof.benchmarks.processes import GRACE, allow, cpu_seconds
 
 # more than so many repeats only while they take less than so many seconds: answers of a millisecond
@@ -35,7 +35,7 @@ def _over(*_: object) -> None:
 def measured() -> Measured:
     """The answer with its seconds, or why there is none."""
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
-    work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE)[name]
+    work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE | BLOCKS)[name]
     signal.signal(signal.SIGTERM, _over)
     signal.signal(signal.SIGXCPU, _over)
     most = int(cpu_seconds() + 2 * seconds + GRACE) + 1  # then it is killed, whatever it does

@@ -270,5 +270,15 @@ ENSEMBLE = {
         "ensemble", "float64 with proved bounds", "rigorous", later("orbits:ensemble")
     )
 }
+BLOCKS = {
+    "blocks": Method(
+        "blocks",
+        "flights in closed form",
+        "no proof",
+        later("blocks:followed"),
+        "numba (pip install numba)",
+        has("numba"),
+    )
+}
 QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
 GROWTH = ("bernstein", "arb", "mpmath", "z3-once")  # measured as the number of variables grows

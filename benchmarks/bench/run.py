@@ -16,8 +16,9 @@ from fractions import Fraction
 from pathlib import Path
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, Work
+from juggleproof.benchmarks.bench.answers import Drops, Ensemble, Measured, Start, Work
 from juggleproof.benchmarks.bench.methods import (
+    BLOCKS,
     ENSEMBLE,
     GROWTH,
     METHODS,
@@ -106,10 +107,11 @@ WIDTHS = tuple(Fraction(1, 10**k) for k in range(1, 13))
 STEPS = tuple(Fraction(10**k) for k in range(7))
 STATES = tuple(Fraction(10**k) for k in range(2, 7))
 BALLS = tuple(Fraction(k) for k in range(1, 6))
+TOLERANCES = tuple(Fraction(1, 10**k) for k in range(6, 13))  # metres
 QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6)), 2, 2.0
 SECONDS = 10.0
 ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
-NAMES = (*ENERGY, *STARTS, "variables", "states")
+NAMES = (*ENERGY, *STARTS, "variables", "states", "part")
 _WIDTH = re.compile(
     r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE
 )
@@ -187,7 +189,7 @@ class Run:
             elif name in STARTS:
                 self.orbit(STARTS[name])
             else:
-                {"variables": self.variables, "states": self.states}[name]()
+                {"variables": self.variables, "states": self.states, "part": self.part}[name]()
         if sum(name in ENERGY for name in self.wanted.names) > 1:
             print(
                 "\n== the aim, over all questions and widths of this run\n"
@@ -260,6 +262,18 @@ class Run:
         results = self.measure(present, Ensemble(), sizes)
         self.show("states", "states", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "states", False))
+
+    def part(self) -> None:
+        """Blocks on the vibrating table, by the tolerance of their flights."""
+        present, sizes = self.present(BLOCKS, tuple(BLOCKS)), self.some(TOLERANCES)
+        title = "the part on the vibrating table"
+        print(
+            f"{title}: {Drops().copies} times 10 blocks that fall on it, for 0.2 s, by tolerance in"
+            " metres; error: the median distance to ends known to 35 digits\n"
+        )
+        results = self.measure(present, Drops(), sizes)
+        self.show("part", title, present, sizes, results, Fraction(0))
+        print("\n" + table.slopes(present, results, "1/tolerance", True))
 
     def some(self, sizes: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
         """The sizes that are asked for."""

@@ -272,7 +272,13 @@ def add_part(scenes: Commands) -> None:
     run.add_argument(
         "--check",
         action="store_true",
-        help="tell how often an impact broke a guarantee of the impact law; exit code 1 if any did",
+        help="tell how often an impact or a depth broke a guarantee; exit code 1 if any did",
+    )
+    run.add_argument(
+        "--keep",
+        type=Path,
+        metavar="DIR",
+        help="keep ensembles of table I that are done there; the same run goes on from them",
     )
     part.add_argument(
         "-o", "--output", type=Path, metavar="F", help="F.csv or F.npz: table I; F.json: a sweep"

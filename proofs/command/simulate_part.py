@@ -68,6 +68,7 @@ class PartOptions(argparse.Namespace):
     rest_speed: str
     jobs: int | None
     check: bool
+    keep: Path | None
     output: Path | None
 
 
@@ -84,6 +85,8 @@ def part(options: PartOptions) -> int:
     wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
+    if options.keep is not None and wishes[0] != "table":
+        raise ClaimError(f"--keep {options.keep} goes with table I")
     _refuse_unwritable(options, wishes[0])
     with _threads(options.jobs) as executor:
         return DONE_BY[wishes[0]](options, _setting(options), executor)
@@ -173,6 +176,8 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
             peak=AMPLITUDES[options.amplitudes],
             executor=executor,
             report=progress(),
+            check=options.check,
+            keep=options.keep,
         )
         clear()
         # before anything is printed, to a reader who may not stay

@@ -23,7 +23,7 @@ COMPILED = numba is not None
 KERNELS = ("body", "flight", "strike", "rest", "motion")  # the files that are compiled
 
 
-def _digest() -> str:
+def kernel_digest() -> str:
     """A digest of all kernels: numba looks at the file of a function only, not at those of the
     functions that it calls.
     """
@@ -46,7 +46,7 @@ def _folder() -> Path | None:
             if chosen
             else Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "juggleproof"
         )
-        folder = root / f"numba-{_digest()}"
+        folder = root / f"numba-{kernel_digest()}"
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return None
@@ -68,7 +68,9 @@ def compiled(function: Kernel) -> Kernel:
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(FOLDER or "")
     try:
-        made: Kernel = numba.njit(cache=FOLDER is not None, nogil=True)(function)
+        made: Kernel = numba.njit(cache=FOLDER is not None, nogil=True, error_model="numpy")(
+            function
+        )
     finally:
         numba.config.CACHE_DIR = before
     return made
@@ -116,8 +118,10 @@ class Floats(Protocol):
     REST_SPEED,
     STEP,
     SPLIT,
-) = range(16)
-PARAMETERS = 16
+    REACH,
+    CHECKED,
+) = range(18)
+PARAMETERS = 18
 
 # a state; for the last two see `contact`
 TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)
@@ -141,14 +145,16 @@ FLIGHT, PIVOT, FACE = 0.0, 1.0, 2.0
     LARGEST_REMOVED,
     IMPULSES,
     SINCE,
-    ENERGY_BY_REST,
+    SINKS,
 ) = range(16)
 NOTES = 16
 
 # how a run ended
-DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, NO_PROGRESS = range(5)
+DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, TOO_MANY_EVENTS = range(5)
 
+MOMENT = 1e-10  # seconds: how long a flight or a phase of contact lasts that would end at once
 QUARTER = pi / 2
+TINY_TURN, SMALL_TURN = 0.05, 1.5  # radians
 
 
 @compiled
@@ -177,6 +183,45 @@ def corner_y(p: Floats, i: int, c: float, s: float) -> float:
     if i == 2:
         return a * s + b * c
     return -a * s + b * c
+
+
+@compiled
+def corner(sx: float, sy: float) -> int:
+    """The number of the corner that at theta = 0 is right (sx = 1) or left (-1) of the centre and
+    above (sy = 1) or below it.
+    """
+    if sy < 0:
+        return 0 if sx < 0 else 1
+    return 3 if sx < 0 else 2
+
+
+@compiled
+def turned(c: float, s: float, step: float) -> tuple[float, float]:
+    """Cosine and sine of an angle after a step of at most SMALL_TURN, by series, of half of
+    it where it is not tiny; to a rounding, and faster than sine and cosine.
+    """
+    if abs(step) < TINY_TURN:
+        q = step * step
+        across = step * (1 - q * (1 / 6) * (1 - q * 0.05 * (1 - q * (1 / 42))))
+        back = q * (0.5 - q * (1 / 24) * (1 - q * (1 / 30) * (1 - q * (1 / 56))))
+        return c - (c * back + s * across), s - (s * back - c * across)
+    h = step / 2
+    q = h * h
+    q2 = q * q
+    sine = h * (
+        (1 - q * (1 / 6) + q2 * (1 / 120 - q * (1 / 5040)))
+        + q2
+        * q2
+        * (1 / 362880 - q * (1 / 39916800) + q2 * (1 / 6227020800 - q * (1 / 1307674368000)))
+    )
+    less = q * (
+        (0.5 - q * (1 / 24) + q2 * (1 / 720 - q * (1 / 40320)))
+        + q2
+        * q2
+        * (1 / 3628800 - q * (1 / 479001600) + q2 * (1 / 87178291200 - q * (1 / 20922789888000)))
+    )
+    across, back = 2 * sine * (1 - less), 2 * sine * sine
+    return c - (c * back + s * across), s - (s * back - c * across)
 
 
 @compiled

@@ -9,25 +9,27 @@ from juggleproof.scenes.part.body import (
     DONE,
     FACE,
     MODE,
-    NO_PROGRESS,
     NOTES,
     PIVOT,
+    STEPS,
     THETA,
     TIME,
+    TOO_MANY_EVENTS,
     Floats,
     compiled,
 )
-from juggleproof.scenes.part.flight import fly
+from juggleproof.scenes.part.flight import land
 from juggleproof.scenes.part.rest import lie, note_turn, pivot
-from juggleproof.scenes.part.strike import strike
+from juggleproof.scenes.part.strike import strike_all
 
 # -------------------------------------------------------------------------------------------------
 # Orbits.
 #
 # The orbit of one block: flights, impacts and contact in turn; and of many, one after another.
 
-MOST_EVENTS = 100_000_000
-MOST_AT_ONCE = 10_000  # events that do not move time on
+# of one block, in any second of its run: chatter that does not end is told, and not followed
+MOST_EVENTS, MOST_STEPS = 1_000_000, 10_000_000
+SECOND = 1.0
 
 
 @compiled
@@ -40,10 +42,10 @@ def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     if z[MODE] == PIVOT:
         return pivot(p, z, until, notes)
     before, theta = z[TIME], z[THETA]
-    code = fly(p, z, until, notes)
+    code, c, s, u, v = land(p, z, until, notes)
     note_turn(p, notes, before, theta, z[TIME], z[THETA])
     if code == DONE and z[TIME] < until:
-        return strike(p, z, notes)
+        return strike_all(p, z, c, s, u, v, notes)
     return code
 
 
@@ -52,18 +54,17 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave
     up.
     """
-    still = 0
-    for _ in range(MOST_EVENTS):
-        before = z[TIME]
-        if before >= until:
-            return DONE
+    begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
+    while z[TIME] < until:
         code = next_event(p, z, until, notes)
         if code != DONE:
             return code
-        still = still + 1 if z[TIME] == before else 0
-        if still > MOST_AT_ONCE:
-            return NO_PROGRESS
-    return NO_PROGRESS
+        events += 1
+        if z[TIME] >= begun + SECOND:
+            begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
+        elif events > MOST_EVENTS or notes[STEPS] > most:
+            return TOO_MANY_EVENTS
+    return DONE
 
 
 @compiled
@@ -97,8 +98,9 @@ def sample(
     block itself does not stop.
     """
     earlier, scratch = z.copy(), np.zeros(NOTES)
-    last, k, still = len(samples) - 1, 0, 0
-    for _ in range(MOST_EVENTS):
+    last, k = len(samples) - 1, 0
+    begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
+    while k <= last:
         earlier[:] = z
         if z[TIME] < times[last]:
             code = next_event(p, z, times[last], notes)
@@ -110,12 +112,12 @@ def sample(
             if code != DONE:
                 return code
             k += 1
-        if k > last:
-            return DONE
-        still = still + 1 if z[TIME] == earlier[TIME] else 0
-        if still > MOST_AT_ONCE:
-            return NO_PROGRESS
-    return NO_PROGRESS
+        events += 1
+        if z[TIME] >= begun + SECOND:
+            begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
+        elif events > MOST_EVENTS or notes[STEPS] > most:
+            return TOO_MANY_EVENTS
+    return DONE
 
 
 @compiled

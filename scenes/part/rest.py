@@ -21,7 +21,7 @@ from juggleproof.scenes.part.body import (
     LAST_LYING,
     LAST_UPRIGHT,
     MODE,
-    NO_PROGRESS,
+    MOMENT,
     OMEGA,
     PHASE_X,
     PHASE_Y,
@@ -31,9 +31,11 @@ from juggleproof.scenes.part.body import (
     SLIDE,
     SPLIT,
     STEP,
+    STEPS,
     THETA,
     TIME,
     TOLERANCE,
+    TOO_MANY_STEPS,
     V_X,
     V_Y,
     W_X,
@@ -71,7 +73,7 @@ def side(p: Floats, theta: float) -> int:
     whenever theta passes from one to the other.
     """
     split = p[SPLIT]
-    turns = floor((theta + split) / pi)
+    turns = floor((theta + split) * (1 / pi))
     return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)
 
 
@@ -107,7 +109,7 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
 # All in closed form but for the times at which friction fails or sliding stops; these come, like
 # the end of a flight, from below.
 
-MOST_PHASES, MOST_STEPS = 100_000, 1_000_000
+MOST_STEPS = 1_000_000  # of one call; a pivot goes on in the next
 SPEED_RESOLUTION, FORCE_RESOLUTION = 1e-12, 1e-9  # of a stop, in m/s, and of a slip, in m/s^2
 LEAST_FALL = 1e-3  # keeps steps finite where nothing changes
 LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of any of them
@@ -142,13 +144,14 @@ def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, fl
 
 
 @compiled
-def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
+def slip_time(p: Floats, t: float, end: float, grip: float, notes: Floats) -> float:
     """The first time up to `end` at which sticking needs more than `grip` times the normal force;
-    `end` where there is none.
+    `end` where there is none, -1 where it took too many steps.
     """
     fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
     first = True
     for _ in range(MOST_STEPS):
+        notes[STEPS] += 1
         step = end - t
         for way in (-1.0, 1.0):
             value, rate = face_margin(p, t, grip, way)
@@ -171,15 +174,16 @@ def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
 
 
 @compiled
-def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
+def stop_time(p: Floats, t: float, end: float, slide: float, S: float, notes: Floats) -> float:
     """The first time up to `end` at which a face that slides at S stops; `end` where there is
-    none.
+    none, -1 where it took too many steps.
     """
     mu, wy, wx = p[FRICTION], p[W_Y], p[W_X]
     fall = mu * abs(p[A_Y]) * wy**3 + abs(p[A_X]) * wx**3 + LEAST_FALL
     start, rise, glide = t, table_rise(p, t), table_glide(p, t)
     first = True
     for _ in range(MOST_STEPS):
+        notes[STEPS] += 1
         speed = slide * (S - table_glide(p, t) + glide) - mu * (
             p[G] * (t - start) + table_rise(p, t) - rise
         )
@@ -209,11 +213,13 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     grip = half / tall if tips else mu
     began, leaves = t, lift_off(p, t)
     end = min(until, leaves, t + LONGEST_PIECE)
-    push, tipped, code = 0.0, False, NO_PROGRESS
+    push, tipped, code = 0.0, False, TOO_MANY_STEPS
     notes[CONTACTS] += 1
-    for _ in range(MOST_PHASES):
+    most = notes[STEPS] + MOST_STEPS
+    while notes[STEPS] < most:
+        notes[STEPS] += 1
         if slide == 0:
-            after = slip_time(p, t, end, grip)
+            after = slip_time(p, t, end, grip, notes)
             if after < 0:
                 break
             x, vx = x + table_place(p, after) - table_place(p, t), table_glide(p, after)
@@ -225,7 +231,7 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         elif tips:
             push, tipped = -slide, True
         else:
-            after = stop_time(p, t, end, slide, vx - table_glide(p, t))
+            after = stop_time(p, t, end, slide, vx - table_glide(p, t), notes)
             if after < 0:
                 break
             h, rise = after - t, table_rise(p, t)
@@ -282,7 +288,6 @@ Moved = tuple[float, float, float, float]  # X, V_X, theta, omega
 LASTS, LETS_GO, SLIPS, STOPS, LANDS = range(5)
 TIME_RESOLUTION = 1e-13  # seconds, of the end of a phase
 MOST_GUESSES = 200
-FLAT = 1e-14  # radians
 
 
 @compiled
@@ -353,7 +358,7 @@ def margin(
     on corner i is the lowest.
     """
     if ended == LANDS:
-        return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta) + FLAT
+        return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta)
     if ended == STOPS:
         return slide * (vx - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)
@@ -434,8 +439,8 @@ def end_of_phase(
 # to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the next corner
 # comes down) is looked for at the end of every step and then bracketed.
 
-# of one pivot
-LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
+# A phase that ends at once, after one that did so, lasts a MOMENT, so that time passes; no longer,
+# since a friction that goes on where sliding has stopped would add energy.
 
 
 @compiled
@@ -447,9 +452,10 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
     turn = first_turn(i, theta)
     gap = z[Y] + corner_y(p, i, cos(theta), sin(theta)) - table_height(p, t)
-    ended, code = LASTS, NO_PROGRESS
+    ended, hurried = LASTS, False
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
+        notes[STEPS] += 1
         h = min(p[STEP] * step_factor(p, theta, i, slide), until - t)
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
@@ -458,7 +464,8 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             if ended == LANDS or ended == LETS_GO:
                 h = late
             else:
-                h = max(early, min(h, LEAST_STEP))
+                h = max(early, min(h, MOMENT)) if hurried else early
+                hurried = early < MOMENT
             x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         if ended == LANDS:
             theta2 = (turn if theta2 < (turn + 0.5) * QUARTER else turn + 1) * QUARTER
@@ -477,7 +484,6 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             if normal <= 0:
                 ended = LETS_GO
         if ended == LETS_GO or ended == LANDS or t >= until:
-            code = DONE
             break
     if ended == LETS_GO:
         gap = max(gap, -p[TOLERANCE] / 2)  # see `strike`
@@ -490,4 +496,4 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     z[SLIDE] = slide
     if ended == LETS_GO or ended == LANDS:
         z[MODE] = FLIGHT
-    return strike(p, z, notes) if ended == LANDS else code
+    return strike(p, z, notes) if ended == LANDS else DONE

@@ -22,6 +22,8 @@ LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
 LONGEST = 1e5  # seconds of a run
 COARSEST = 0.01  # of half the short side: the largest tolerance
 ROUNDING = 0.05  # of the tolerance: the most by which a gap may be rounded
+HOP = 4.0  # by which a hop is to surpass what is lost in rounding
+LEAST_LOSS = 1e-6  # of energy in an impact: below, it counts as lossless
 FASTEST, FASTEST_TURN = 1e3, 1e5  # m/s and rad/s of a start
 RANGES = {
     "a": (1e-5, 10.0),
@@ -74,8 +76,10 @@ class Scene:
     rest_speed: float
     launch: Launch
 
-    def parameters(self) -> Array:
-        """The numbers that the kernels take (`juggleproof.scenes.part.body`)."""
+    def parameters(self, check: bool = True) -> Array:
+        """The numbers that the kernels take (`juggleproof.scenes.part.body`); `check`: whether they
+        count how often an impact breaks a guarantee.
+        """
         p = np.zeros(body.PARAMETERS)
         p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
         p[body.A_X], p[body.W_X], p[body.PHASE_X] = self.A_x, 2 * math.pi * self.f_x, self.phase_x
@@ -87,11 +91,25 @@ class Scene:
         )
         p[body.TOLERANCE], p[body.REST_SPEED], p[body.STEP] = (
             self.tolerance,
-            self.rest_speed,
+            max(self.rest_speed, self.least_rest_speed()),
             self.step(),
         )
-        p[body.SPLIT] = math.atan(self.a / self.b)
+        p[body.SPLIT], p[body.REACH] = math.atan(self.a / self.b), math.hypot(self.a, self.b)
+        p[body.CHECKED] = check
         return p
+
+    def least_rest_speed(self) -> float:
+        """The least rest speed, in m/s, at which chatter ends: a hop gains less by the rounding of
+        heights than its impact takes away, and lasts longer than a flight that ends at once.
+
+        >>> from juggleproof.scenes.part import scene
+        >>> scene(e=0.9, mu=0.3, A_y=0.0).least_rest_speed() < 1e-7
+        True
+        """
+        fall = self.g + self.A_y * (2 * math.pi * self.f_y) ** 2
+        rounded = HOP * EPSILON * (math.hypot(self.a, self.b) + self.A_y)
+        lost = max(1 - self.e**2, LEAST_LOSS)
+        return max(HOP * fall * body.MOMENT, math.sqrt(HOP * fall * rounded / lost))
 
     def step(self) -> float:
         """The length of a step of Runge and Kutta, in seconds, by its error term: fifth derivatives

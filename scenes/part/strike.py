@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import cos, floor, sin, sqrt
 
 from juggleproof.scenes.part.body import (
+    A_Y,
+    CHECKED,
     CLOSINGS,
     CONES,
     CORNER,
@@ -20,10 +22,13 @@ from juggleproof.scenes.part.body import (
     JAMMED,
     LARGEST_REMOVED,
     MODE,
+    MOMENT,
     OMEGA,
+    PHASE_Y,
     PIVOT,
     PULLS,
     QUARTER,
+    REACH,
     REST_SPEED,
     RESTITUTION,
     SLIDE,
@@ -33,17 +38,17 @@ from juggleproof.scenes.part.body import (
     TOO_MANY_IMPACTS,
     V_X,
     V_Y,
+    W_Y,
     Floats,
     G,
     Y,
     compiled,
+    corner,
     corner_x,
     corner_y,
     table_glide,
-    table_height,
     table_lift,
     table_push,
-    table_rise,
 )
 
 # -------------------------------------------------------------------------------------------------
@@ -183,16 +188,26 @@ def first_turn(i: int, theta: float) -> float:
 # added. Coming to rest moves a corner by at most two tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
+ROUNDED_HOP = 1e-7  # of the speed of a corner that turns: its hops are lost in rounding
 STILL = 1e-12  # metres a second: closing speeds below are rounding
+ROUNDED_SPEED = 2e-15  # of all speeds: the same where these are large
 # relative rounding that the guarantees are counted with, and that of a difference of speeds
 SLACK, ROUNDING = 1e-12, 1e-14
 
 
 @compiled
-def energy(p: Floats, z: Floats, glide: float, rise: float) -> float:
-    """The kinetic energy in the table's frame, in joules per kilogram."""
-    across, up = z[V_X] - glide, z[V_Y] - rise
-    return (across * across + up * up + p[GYRATION] * z[OMEGA] * z[OMEGA]) / 2
+def energy(p: Floats, across: float, up: float, omega: float) -> float:
+    """The kinetic energy of these speeds in the table's frame, in joules per kilogram."""
+    return (across * across + up * up + p[GYRATION] * omega * omega) / 2
+
+
+@compiled
+def rest_speed(p: Floats, omega: float) -> float:
+    """Below which speed (m/s) a corner stays: the scene's, but where the block turns fast at least
+    so much that hops are not lost in rounding (see `Scene.least_rest_speed`).
+    """
+    turning = abs(omega) * p[REACH]
+    return max(p[REST_SPEED], turning * max(ROUNDED_HOP, 4 * abs(omega) * MOMENT))
 
 
 @compiled
@@ -205,25 +220,24 @@ def strike_at(
     k2, mu = p[GYRATION], p[FRICTION]
     S0, C0 = z[V_X] - z[OMEGA] * y - glide, z[V_Y] + z[OMEGA] * x - rise
     B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
-    e = p[RESTITUTION] if -C0 >= p[REST_SPEED] else 0.0
+    e = p[RESTITUTION] if -C0 >= rest_speed(p, z[OMEGA]) else 0.0
     sigma = first_slide(S0, B1, B3, mu)
     mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
     if mode == JAMMING:
         return JAMMED
-    before, terms = (
-        energy(p, z, glide, rise),
-        abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x),
-    )
-    rounded = ROUNDING * (abs(z[V_X]) + abs(glide) + abs(z[V_Y]) + abs(rise)) * sqrt(before)
     P_x, P_y = impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)
-    z[V_X] += P_x
-    z[V_Y] += P_y
-    z[OMEGA] += (x * P_y - y * P_x) / k2
+    across, up, spin = z[V_X] + P_x, z[V_Y] + P_y, z[OMEGA] + (x * P_y - y * P_x) / k2
     notes[IMPACTS] += 1
-    notes[PULLS] += P_y < 0
-    notes[CONES] += abs(P_x) > mu * P_y + SLACK * (abs(P_x) + P_y)
-    notes[GAINS] += energy(p, z, glide, rise) - before > SLACK * before + rounded
-    notes[CLOSINGS] += z[V_Y] + z[OMEGA] * x - rise < -SLACK * terms
+    if p[CHECKED] != 0:
+        before = energy(p, z[V_X] - glide, z[V_Y] - rise, z[OMEGA])
+        after = energy(p, across - glide, up - rise, spin)
+        terms = abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x)
+        rounded = ROUNDING * (abs(z[V_X]) + abs(glide) + abs(z[V_Y]) + abs(rise)) * sqrt(before)
+        notes[PULLS] += P_y < 0
+        notes[CONES] += abs(P_x) > mu * P_y + SLACK * (abs(P_x) + P_y)
+        notes[GAINS] += after - before > SLACK * before + rounded
+        notes[CLOSINGS] += up + spin * x - rise < -SLACK * terms
+    z[V_X], z[V_Y], z[OMEGA] = across, up, spin
     return DONE
 
 
@@ -232,41 +246,53 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
     """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at
     rest.  DONE, or why it gave up.
     """
-    t, theta = z[TIME], z[THETA]
-    c, s = cos(theta), sin(theta)
-    glide, rise = table_glide(p, t), table_rise(p, t)
-    level, touch = table_height(p, t), 2 * p[TOLERANCE]
-    carried = p[G] + table_lift(p, t) > 0
+    phase = p[W_Y] * z[TIME] + p[PHASE_Y]
+    return strike_all(p, z, cos(z[THETA]), sin(z[THETA]), cos(phase), sin(phase), notes)
+
+
+@compiled
+def strike_all(p: Floats, z: Floats, c: float, s: float, u: float, v: float, notes: Floats) -> int:
+    """The same, with cosine and sine of theta, and of the table's phase.
+
+    Of two corners: the lowest, and the other end of the face that is nearest to the table.
+    """
+    a, b, t = p[HALF_SHORT], p[HALF_LONG], z[TIME]
+    glide, rise, level = table_glide(p, t), p[A_Y] * p[W_Y] * u, p[A_Y] * v
+    carried = p[G] - p[A_Y] * p[W_Y] * p[W_Y] * v > 0
+    touch = 2 * p[TOLERANCE]
+    sx, sy = -1.0 if s > 0 else 1.0, -1.0 if c > 0 else 1.0
+    if a * abs(s) <= b * abs(c):
+        tx, ty = -sx, sy
+    else:
+        tx, ty = sx, -sy
+    x1, y1 = sx * a * c - sy * b * s, sx * a * s + sy * b * c
+    x2, y2 = tx * a * c - ty * b * s, tx * a * s + ty * b * c
     for _ in range(MOST_IMPACTS):
-        touching, slow, resting = 0, 0, -1
-        fastest, first, second, lowest = -STILL, -1, -1, 2 * touch
-        for i in range(4):
-            gap = z[Y] + corner_y(p, i, c, s) - level
-            if gap > touch:
-                continue
-            C = z[V_Y] + z[OMEGA] * corner_x(p, i, c, s) - rise
-            touching += 1
-            slow += abs(C) < p[REST_SPEED]
-            if abs(C) <= STILL and gap < lowest:
-                resting, lowest = i, gap
-            if C < fastest:
-                fastest, first, second = C, i, -1
-            elif C == fastest:
-                second = i
-        if touching == 2 and slow == 2 and carried:
+        rest = rest_speed(p, z[OMEGA])
+        still = max(STILL, ROUNDED_SPEED * (abs(z[V_Y]) + abs(z[OMEGA]) * p[REACH]))
+        gap1, gap2 = z[Y] + y1 - level, z[Y] + y2 - level
+        C1, C2 = z[V_Y] + z[OMEGA] * x1 - rise, z[V_Y] + z[OMEGA] * x2 - rise
+        near1, near2 = gap1 <= touch, gap2 <= touch
+        if near1 and near2 and carried and abs(C1) < rest and abs(C2) < rest:
             lie_down(p, z, t, level, rise, notes)
             return DONE
-        if first < 0:
+        closing1, closing2 = near1 and C1 < -still, near2 and C2 < -still
+        if not closing1 and not closing2:
             z[MODE] = FLIGHT
-            if resting >= 0:
-                stay(p, z, resting)
+            still1, still2 = near1 and abs(C1) <= still, near2 and abs(C2) <= still
+            if still1 or still2:
+                first = still1 and (not still2 or gap1 <= gap2)
+                stay(p, z, corner(sx, sy) if first else corner(tx, ty))
                 if z[MODE] == FLIGHT:
                     # a corner without speed, any deeper, would end the next flight at once
-                    z[Y] += max(-p[TOLERANCE] / 2 - lowest, 0.0)
+                    z[Y] += max(-p[TOLERANCE] / 2 - (gap1 if first else gap2), 0.0)
             return DONE
-        x, y = corner_x(p, first, c, s), corner_y(p, first, c, s)
-        if second >= 0:
-            x, y = (x + corner_x(p, second, c, s)) / 2, (y + corner_y(p, second, c, s)) / 2
+        if closing1 and closing2 and C1 == C2:
+            x, y = (x1 + x2) / 2, (y1 + y2) / 2
+        elif closing1 and (not closing2 or C1 < C2):
+            x, y = x1, y1
+        else:
+            x, y = x2, y2
         if strike_at(p, z, x, y, glide, rise, notes) == JAMMED:
             return JAMMED
     return TOO_MANY_IMPACTS
@@ -277,14 +303,16 @@ def lie_down(p: Floats, z: Floats, t: float, level: float, rise: float, notes: F
     """Lays a face on the table: it turns no more, and goes up and down with the table."""
     turns = floor(z[THETA] / QUARTER + 0.5)
     glide = table_glide(p, t)
-    before = energy(p, z, glide, rise)
-    if abs(z[V_X] - glide) < p[REST_SPEED]:
+    before = energy(p, z[V_X] - glide, z[V_Y] - rise, z[OMEGA])
+    if abs(z[V_X] - glide) < rest_speed(p, z[OMEGA]):
         z[V_X] = glide
     z[THETA], z[OMEGA], z[V_Y] = turns * QUARTER, 0.0, rise
     z[Y] = level + (p[HALF_LONG] if turns % 2 == 0 else p[HALF_SHORT])
     z[MODE], z[CORNER] = FACE, turns
     z[SLIDE] = slide_of(z[V_X] - glide)
-    notes[LARGEST_REMOVED] = max(notes[LARGEST_REMOVED], before - energy(p, z, glide, rise))
+    notes[LARGEST_REMOVED] = max(
+        notes[LARGEST_REMOVED], before - energy(p, z[V_X] - glide, 0.0, 0.0)
+    )
 
 
 @compiled

@@ -53,6 +53,8 @@ BAD = [
     ),
     (["--sweep", "e=0:1:2,mu=0:0:1", "--e", "0.5"], "--sweep takes e and mu itself"),
     (["--still", "--sweep", "e=0:1:2,mu=0:0:1"], "do not go together"),
+    (["--still", "--keep", "done"], "--keep done goes with table I"),
+    (["--keep", "/dev/null/done"], "no folder to keep chunks in"),
     (["-o", "table.svg"], "table.svg: the name is to end in .csv or .npz"),
     (["-o", "/dev/null/table.csv"], "cannot be written"),
     (["--figure", "f.txt"], "f.txt: the name is to end in .svg or .pdf"),

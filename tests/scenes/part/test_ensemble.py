@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from math import atan, degrees, nan
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -67,6 +68,50 @@ def test_rejects_times_that_are_none(times: list[float]) -> None:
 def test_rejects_more_states_than_fit() -> None:
     with pytest.raises(SceneError, match="choose fewer times"):
         frames(SHAKEN, ANGLES, np.linspace(0, 1, 100_000))
+
+
+# -------------------------------------------------------------------------------------------------
+# What is done is kept: a run that was ended goes on from there.
+
+
+class Ended(Exception):
+    """Raised by a report, as an interrupt would be."""
+
+
+def test_run_that_was_ended_goes_on_from_what_is_kept_holds(tmp_path: Path) -> None:
+    states = standing(SHAKEN, np.linspace(0, 1.5, 3 * CHUNK))
+    told: list[tuple[int, int]] = []
+
+    def report(done: int, of: int) -> None:
+        told.append((done, of))
+        if done == 2:
+            raise Ended
+
+    with ThreadPoolExecutor(1) as one, pytest.raises(Ended):
+        run(SHAKEN, states, 0.2, executor=one, report=report, keep=tmp_path)
+    kept = {file: file.stat().st_mtime_ns for file in tmp_path.iterdir()}
+    assert told == [(1, 3), (2, 3)] and len(kept) >= 2
+    next(iter(kept)).write_bytes(b"half of a file")
+    again = run(SHAKEN, states, 0.2, keep=tmp_path)
+    plain = run(SHAKEN, states, 0.2)
+    assert (again.states == plain.states).all() and (again.notes == plain.notes).all()
+    assert len(list(tmp_path.iterdir())) == 3
+    assert sum(file.stat().st_mtime_ns == at for file, at in kept.items()) == len(kept) - 1
+
+
+def test_kept_chunks_are_not_those_of_another_run_holds(tmp_path: Path) -> None:
+    states = standing(SHAKEN, ANGLES)
+    run(SHAKEN, states, 0.1, keep=tmp_path)
+    for other, until, check in ((STICKY, 0.1, False), (SHAKEN, 0.2, False), (SHAKEN, 0.1, True)):
+        found = run(other, states, until, keep=tmp_path, check=check)
+        assert (found.states == run(other, states, until).states).all()
+    assert len(list(tmp_path.iterdir())) == 4
+
+
+def test_rejects_a_folder_that_cannot_be_made(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(SceneError, match="no folder to keep chunks in"):
+        run(SHAKEN, standing(SHAKEN, [0.1]), 0.1, keep=tmp_path / "file")
 
 
 # -------------------------------------------------------------------------------------------------

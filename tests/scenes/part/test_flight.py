@@ -11,7 +11,7 @@ import pytest
 
 from juggleproof.scenes.part import body, moving, scene
 from juggleproof.scenes.part.ensemble import fresh_notes
-from juggleproof.scenes.part.flight import fly, safe_step
+from juggleproof.scenes.part.flight import fly, lands_after, safe_step
 from juggleproof.scenes.part.setting import Array, Scene
 from tests.scenes.part.reference import Flight, Model, State, first_crossing, setting
 
@@ -152,6 +152,28 @@ def test_safe_step_is_the_first_root_of_its_parabola_holds() -> None:
             for part in (0.1, 0.5, 0.9, 0.999)
         )
     assert safe_step(0.0, -1.0, 2.0) == 0.0 == safe_step(0.0, 0.0, 2.0)
+
+
+def test_sines_that_are_turned_on_are_those_of_the_angle_holds() -> None:
+    steps = np.concatenate([np.linspace(-body.SMALL_TURN, body.SMALL_TURN, 400), [1e-9, 0.0]])
+    for angle in (-2.0, 0.3, 1.5, 7.0):
+        for step in steps:
+            c, s = body.turned(math.cos(angle), math.sin(angle), step)
+            assert abs(c - math.cos(angle + step)) < 2e-15 > abs(s - math.sin(angle + step))
+
+
+def test_landing_that_is_told_is_that_of_the_gap_holds() -> None:
+    """Of gaps c - sin(w s + phase), with all derivatives bounded as they are."""
+    dice, told = np.random.default_rng(5), 0
+    for _ in range(500):
+        w, phase = 10.0 ** dice.uniform(0, 3), dice.uniform(1.8, 4.4)
+        gap, rate = 10.0 ** dice.uniform(-12, -2), w * math.cos(phase)
+        push, jerk = -w * w * math.sin(phase), -(w**3) * math.cos(phase)
+        late = lands_after(gap, rate, push, jerk, w**4, 1e-12)
+        if late < 1e300:
+            told += 1
+            assert abs(gap + math.sin(w * late + phase) - math.sin(phase)) < 1.01e-12 + 4e-16
+    assert 100 < told < 500
 
 
 def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:

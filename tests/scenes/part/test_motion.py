@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
+from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, fresh_notes, moving, run, scene, standing
-from juggleproof.scenes.part.motion import follow_all
+from juggleproof.scenes.part.motion import follow_all, next_event
 from juggleproof.scenes.part.onsets import PAPER
 from juggleproof.scenes.part.rest import LANDS, LASTS, LETS_GO, SLIPS, STOPS, ending, pivot
 from juggleproof.scenes.part.setting import Array, Scene
@@ -18,7 +20,7 @@ from juggleproof.scenes.part.strike import strike
 # Scenes that broke an earlier integrator, and drawn ones: every run ends, with finite states,
 # nothing gained and no corner in the table.
 
-GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS]
+GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS, body.SINKS]
 
 
 def drawn(seed: int) -> tuple[Scene, Array]:
@@ -182,6 +184,82 @@ def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> Non
             check(block, states, until)
             assert (energies(states) <= last + 1e-7).all()
             last = energies(states)
+
+
+# -------------------------------------------------------------------------------------------------
+# The far corners of long flat blocks, which rattle for long, do not work their way into the table.
+
+LYING = math.pi / 2
+LONG: list[dict[str, float]] = [
+    {"a": 0.02, "b": 0.65, "e": 0.999, "rest_speed": 1e-6},
+    {"a": 0.0042, "b": 0.91, "e": 0.999, "mu": 0.1, "rest_speed": 1.8e-6, "tolerance": 2.5e-12},
+    {"a": 0.028, "b": 0.79, "e": 0.9999, "mu": 0.1, "rest_speed": 3.6e-6, "tolerance": 4.4e-13},
+    {"a": 0.005, "b": 1.5, "e": 0.99, "mu": 1.2, "rest_speed": 1e-5},
+]
+
+
+@pytest.mark.parametrize("given", LONG, ids=str)
+def test_corners_of_a_long_block_do_not_sink_holds(given: dict[str, float]) -> None:
+    block = scene(**{"mu": 0.5, "A_y": 0.0, **given})
+    angles = LYING - 10.0 ** np.arange(-7.0, -1.0)
+    impacts = check(block, standing(block, [*angles, 1e-5]), 1.0)[:, body.IMPACTS]
+    assert impacts.max() > 1000
+
+
+def test_corner_that_is_too_deep_is_counted_holds() -> None:
+    block = scene(e=0.5, mu=0.0, A_y=0.0)
+    z, notes = moving(block, 0, block.b, 0.0, 0.0, 0.01, 0.0), fresh_notes(1)
+    z[0, body.Y] -= 3 * block.tolerance
+    follow_all(block.parameters(), z, 1e-3, notes)
+    assert notes[0, body.SINKS] == 1 and notes[0, body.LEAST_GAP] < -2.9 * block.tolerance
+
+
+# -------------------------------------------------------------------------------------------------
+# Chatter on a still table comes to an end, in events that what is left to move bounds; where it
+# cannot, the run says where it is stuck.
+
+CHATTER: list[tuple[float, dict[str, float]]] = [
+    (1e-9, {"e": 0.5, "mu": 1.3, "g": 1000.0, "rest_speed": 1e-6}),
+    (1e-9, {"e": 0.7, "mu": 1.3, "g": 1000.0, "rest_speed": 1e-6, "a": 0.005}),
+    (LYING - 1e-9, {"e": 0.99, "mu": 1.3, "g": 1000.0, "rest_speed": 1e-6}),
+    (1e-9, {"e": 0.9, "mu": 1.3, "g": 100.0, "rest_speed": 1e-6}),
+    (1e-9, {"e": 0.9, "mu": 1.3, "g": 100.0, "rest_speed": 1e-8}),
+    (1e-3, {"e": 0.9, "mu": 1.3, "g": 100.0, "rest_speed": 1e-8}),
+    (LYING - 1e-9, {"e": 0.5, "mu": 0.0, "rest_speed": 1e-8, "a": 0.005}),
+    (1e-9, {"e": 0.9, "mu": 0.3, "b": 0.01, "rest_speed": 1e-8}),
+]
+
+
+@pytest.mark.parametrize(("angle", "given"), CHATTER, ids=str)
+def test_chatter_on_a_still_table_ends_holds(angle: float, given: dict[str, float]) -> None:
+    """No event adds energy, not even that of a rounding of the height, and few are needed."""
+    block = scene(A_y=0.0, **given)
+    p, z, notes = block.parameters(), standing(block, [angle])[0], fresh_notes(1)[0]
+    last = math.inf
+    for _ in range(1000):
+        if z[body.TIME] == 0.2:
+            break
+        assert next_event(p, z, 0.2, notes) == body.DONE
+        energy = (z[body.V_X] ** 2 + z[body.V_Y] ** 2 + p[body.GYRATION] * z[body.OMEGA] ** 2) / 2
+        assert energy + block.g * z[body.Y] <= last
+        last = energy + block.g * z[body.Y]
+    assert z[body.TIME] == 0.2 and z[body.MODE] == body.FACE
+    assert notes[body.IMPACTS] + notes[body.CONTACTS] < 1000
+
+
+def test_lossless_chatter_is_told_with_part_and_state_holds() -> None:
+    """Hops of 3e-4 m/s at 1000 m/s^2 last for 6e-7 s, and lose nothing."""
+    block = scene(e=1.0, mu=0.0, g=1000.0, A_y=0.0, rest_speed=1e-8)
+    starts = np.concatenate(
+        [standing(block, [0.3]), moving(block, 0, block.b + 4.5e-11, 0, 0, 0, 0)], axis=0
+    )
+    with pytest.raises(SceneError) as told:
+        run(block, starts, 1.0)
+    assert re.fullmatch(
+        r"block 1 is stuck at t = 0\.\d+ s, in flight, at X = 0 m, Y = 0\.02 m, theta = 0, with"
+        r" V_X = 0 m/s, V_Y = \S+ m/s, omega = 0 rad/s: more than a million events in a second; .*",
+        str(told.value),
+    )
 
 
 def test_face_that_trips_near_jamming_is_not_sped_up_holds() -> None:

@@ -5,13 +5,14 @@ exact; what has not settled is censored.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
 from juggleproof.scenes.part import body, run, scene, standing, table_one
-from juggleproof.scenes.part.onsets import PAPER, jittered, row_of
-from juggleproof.scenes.part.setting import Scene
+from juggleproof.scenes.part.onsets import PAPER, jittered, jittered_phases, row_of
+from juggleproof.scenes.part.setting import Scene, changed
 
 HORIZON, ENSEMBLES = 6.0, 24
 SPLIT = math.degrees(math.atan(0.5))  # 26.56505...
@@ -76,6 +77,29 @@ def test_other_faces_part_at_their_own_diagonal_holds() -> None:
         run(block, standing(block, angles), 4.0).states[:, body.THETA]
         == [0, math.pi / 2, math.pi / 2]
     ).all()
+
+
+# a table that starts at its lowest, gently: the block at 0 degrees lies down at once
+GENTLE = scene(
+    e=0.875, mu=0.92, A_y=1e-4, phase_y=-math.pi / 2, A_x=5e-5, f_x=60.0, phase_x=-math.pi / 2
+)
+
+
+def ends_of_the_upright(phases: Sequence[float]) -> set[tuple[float, ...]]:
+    """Where the block that starts at 0 degrees is after 2 s, in ensembles with these phases."""
+    ends = set()
+    for angles, moved in zip(jittered(len(phases), 1), phases):
+        block = changed(GENTLE, phase_x=GENTLE.phase_x + moved)
+        ends.add(tuple(run(block, standing(block, angles[:1]), 2.0).states[0, body.THETA :]))
+    return ends
+
+
+def test_ensembles_are_independent_holds() -> None:
+    assert len(ends_of_the_upright([float(moved) for moved in jittered_phases(16, 1)])) == 16
+
+
+def test_ensembles_are_independent_fails_without_a_jitter_of_the_phase() -> None:
+    assert len(ends_of_the_upright([0.0] * 16)) < 14
 
 
 def test_ensemble_that_has_not_settled_is_censored_holds() -> None:

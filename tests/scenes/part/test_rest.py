@@ -231,13 +231,13 @@ def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
         )
 
     with mpmath.workdps(30):
-        slips = slip_time(p, 0.0, 1.0, 0.3)
+        slips = slip_time(p, 0.0, 1.0, 0.3, fresh_notes(1)[0])
         assert all(left(mpmath.mpf(slips) * k / 200) > 0 for k in range(199))
         root = mpmath.findroot(left, (slips - 1e-5, slips + 1e-5), solver="anderson", tol=1e-40)
         assert abs(root - slips) < 1e-12
         push = body.table_push(p, slips)
         slide = -1 if push > 0 else 1
-        stops = stop_time(p, slips, 1.0, slide, 0.0)
+        stops = stop_time(p, slips, 1.0, slide, 0.0, fresh_notes(1)[0])
         start = mpmath.mpf(slips)
 
         def speed(t: mpf) -> mpf:
@@ -283,7 +283,7 @@ def test_face_that_friction_cannot_hold_does_not_stick_holds() -> None:
     assert abs(body.table_push(p, 0.0)) > 0.1 * 9.81 and body.table_push(p, 1e-5) > body.table_push(
         p, 0.0
     )
-    assert slip_time(p, 0.0, 1.0, 0.1) == 0
+    assert slip_time(p, 0.0, 1.0, 0.1, fresh_notes(1)[0]) == 0
     speed = z[body.V_X]
     assert lie(p, z, 1e-4, fresh_notes(1)[0]) == body.DONE
     assert z[body.SLIDE] == 1 and abs(z[body.V_X] - (speed - 0.1 * 9.81 * 1e-4)) < 1e-12

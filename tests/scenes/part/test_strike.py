@@ -13,7 +13,17 @@ import pytest
 import sympy
 
 import juggleproof.symbolic as s
-from juggleproof.scenes.part import body, fresh_notes, moving, scene, strike, table_one
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import (
+    body,
+    fresh_notes,
+    moving,
+    run,
+    scene,
+    standing,
+    strike,
+    table_one,
+)
 from juggleproof.scenes.part import strike as striking
 from juggleproof.scenes.part.body import plain
 from juggleproof.scenes.part.setting import Array
@@ -192,10 +202,10 @@ def test_million_impacts_break_no_guarantee_holds() -> None:
     impacts = 0.0
     for given in SCENES:
         block = scene(**given)
-        done = table_one(block, ensembles=1, horizon=3.0).run
+        done = table_one(block, ensembles=1, horizon=3.0, check=True).run
         impacts += done.notes[:, body.IMPACTS].sum()
         assert (
-            done.violations() == dict.fromkeys(done.violations(), 0) and len(done.violations()) == 4
+            done.violations() == dict.fromkeys(done.violations(), 0) and len(done.violations()) == 5
         )
         assert done.notes[:, body.LEAST_GAP].min() >= -block.tolerance
     assert impacts >= 1e6
@@ -237,8 +247,14 @@ def test_wrong_impulse_is_counted_holds(
 
 
 def test_violations_of_a_run_are_those_of_its_notes_holds() -> None:
-    done = table_one(scene(e=0.7, mu=0.08), ensembles=1, horizon=0.01).run
-    for column in (body.PULLS, body.CONES, body.GAINS, body.CLOSINGS):
+    done = table_one(scene(e=0.7, mu=0.08), ensembles=1, horizon=0.01, check=True).run
+    for column in (body.PULLS, body.CONES, body.GAINS, body.CLOSINGS, body.SINKS):
         done.notes[5, column] += 2
         assert sum(done.violations().values()) == 2
         done.notes[5, column] -= 2
+
+
+def test_run_that_is_not_checked_claims_nothing_holds() -> None:
+    block = scene(e=0.7, mu=0.08)
+    with pytest.raises(SceneError, match="not checked"):
+        run(block, standing(block, [0.1]), 0.01).violations()
