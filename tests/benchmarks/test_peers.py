@@ -101,7 +101,7 @@ def test_disjunctions_and_fractions_are_written_for_nra_holds() -> None:
 # The whole run, on few statements.
 
 
-SHARE = 400
+SHARE = 420
 
 
 @pytest.fixture
