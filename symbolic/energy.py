@@ -369,7 +369,7 @@ def normal_periodic_impact(flights: tuple[int, ...]) -> State:
 
 @cache
 def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
-    """The impact after the first `count` of the flights, from (z1, z2) beside the impact that all
+    """The impact after the first of the flights, so many, from (z1, z2) beside the impact that all
     of them bring back, in normal form.
 
     >>> lowest_terms(normal_impact_beside((1, 2), 2)[1] - normal_periodic_impact((1, 2))[1])

@@ -42,9 +42,8 @@ NAMED = {
     "tau_w": r"\tau_w",
     "xi_1": r"\xi_1",
     "epsilon_1": r"\epsilon_1",
-    "e_1": "e_1",
-    "e_2": "e_2",
-    "e_K": "e_K",
+    **{f"e_{K}": f"e_{K}" for K in (*range(1, 7), "K")},
+    "T_K": "T_K",
     "b_0": r"\bar b_0",
     "r_0": "r_0",
     "z_k": "z_k",
@@ -59,6 +58,11 @@ NAMED = {
     "F^t": "F^t",
     "f^n": "f^n",
     "C_y": "C_y",
+    "P_x": "P_x",
+    "P_y": "P_y",
+    "c_x": "c_x",
+    "c_y": "c_y",
+    "G": "G",
     "z1": "z_1",
     "z2": "z_2",
     "a_t": "a_t",
@@ -131,6 +135,8 @@ def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
     >>> pieces(text)  # doctest: +NORMALIZE_WHITESPACE
     (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'),
      ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
+    >>> pieces("2 alpha^12 times nearer to e_6")
+    (('math', '2\\alpha^{12}'), ('text', ' times nearer to '), ('math', 'e_6'))
     """
     parts: list[tuple[str, str]] = []
     at = 0
@@ -287,7 +293,8 @@ def _formula(text: str) -> str:
 
 def _raised(word: str) -> str:
     base, _, exponent = word.partition("^")
-    return f"{NAMED.get(base) or REGIONS.get(base) or glyph(base)}^{exponent}"
+    power = exponent if len(exponent) == 1 else f"{{{exponent}}}"
+    return f"{NAMED.get(base) or REGIONS.get(base) or glyph(base)}^{power}"
 
 
 def _numeral(word: str) -> str:

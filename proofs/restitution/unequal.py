@@ -154,7 +154,7 @@ def two_of_its_impacts_end_the_range_of_the_orbit() -> list[Statement]:
     """The impact after 8 of the flights is above the table, and that after 9 a collision, for
     73/100 < alpha < 31/40; the ends of the sharp range are algebraic numbers, 0.7286.. and 0.7764..
 
-    Between 0.7286 and 0.7765 the orbit's other conditions hold, by `restitution-unequal`: it exists
+    Between 0.7286 and 0.7765 the orbit's other conditions hold, by restitution-unequal: it exists
     just on that range.
     """
     return [

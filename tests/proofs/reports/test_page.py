@@ -271,6 +271,15 @@ def test_formulas_hold_no_latex_but_their_alternative_text_holds() -> None:
         assert "\\" not in one.text(), one.line
 
 
+def test_sentences_leave_no_formula_as_text_holds() -> None:
+    for article in (*document().with_class("claim"), *document().with_class("derived")):
+        for one in (*article.with_class("says"), *article.all("summary")):
+            words = spaced(one)
+            for math in one.all("math"):
+                words = words.replace(spaced(math), " ", 1)
+            assert not re.search(r"`|\b[A-Za-z]\w*_\w|\^", words), words
+
+
 def test_headings_are_in_order_holds() -> None:
     levels = [int(one.tag[1]) for one in document().all("h1", "h2", "h3", "h4", "h5", "h6")]
     assert levels[0] == 1 and levels.count(1) == 1
