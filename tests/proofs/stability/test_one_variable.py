@@ -84,7 +84,9 @@ SETTLED = {  # name: (text, first line)
     ),
     "border": (
         BORDER.format("-3 < a and a < 0"),
-        f"proved   border: (-1/(b - 1)) {STABLE} at least where -a*b + 1 > 0",
+        f"proved   border: (-1/(b - 1)) {STABLE} at least where -a*b + 1 > 0; where -a*b + 1 = 0,"
+        " nothing is known; where -a*b + 1 < 0, it does not attract ((-b - 1)/(a*b - 1)), which is"
+        " periodic",
     ),
     "cycle": (
         BORDER.format("-3 < a and a < -2 and a*b > 1"),
