@@ -52,7 +52,7 @@ def polygon(corners: Sequence[Sequence[float | Fraction]]) -> Polygon:
     for before, here, after in zip([given[-1], *given[:-1]], given, [*given[1:], given[0]]):
         came, goes = _less(here, before), _less(after, here)
         turn = cross(came, goes)
-        if turn <= 0 and dot(came, goes) > 0 or turn < 0:
+        if turn < 0:
             raise SceneError(f"the shape is not convex at its corner {_words(here)}")
         if turn**2 < FLATTEST**2 * dot(came, came) * dot(goes, goes):
             raise SceneError(

@@ -197,7 +197,9 @@ def test_face_leaves_when_the_table_falls_as_fast_as_the_block_holds() -> None:
     assert z[body.TIME] == pytest.approx(
         (math.asin(9.81 / (2e-4 * wy**2)) - 5.0 + 2 * math.pi) / wy, abs=1e-15
     )
-    assert lift_off(scene(e=0.5, mu=0.3, A_y=6e-5).parameters(), 0.0, 9.0, NOTES) == 1e300  # 8.5 m/s^2
+    assert (
+        lift_off(scene(e=0.5, mu=0.3, A_y=6e-5).parameters(), 0.0, 9.0, NOTES) == 1e300
+    )  # 8.5 m/s^2
 
 
 def test_face_leaves_at_once_where_rounding_has_passed_the_time_to_holds() -> None:
