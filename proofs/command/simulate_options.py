@@ -209,7 +209,6 @@ def add_part(scenes: Commands) -> None:
     )
     how.add_argument(
         "--face",
-        default="2x4",
         metavar="F",
         help="centimetres in the plane: 2x4, 1x2 or 1x4 (default: 2x4, inferred)",
     )
@@ -236,6 +235,43 @@ def add_part(scenes: Commands) -> None:
         default="30:1",
         metavar="V",
         help="HERTZ:MILLIMETRES along the table, for --figure and --animation (default: 30:1)",
+    )
+    other = part.add_argument_group(
+        "other parts and tables, for --figure and --animation (not those of the paper)"
+    )
+    other.add_argument(
+        "--shape",
+        metavar="S",
+        help=(
+            "corners of a convex polygon in order, in cm, such as '0,0 4,0 4,2 0,2', or a file of"
+            " them"
+        ),
+    )
+    other.add_argument(
+        "--tilt",
+        default="0",
+        metavar="D",
+        help="degrees by which the table's right is up (default: 0)",
+    )
+    other.add_argument(
+        "--along",
+        metavar="H",
+        help=(
+            "how the table moves along itself: HERTZ:MILLIMETRES[:DEGREES], several parted by"
+            " commas; instead of --vibration"
+        ),
+    )
+    other.add_argument(
+        "--away", metavar="H", help="the same away from itself (default: 60:0.2, given)"
+    )
+    other.add_argument(
+        "--drive",
+        type=Path,
+        metavar="F.csv",
+        help=(
+            "a record of how it moves: time in seconds, along and away in millimetres; between"
+            " rows a cubic spline"
+        ),
     )
     run = part.add_argument_group("how it is computed")
     run.add_argument(

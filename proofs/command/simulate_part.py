@@ -17,7 +17,9 @@ from juggleproof.proofs.command.outputs import clear, fault_of, progress, writte
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports import part as part_tables
 from juggleproof.proofs.reports.part import keep_results
+from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part.animation import HORIZON, animation
+from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_record
 from juggleproof.scenes.part.ensemble import in_words, no_vibration
 from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
@@ -36,8 +38,11 @@ from juggleproof.scenes.part.onsets import (
     table_one,
 )
 from juggleproof.scenes.part.setting import Launch, Scene, scene
+from juggleproof.scenes.part.shape import Polygon, polygon
 
 T = TypeVar("T")
+OTHERS = ("shape", "tilt", "along", "away", "drive")
+MOST_BYTES = 100_000_000  # of a file of corners or of a record
 WISHES = ("sweep", "still", "figure", "animation")
 SUFFIXES = {
     "figure": (".svg", ".pdf"),
@@ -56,11 +61,16 @@ class PartOptions(argparse.Namespace):
     animation: Path | None
     e: str | None
     mu: str | None
-    face: str
+    face: str | None
     amplitudes: str
     phase: str
     launch: Launch
     vibration: str
+    shape: str | None
+    tilt: str
+    along: str | None
+    away: str | None
+    drive: Path | None
     ensembles: int
     horizon: str
     seed: int
@@ -87,6 +97,12 @@ def part(options: PartOptions) -> int:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
     if options.keep is not None and wishes[0] != "table":
         raise ClaimError(f"--keep {options.keep} goes with table I")
+    for name in OTHERS:
+        if wishes[0] not in ("figure", "animation") and getattr(options, name) not in (None, "0"):
+            raise ClaimError(
+                f"--{name} goes with --figure or --animation; table I, sweeps and --still are of"
+                " the paper's block and table"
+            )
     _refuse_unwritable(options, wishes[0])
     with _threads(options.jobs) as executor:
         return DONE_BY[wishes[0]](options, _setting(options), executor)
@@ -137,25 +153,97 @@ def _one_of(text: str, name: str, known: Mapping[str, T]) -> T:
 
 def _setting(options: PartOptions) -> Scene:
     """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
-    a, b = _one_of(options.face, "--face", FACES)
+    if options.shape is not None and options.face is not None:
+        raise ClaimError("--face and --shape do not go together; give one of them")
+    a, b = _one_of(options.face or "2x4", "--face", FACES)
     peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
     stored = options.sweep is None and (options.e is None or options.mu is None)
     pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
     frequency, amplitude = _vibration(options.vibration)
+    drive = _drive(options, peak)
+    given: dict[str, float] = {} if options.shape is not None else {"a": a, "b": b}
+    if drive is None:
+        given |= {
+            "A_x": peak * amplitude,
+            "f_x": frequency,
+            "phase_x": math.radians(_number(options.phase, "phase")),
+            "A_y": peak * 2e-4,
+            "f_y": 60.0,
+        }
     return scene(
-        a=a,
-        b=b,
+        **given,
         e=pair.e if options.e is None else _number(options.e, "e"),
         mu=pair.mu if options.mu is None else _number(options.mu, "mu"),
-        A_x=peak * amplitude,
-        f_x=frequency,
-        phase_x=math.radians(_number(options.phase, "phase")),
-        A_y=peak * 2e-4,
-        f_y=60.0,
         tolerance=_number(options.tolerance, "tolerance"),
         rest_speed=_number(options.rest_speed, "rest speed"),
         launch=options.launch,
+        shape=None if options.shape is None else _shape(options.shape),
+        tilt=math.radians(_number(options.tilt, "tilt")),
+        drive=drive,
     )
+
+
+def _shape(text: str) -> Polygon:
+    """The polygon of corners in centimetres, as they stand or in a file."""
+    given, name = text, "--shape"
+    if not set(text) <= set("0123456789+-.,/eE \t\n"):
+        given, name = _read(Path(text)), text
+    corners = []
+    for corner in given.split():
+        pieces = corner.split(",")
+        if len(pieces) != 2:
+            raise ClaimError(f"{name}: {corner[:40]!r} is not X,Y; write '0,0 4,0 4,2 0,2'")
+        corners.append([_exact(piece, f"{name}: {corner[:40]!r}") / 100 for piece in pieces])
+    return polygon(corners)
+
+
+def _exact(text: str, name: str) -> Fraction:
+    """A number as it is written."""
+    try:
+        if len(text) <= 60 and abs(float(Fraction(text))) < 1e6:
+            return Fraction(text)
+    except (ValueError, ZeroDivisionError, OverflowError):
+        pass
+    raise ClaimError(f"{name} is no corner; write numbers as 0.7, 1e-3 or 2/3")
+
+
+def _read(path: Path) -> str:
+    """The text of a file."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ClaimError(f"{path}: more than {MOST_BYTES // 10**6} MB")
+        return path.read_text(encoding="utf-8")
+    except OSError as fault:
+        raise ClaimError(f"{path}: {(fault.strerror or 'no file').lower()}") from None
+    except UnicodeDecodeError:
+        raise ClaimError(f"{path}: no text") from None
+
+
+def _drive(options: PartOptions, peak: float) -> Harmonics | Record | None:
+    """How the table moves where it is no single sine along each axis."""
+    if options.drive is not None:
+        if options.along is not None or options.away is not None:
+            raise ClaimError("--drive goes without --along and --away; give one of them")
+        try:
+            return read_record(_read(options.drive), 1e-3)
+        except SceneError as fault:
+            raise ClaimError(f"{options.drive}: {fault}") from None
+    if options.along is None and options.away is None:
+        return None
+    along = options.along or f"{options.vibration}:{options.phase}"
+    return harmonics(*(_sines(text, peak) for text in (along, options.away or "60:0.2")))
+
+
+def _sines(text: str, peak: float) -> list[tuple[float, float, float]]:
+    """Harmonics as they are written, in metres, hertz and radians."""
+    found = []
+    for one in text.split(","):
+        pieces = one.split(":")
+        if len(pieces) not in (2, 3):
+            raise ClaimError(f"{one[:40]!r} is not HERTZ:MILLIMETRES[:DEGREES], such as 30:1:90")
+        hertz, size, phase = (_number(piece, "a harmonic") for piece in (*pieces, "0")[:3])
+        found.append((peak * size / 1000, hertz, math.radians(phase)))
+    return found
 
 
 def _vibration(text: str) -> tuple[float, float]:

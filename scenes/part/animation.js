@@ -1,11 +1,11 @@
 "use strict";
 (() => {
   const given = JSON.parse(document.getElementById("states").textContent);
-  const { blocks, frames, rate, a, b, pitch, columns, table } = given;
+  const { blocks, frames, rate, corners, pitch, columns, table } = given;
   const canvas = document.getElementById("picture"), pen = canvas.getContext("2d");
   const play = document.getElementById("play"), slider = document.getElementById("time"), speed = document.getElementById("speed");
   const drift = document.getElementById("drift"), told = document.getElementById("told");
-  const last = (frames - 1) / rate, split = Math.sin(Math.atan2(a, b));
+  const last = (frames - 1) / rate;
   let time = 0, running = false, before = 0;
 
   // Numbers of seven bits a byte, the low ones first; even ones stand for n/2, odd ones for -(n + 1)/2; each is the change since the last frame.
@@ -37,7 +37,11 @@
     const between = (list, i) => list[k * blocks + i] + part * (list[next * blocks + i] - list[k * blocks + i]);
     return Array.from({ length: blocks }, (_, i) => ({ x: between(X, i), y: between(Y, i), angle: between(theta, i) }));
   };
-  const lies = (block) => Math.abs(Math.sin(block.angle)) > split;
+  // Angles at which a block has its centre above a corner, and whether it falls from below each on a lowest face.
+  const lies = (block) => {
+    const turn = 2 * Math.PI, rest = block.angle - turn * Math.floor(block.angle / turn + 0.5);
+    return given.lies[given.sides.filter((angle) => angle <= rest).length % given.sides.length];
+  };
 
   const draw = () => {
     const shown = states(), aside = drift.checked ? widest : 0;
@@ -47,7 +51,10 @@
     canvas.height = Math.round(scale * high * dots);
     pen.setTransform(dots * scale, 0, 0, -dots * scale, dots * scale * (aside + 0.6 * pitch), dots * scale * (high - 0.1 * pitch));
     const colours = { table: colour("--line"), upright: colour("--upright"), lying: colour("--lying"), inside: colour("--lying-in") };
-    const swing = (axis) => axis[0] * Math.sin(2 * Math.PI * axis[1] * time + axis[2]), across = swing(table.x), up = swing(table.y);
+    const swing = (sines) => sines.reduce((sum, [size, hertz, phase]) => sum + size * Math.sin(2 * Math.PI * hertz * time + phase), 0);
+    const at = Math.min(time * rate, frames - 1), k = Math.min(Math.floor(at), Math.max(frames - 2, 0));
+    const recorded = (path) => path[k] + (at - k) * (path[Math.min(k + 1, frames - 1)] - path[k]);
+    const place = table.recorded ? recorded : swing, across = place(table.x), up = place(table.y);
     pen.lineWidth = 1 / scale;
     pen.strokeStyle = colours.table;
     pen.beginPath();
@@ -65,7 +72,7 @@
       lying += down;
       const x = (i % columns) * pitch + (drift.checked ? block.x : 0), y = Math.floor(i / columns) * pitch + block.y;
       pen.beginPath();
-      for (const [p, q] of [[-a, -b], [a, -b], [a, b], [-a, b]]) pen.lineTo(x + p * c - q * s, y + p * s + q * c);
+      for (const [p, q] of corners) pen.lineTo(x + p * c - q * s, y + p * s + q * c);
       pen.closePath();
       pen.fillStyle = down ? colours.inside : colours.upright;
       pen.strokeStyle = down ? colours.lying : colours.upright;
@@ -73,7 +80,7 @@
       pen.stroke();
     }
     slider.value = time;
-    const words = `${time.toFixed(2)} s: ${blocks - lying} of ${blocks} nearer to upright, ${lying} nearer to lying`;
+    const words = `${time.toFixed(2)} s: ${blocks - lying} of ${blocks} ${given.ways[0]}, ${lying} ${given.ways[1]}`;
     slider.setAttribute("aria-valuetext", words);
     told.textContent = words;
   };

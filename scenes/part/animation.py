@@ -22,9 +22,11 @@ import numpy as np
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
+from juggleproof.scenes.part.drive import Record
 from juggleproof.scenes.part.ensemble import frames
-from juggleproof.scenes.part.layout import COLUMNS, lying, pitch, rows, vibration
+from juggleproof.scenes.part.layout import COLUMNS, lying, noun, pitch, rows, vibration, ways
 from juggleproof.scenes.part.setting import Array, Scene
+from juggleproof.scenes.part.shape import balances
 
 HERE = Path(__file__).parent
 RATE = 60  # frames a second
@@ -64,6 +66,8 @@ def page(setting: Scene, seen: Array) -> bytes:
     shown = {
         "title": f"{seen.shape[1]} blocks on the vibrating table",
         "vibration": escape(words[:1].upper() + words[1:]),
+        "upright": ways(setting)[0],
+        "lying": ways(setting)[1],
         "alt": escape(alt(setting, seen)),
         "horizon": repr((len(seen) - 1) / RATE),
         "step": repr(1 / RATE),
@@ -86,10 +90,11 @@ def digest(text: str) -> str:
 def alt(setting: Scene, seen: Array) -> str:
     """A description for readers who do not see the picture."""
     first, last = (int((~lying(setting, one)).sum()) for one in (seen[0], seen[-1]))
+    upright, lies = ways(setting)
     return (
-        f"{seen.shape[1]} rectangles in rows bounce and turn on a table that vibrates: {first}"
-        f" nearer to upright at the start, {last} after {(len(seen) - 1) / RATE:.3g} s; all others"
-        " are nearer to lying."
+        f"{seen.shape[1]} {noun(setting)} in rows bounce and turn on a table that vibrates: {first}"
+        f" {upright} at the start, {last} after {(len(seen) - 1) / RATE:.3g} s; all others are"
+        f" {lies}."
     )
 
 
@@ -103,6 +108,7 @@ def packed(setting: Scene, seen: Array) -> str:
         b64encode(varied(np.diff(place, axis=0, prepend=0).ravel().tolist())).decode()
         for place in places
     )
+    sides = balances(setting.polygon(), setting.tilt)
     return json.dumps(
         {
             "blocks": seen.shape[1],
@@ -110,20 +116,36 @@ def packed(setting: Scene, seen: Array) -> str:
             "rate": RATE,
             "columns": COLUMNS,
             "pitch": round(pitch(setting), 6),
-            "a": setting.a,
-            "b": setting.b,
+            "corners": setting.polygon().corners,
+            "sides": [angle for angle, _ in sides],
+            "ways": ways(setting),
+            "lies": [below in setting.lying() for _, below in sides],
             "length": LENGTH,
             "angle": ANGLE,
             "X": X,
             "Y": Y,
             "theta": theta,
-            "table": {
-                "x": [setting.A_x, setting.f_x, setting.phase_x],
-                "y": [setting.A_y, setting.f_y, setting.phase_y],
-            },
+            "table": table(setting, len(seen)),
         },
         separators=(",", ":"),
     )
+
+
+def table(setting: Scene, count: int) -> dict[str, object]:
+    """How the table moves: sines (metres, hertz, radians) along it and away from it, or of a record
+    its places at the frames.
+    """
+    drive = setting.drive
+    if isinstance(drive, Record):
+        p, times = setting.parameters(), [k / RATE for k in range(count)]
+        return {
+            "recorded": True,
+            "x": [round(body.table_place(p, t), 7) for t in times],
+            "y": [round(body.table_height(p, t), 7) for t in times],
+        }
+    along = [(setting.A_x, setting.f_x, setting.phase_x)] if drive is None else drive.along
+    away = [(setting.A_y, setting.f_y, setting.phase_y)] if drive is None else drive.away
+    return {"x": along, "y": away}
 
 
 def varied(numbers: Iterable[int]) -> bytes:

@@ -6,7 +6,7 @@ import hashlib
 import os
 import sys
 from collections.abc import Callable
-from math import cos, pi, sin
+from math import cos, floor, pi, sin
 from pathlib import Path
 from typing import Protocol, TypeVar
 
@@ -88,9 +88,10 @@ def plain(function: Kernel) -> Kernel:
 # called, and where corners and table are.
 #
 # Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta =
-# 0 is upright, with the long sides vertical, and grows counterclockwise.  A state is (t, X, Y,
-# theta, V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in
-# contact.
+# 0 is as corners are given, a rectangle upright; it grows counterclockwise.  A state is (t, X, Y,
+# theta, V_X, V_Y, omega) of the centre of mass in the resting frame, X along the table and Y away
+# from it, then how the block is in contact.  G is what of gravity pulls it to the table, DRAG what
+# pulls it to the right along it.
 
 
 class Floats(Protocol):
@@ -100,28 +101,38 @@ class Floats(Protocol):
     def __setitem__(self, k: int, value: float, /) -> None: ...
 
 
-# the parameters of a scene
+# the parameters of a scene: numbers, then corners and more from EDGES on
 (
     G,
+    DRAG,
     A_X,
     W_X,
     PHASE_X,
     A_Y,
     W_Y,
     PHASE_Y,
-    HALF_SHORT,
-    HALF_LONG,
     GYRATION,
     RESTITUTION,
     FRICTION,
     TOLERANCE,
     REST_SPEED,
     STEP,
-    SPLIT,
+    LEAST_TURN,
     REACH,
+    SIZE,
     CHECKED,
-) = range(18)
-PARAMETERS = 18
+    CORNERS,
+    FIRST,
+    SIDES,
+    AT_FACES,
+    AT_SIDES,
+    DRIVE,
+    AT_DRIVE,
+    EDGES,
+) = range(26)
+# of each corner: its place from the centre at theta = 0, and the direction of the edge to the next
+CORNER_X, CORNER_Y, EDGE_X, EDGE_Y = range(4)
+SINE, SINES, RECORD = 0.0, 1.0, 2.0  # how the table moves
 
 # a state; for the last two see `contact`
 TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)
@@ -153,46 +164,103 @@ NOTES = 16
 DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, TOO_MANY_EVENTS = range(5)
 
 MOMENT = 1e-10  # seconds: how long a flight or a phase of contact lasts that would end at once
-QUARTER = pi / 2
+TURN = 2 * pi
+SAME_TIME = 1e-11  # seconds: knots of a record are farther apart
 TINY_TURN, SMALL_TURN = 0.05, 1.5  # radians
 
 
 @compiled
 def corner_x(p: Floats, i: int, c: float, s: float) -> float:
     """How far corner i is to the right of the centre, in metres, where c and s are cosine and sine
-    of theta; corners 0 to 3 go around counterclockwise.
+    of theta; corners go around counterclockwise.
     """
-    a, b = p[HALF_SHORT], p[HALF_LONG]
-    if i == 0:
-        return -a * c + b * s
-    if i == 1:
-        return a * c + b * s
-    if i == 2:
-        return a * c - b * s
-    return -a * c - b * s
+    at = EDGES + 4 * i
+    return p[at] * c - p[at + CORNER_Y] * s
 
 
 @compiled
 def corner_y(p: Floats, i: int, c: float, s: float) -> float:
     """How far corner i is above the centre, in metres."""
-    a, b = p[HALF_SHORT], p[HALF_LONG]
-    if i == 0:
-        return -a * s - b * c
-    if i == 1:
-        return a * s - b * c
-    if i == 2:
-        return a * s + b * c
-    return -a * s + b * c
+    at = EDGES + 4 * i
+    return p[at] * s + p[at + CORNER_Y] * c
 
 
 @compiled
-def corner(sx: float, sy: float) -> int:
-    """The number of the corner that at theta = 0 is right (sx = 1) or left (-1) of the centre and
-    above (sy = 1) or below it.
+def edge_rise(p: Floats, i: int, c: float, s: float) -> float:
+    """The sine of the angle of edge i, from corner i to the next, to the table."""
+    at = EDGES + 4 * i
+    return p[at + EDGE_X] * s + p[at + EDGE_Y] * c
+
+
+@compiled
+def edge_run(p: Floats, i: int, c: float, s: float) -> float:
+    """The cosine of the angle of edge i to the table."""
+    at = EDGES + 4 * i
+    return p[at + EDGE_X] * c - p[at + EDGE_Y] * s
+
+
+@compiled
+def next_corner(p: Floats, i: int) -> int:
+    """The corner after corner i."""
+    return i + 1 if i + 1 < int(p[CORNERS]) else 0
+
+
+@compiled
+def last_corner(p: Floats, i: int) -> int:
+    """The corner before corner i."""
+    return i - 1 if i > 0 else int(p[CORNERS]) - 1
+
+
+@compiled
+def lowest(p: Floats, i: int, c: float, s: float, omega: float) -> int:
+    """The lowest corner, looked for from corner i on; of two that are equally low the one that will
+    be lower as the block turns, and the later one where it does not turn.
     """
-    if sy < 0:
-        return 0 if sx < 0 else 1
-    return 3 if sx < 0 else 2
+    count = int(p[CORNERS])
+    if not 0 <= i < count:
+        i = 0
+    for _ in range(count):
+        up = edge_rise(p, i, c, s)
+        if up > 0 or up == 0 and omega * edge_run(p, i, c, s) > 0:
+            break
+        i = next_corner(p, i)
+    for _ in range(count):
+        before = last_corner(p, i)
+        up = edge_rise(p, before, c, s)
+        if up < 0 or up == 0 and omega * edge_run(p, before, c, s) <= 0:
+            break
+        i = before
+    return i
+
+
+# The angles at which edges lie on the table are numbered as the block turns, 0 the first from 0 up
+# to a turn; edge FIRST lies at angle 0, and the next angle is that of the edge before it.
+
+
+@compiled
+def face_angle(p: Floats, turn: int) -> float:
+    """The angle, in radians, of this number."""
+    count = int(p[CORNERS])
+    around = turn // count
+    return (around + p[int(p[AT_FACES]) + turn - around * count]) * TURN
+
+
+@compiled
+def first_angle(p: Floats, i: int, theta: float) -> int:
+    """The number of the angle near theta from which on, up to the next, corner i is the lowest."""
+    count, at = int(p[CORNERS]), int(p[AT_FACES])
+    turn = (int(p[FIRST]) - i) % count
+    end = p[at + turn + 1] if turn + 1 < count else p[at] + 1
+    around = floor(theta / TURN - (p[at + turn] + end) / 2 + 0.5)
+    return int(around) * count + turn
+
+
+@compiled
+def flat_angle(p: Floats, i: int, theta: float) -> float:
+    """The angle nearest to theta at which edge i lies on the table."""
+    turn = (int(p[FIRST]) - i) % int(p[CORNERS])
+    start = p[int(p[AT_FACES]) + turn]
+    return (floor(theta / TURN - start + 0.5) + start) * TURN
 
 
 @compiled
@@ -224,37 +292,119 @@ def turned(c: float, s: float, step: float) -> tuple[float, float]:
     return c - (c * back + s * across), s - (s * back - c * across)
 
 
+# -------------------------------------------------------------------------------------------------
+# The table: at (A_x sin(W_x t + phase_x), A_y sin(W_y t + phase_y)), or along each axis a sum of
+# such, or where a cubic spline through recorded places is.
+#
+# For any of them A W^k bounds the derivatives from the second to the fourth: those of the spline
+# between its knots, on which steps end.  A sum stands from AT_DRIVE on as the count of its terms
+# and A, W, phase of each, first along, then up; a record as the count of its knots, their times,
+# then the places along and the accelerations at the knots, then those up.
+
+
+@compiled
+def knot(p: Floats, t: float) -> int:
+    """The last knot of a record that is not after t; the first or the last but one where t is
+    outside.
+    """
+    at = int(p[AT_DRIVE])
+    low, high = 0, int(p[at]) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if p[at + 1 + middle] <= t + SAME_TIME:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@compiled
+def until_knot(p: Floats, t: float) -> float:
+    """The seconds until the next knot of a record."""
+    if p[DRIVE] != RECORD:
+        return 1e300
+    at = int(p[AT_DRIVE])
+    j = knot(p, t)
+    return p[at + 2 + j] - t if j + 2 < int(p[at]) else 1e300
+
+
+@compiled
+def shaken(p: Floats, t: float, axis: int, order: int) -> float:
+    """A derivative of the table's place, of order 0 to 3, along it (axis 0) or up (1)."""
+    at = int(p[AT_DRIVE])
+    if p[DRIVE] == SINES:
+        if axis == 1:
+            at += 1 + 3 * int(p[at])
+        total = 0.0
+        for k in range(int(p[at])):
+            A, W, phase = p[at + 1 + 3 * k], p[at + 2 + 3 * k], p[at + 3 + 3 * k]
+            wave = sin(W * t + phase) if order % 2 == 0 else cos(W * t + phase)
+            total += (A if order < 2 else -A) * W**order * wave
+        return total
+    count, j = int(p[at]), knot(p, t)
+    start, end = p[at + 1 + j], p[at + 2 + j]
+    at += 1 + count * (1 + 2 * axis) + j
+    h, here, there = end - start, p[at], p[at + 1]
+    bent, bends = p[at + count], p[at + count + 1]
+    if order == 3:
+        return (bends - bent) / h
+    left, right = (end - t) / h, (t - start) / h
+    if order == 2:
+        return left * bent + right * bends
+    if order == 1:
+        return (there - here) / h + (
+            (1 - 3 * left * left) * bent + (3 * right * right - 1) * bends
+        ) * h / 6
+    return (
+        left * here
+        + right * there
+        + ((left * left - 1) * left * bent + (right * right - 1) * right * bends) * h * h / 6
+    )
+
+
 @compiled
 def table_height(p: Floats, t: float) -> float:
-    """The height of the table at the time t, in metres: A_y sin(W_y t + phase_y)."""
+    """The height of the table at the time t, in metres."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 1, 0)
     return p[A_Y] * sin(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_rise(p: Floats, t: float) -> float:
     """The speed of the table upwards, in m/s."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 1, 1)
     return p[A_Y] * p[W_Y] * cos(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_lift(p: Floats, t: float) -> float:
     """The acceleration of the table upwards, in m/s^2."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 1, 2)
     return -p[A_Y] * p[W_Y] * p[W_Y] * sin(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_place(p: Floats, t: float) -> float:
-    """The displacement of the table to the right, in metres: A_x sin(W_x t + phase_x)."""
+    """The displacement of the table to the right, in metres."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 0, 0)
     return p[A_X] * sin(p[W_X] * t + p[PHASE_X])
 
 
 @compiled
 def table_glide(p: Floats, t: float) -> float:
     """The speed of the table to the right, in m/s."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 0, 1)
     return p[A_X] * p[W_X] * cos(p[W_X] * t + p[PHASE_X])
 
 
 @compiled
 def table_push(p: Floats, t: float) -> float:
     """The acceleration of the table to the right, in m/s^2."""
+    if p[DRIVE] != SINE:
+        return shaken(p, t, 0, 2)
     return -p[A_X] * p[W_X] * p[W_X] * sin(p[W_X] * t + p[PHASE_X])

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
-from math import atan, degrees, floor, radians
+from math import atan, degrees, radians
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import NamedTuple, TypeVar
@@ -319,7 +319,11 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     >>> split.as_printed(), split.upright < split.exact < split.lying, round(split.lying, 6)
     (True, True, 26.565051)
     """
-    still = replace(setting, A_x=0.0, f_x=0.0, phase_x=0.0, A_y=0.0, f_y=0.0, phase_y=0.0)
+    if setting.shape is not None or setting.tilt:
+        raise SceneError("the angle that parts upright from lying is of a rectangle, and no tilt")
+    still = replace(
+        setting, A_x=0.0, f_x=0.0, phase_x=0.0, A_y=0.0, f_y=0.0, phase_y=0.0, drive=None
+    )
     ends = ends_of(still, DEGREES, executor)
     first = ends.count(0)
     if ends != [0] * first + [90] * (len(ends) - first) or first in (0, len(ends)):
@@ -348,7 +352,7 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
         done = run(still, states, until, notes=notes, executor=executor)
         states, notes, until = done.states, done.notes, 2 * until
         if (states[:, body.MODE] == body.FACE).all():
-            return [90 * (floor(turns + 0.5) % 2) for turns in states[:, body.THETA] / body.QUARTER]
+            return [90 * int(edge % 2) for edge in states[:, body.CORNER]]
     moving = next(start for start, mode in zip(starts, states[:, body.MODE]) if mode != body.FACE)
     raise SceneError(
         f"the block that starts at {moving:g} degrees is not at rest after {LONGEST_SPLIT:g} s; e ="

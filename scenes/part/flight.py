@@ -1,8 +1,9 @@
 """Free flight, and the first corner that meets the table: conservative advancement (Mirtich 1996),
 which cannot step over a meeting.
 
-A block turns by no more than a quarter in a step, so that only two corners can be the lowest: the
-one that is, and the next as it turns, where it turns so far.  The gap of a corner at time s of a
+A block turns in a step by no more than its sharpest turn from edge to edge, so that only two
+corners can be the lowest: the one that is, and the next as it turns, where it turns so far.  No
+step goes past a knot of a recorded drive.  The gap of a corner at time s of a
 flight is accelerated by -M at least, where M = g + A_y W_y^2 + omega^2 rho, and by push + jerk s
 - K s^2/2 at least, where push and jerk are derivatives now and K = A_y W_y^4 + omega^4 rho bounds
 the next. Each step goes no further than to the first root of a parabola below the gap, raised by
@@ -20,16 +21,21 @@ from math import cos, sin, sqrt
 
 from juggleproof.scenes.part.body import (
     A_Y,
+    CORNER,
+    CORNER_Y,
     DONE,
-    HALF_LONG,
-    HALF_SHORT,
+    DRAG,
+    DRIVE,
+    EDGES,
     LEAST_GAP,
+    LEAST_TURN,
     MOMENT,
     OMEGA,
     PHASE_Y,
-    QUARTER,
     REACH,
+    SINE,
     SINKS,
+    SIZE,
     SMALL_TURN,
     STEPS,
     THETA,
@@ -44,8 +50,18 @@ from juggleproof.scenes.part.body import (
     X,
     Y,
     compiled,
+    corner_x,
+    corner_y,
+    edge_rise,
+    last_corner,
+    lowest,
+    next_corner,
+    shaken,
     table_height,
+    table_lift,
+    table_rise,
     turned,
+    until_knot,
 )
 
 MOST_STEPS = 1_000_000  # of one flight
@@ -119,25 +135,22 @@ def lands_after(
 
 
 @compiled
-def comes_down(p: Floats, z: Floats, sx: float, sy: float, late: float) -> float:
-    """A time of the flight from which on a corner is below the table, or where it set out if that
+def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
+    """A time of the flight from which on corner i is below the table, or where it set out if that
     was in the table, but for a rounding by which it rises, and comes down; at most `late`, by which
     it does.  A hop that is lost in rounding ends where it is highest.
 
     By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that
     side; half of the bracket where one leaves it.
     """
-    a, b = p[HALF_SHORT], p[HALF_LONG]
-    start = z[Y] + (sx * a * sin(z[THETA]) + sy * b * cos(z[THETA])) - table_height(p, z[TIME])
-    height = min(start + ROUNDED * (p[REACH] + p[A_Y]), 0.0)
+    start = z[Y] + corner_y(p, i, cos(z[THETA]), sin(z[THETA])) - table_height(p, z[TIME])
+    height = min(start + ROUNDED * p[SIZE], 0.0)
     early, s = 0.0, late
     for _ in range(MOST_GUESSES):
-        angle, phase = z[THETA] + z[OMEGA] * s, p[W_Y] * (z[TIME] + s) + p[PHASE_Y]
+        angle, t = z[THETA] + z[OMEGA] * s, z[TIME] + s
         c, d = cos(angle), sin(angle)
-        gap = z[Y] + (z[V_Y] - p[G] / 2 * s) * s - p[A_Y] * sin(phase) + (sx * a * d + sy * b * c)
-        rate = (
-            z[V_Y] - p[G] * s - p[A_Y] * p[W_Y] * cos(phase) + z[OMEGA] * (sx * a * c - sy * b * d)
-        )
+        gap = z[Y] + (z[V_Y] - p[G] / 2 * s) * s - table_height(p, t) + corner_y(p, i, c, d)
+        rate = z[V_Y] - p[G] * s - table_rise(p, t) + z[OMEGA] * corner_x(p, i, c, d)
         if gap < height and rate < 0:
             late = s
         else:
@@ -151,7 +164,7 @@ def comes_down(p: Floats, z: Floats, sx: float, sy: float, late: float) -> float
     return max(late, MOMENT)
 
 
-Landing = tuple[int, float, float, float, float]
+Landing = tuple[int, float, float, float, float, float]
 
 
 @compiled
@@ -167,34 +180,48 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 @compiled
 def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
-    """The same; with cosine and sine of theta, and of the table's phase, where the flight ends."""
+    """The same; with cosine and sine of theta, and the height of the table, its speed and its
+    acceleration upwards, where the flight ends.  CORNER is the lowest corner there.
+    """
     t, y, theta, rise, omega = z[TIME], z[Y], z[THETA], z[V_Y], z[OMEGA]
-    a, b, tolerance, W = p[HALF_SHORT], p[HALF_LONG], p[TOLERANCE], p[W_Y]
+    tolerance, W, sine = p[TOLERANCE], p[W_Y], p[DRIVE] == SINE
     high, fast = p[A_Y], p[A_Y] * W
     half_g, reach, spin = p[G] / 2, until - t, omega * omega
     fall = p[G] + abs(fast) * W + spin * p[REACH]
     bend = abs(fast) * W * W * W + spin * spin * p[REACH]
-    quarter = QUARTER / abs(omega) if omega != 0 else reach
+    furthest = p[LEAST_TURN] / abs(omega) if omega != 0 else reach
     c, d = cos(theta), sin(theta)
-    u, v = cos(W * t + p[PHASE_Y]), sin(W * t + p[PHASE_Y])
+    u, v = 0.0, 0.0
+    if sine:
+        u, v = cos(W * t + p[PHASE_Y]), sin(W * t + p[PHASE_Y])
     least, s, advance = notes[LEAST_GAP], 0.0, 0.0
     ended, steps = TOO_MANY_STEPS, 0
-    while steps < MOST_STEPS:
-        centre, falling = y + (rise - half_g * s) * s - high * v, rise - p[G] * s - fast * u
-        pushed, jerked = fast * W * v - p[G], fast * W * W * u
-        # the lowest corner, of two that are equally low the one that will be
-        sx = -1.0 if d > 0 or d == 0 and omega * c > 0 else 1.0
-        sy = -1.0 if c > 0 or c == 0 and omega * d < 0 else 1.0
-        advance = min(reach - s, quarter)
+    low = int(z[CORNER])
+    while True:
+        if sine:
+            level, speed, lift, jolt = high * v, fast * u, -fast * W * v, -fast * W * W * u
+        else:
+            level, speed = table_height(p, t + s), table_rise(p, t + s)
+            lift, jolt = table_lift(p, t + s), shaken(p, t + s, 1, 3)
+        low = lowest(p, low, c, d, omega)
+        if ended == DONE or steps == MOST_STEPS:
+            break
+        centre, falling = y + (rise - half_g * s) * s - level, rise - p[G] * s - speed
+        pushed, jerked = -lift - p[G], -jolt
+        i = low
+        advance = min(reach - s, furthest)
+        if not sine:
+            advance = min(advance, until_knot(p, t + s))
         back = 1e300
         for nearness in range(2):
             if nearness == 1:  # the next as the block turns, if it turns so far
-                across = (c * d > 0) == (omega > 0)
-                if abs(omega) * min(advance, back) < abs(c if across else d):
+                edge = last_corner(p, low) if omega > 0 else low
+                if abs(omega) * min(advance, back) < abs(edge_rise(p, edge, c, d)):
                     break
-                sx, sy = sx if across else -sx, -sy if across else sy
-            up = sx * a * d + sy * b * c
-            turning = omega * (sx * a * c - sy * b * d)
+                i = edge if omega > 0 else next_corner(p, low)
+            at = EDGES + 4 * i
+            up = p[at] * d + p[at + CORNER_Y] * c
+            turning = omega * (p[at] * c - p[at + CORNER_Y] * d)
             gap, rate = centre + up, falling + turning
             push, jerk = pushed - spin * up, jerked - spin * turning
             if rate < 0 and (steps > 0 or gap > tolerance):
@@ -208,7 +235,7 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
                 elif gap <= tolerance:
                     back = min(back, 0.0)
                     if gap < 0:
-                        back = min(back, comes_down(p, z, sx, sy, s) - s)
+                        back = min(back, comes_down(p, z, i, s) - s)
                     continue
             if nearness == 0:
                 least = min(least, gap)
@@ -226,15 +253,17 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
         on, around = W * advance, omega * advance
         if max(abs(on), abs(around)) > SMALL_TURN or steps % AFRESH == 0:
             c, d = cos(theta + omega * s), sin(theta + omega * s)
-            u, v = cos(W * (t + s) + p[PHASE_Y]), sin(W * (t + s) + p[PHASE_Y])
+            if sine:
+                u, v = cos(W * (t + s) + p[PHASE_Y]), sin(W * (t + s) + p[PHASE_Y])
         else:
             c, d = turned(c, d, around)
-            u, v = turned(u, v, on)
-        if ended == DONE:
-            break
-    z[TIME], z[X], z[THETA] = until if s >= reach else t + s, z[X] + z[V_X] * s, theta + omega * s
-    z[Y], z[V_Y] = y + (rise - half_g * s) * s, rise - p[G] * s
+            if sine:
+                u, v = turned(u, v, on)
+    z[TIME], z[THETA] = until if s >= reach else t + s, theta + omega * s
+    z[X], z[V_X] = z[X] + (z[V_X] + p[DRAG] / 2 * s) * s, z[V_X] + p[DRAG] * s
+    z[Y], z[V_Y], z[CORNER] = y + (rise - half_g * s) * s, rise - p[G] * s, low
+    at = EDGES + 4 * low
     notes[STEPS] += steps
-    notes[LEAST_GAP] = min(least, z[Y] - a * abs(d) - b * abs(c) - high * v)
+    notes[LEAST_GAP] = min(least, z[Y] + p[at] * d + p[at + CORNER_Y] * c - level)
     notes[SINKS] += notes[LEAST_GAP] < -tolerance
-    return ended, c, d, u, v
+    return ended, c, d, level, speed, lift

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.setting import Array, Scene
+from juggleproof.scenes.part.setting import Array, Scene, faces_below
+from juggleproof.scenes.part.shape import geometry
 
 COLUMNS, MOST_ROWS = 10, 60
 PITCH = 2.6  # from one place to the next, in half diagonals of the block
@@ -47,16 +48,26 @@ def pitch(setting: Scene) -> float:
     """How far apart the places are, in metres: a block that turns does not reach its
     neighbours'.
     """
-    return PITCH * float(np.hypot(setting.a, setting.b))
+    return PITCH * geometry(setting.polygon()).reach
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
     """Which blocks are nearer to lying than to upright, as table I distinguishes them
     (`juggleproof.scenes.part.rest`); of states (..., 10) the shape is (...).
     """
-    split = np.arctan2(setting.a, setting.b)
-    lies: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
-    return lies
+    return np.isin(faces_below(setting, states[..., body.THETA]), setting.lying())
+
+
+def noun(setting: Scene) -> str:
+    """What blocks are called in a description."""
+    return "rectangles" if setting.shape is None else "polygons"
+
+
+def ways(setting: Scene) -> tuple[str, str]:
+    """What a block is called that does not lie, and one that does."""
+    if setting.shape is None:
+        return "nearer to upright", "nearer to lying"
+    return "over a higher face", "over a lowest face"
 
 
 def vibration(setting: Scene) -> str:
@@ -66,7 +77,12 @@ def vibration(setting: Scene) -> str:
     >>> vibration(scene(e=0.7, mu=0.08, f_x=30.0, A_x=1e-3))
     'table: 60 Hz 0.2 mm up and down, 30 Hz 1 mm along; e = 0.7, mu = 0.08'
     """
-    return (
-        f"table: {setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz"
-        f" {1e3 * setting.A_x:g} mm along; e = {setting.e:g}, mu = {setting.mu:g}"
-    )
+    if setting.drive is not None:
+        table = setting.drive.in_words()
+    else:
+        table = (
+            f"{setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz"
+            f" {1e3 * setting.A_x:g} mm along"
+        )
+    tilted = f", tilted by {np.degrees(setting.tilt):.4g} degrees" if setting.tilt else ""
+    return f"table: {table}{tilted}; e = {setting.e:g}, mu = {setting.mu:g}"

@@ -42,10 +42,10 @@ def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     if z[MODE] == PIVOT:
         return pivot(p, z, until, notes)
     before, theta = z[TIME], z[THETA]
-    code, c, s, u, v = land(p, z, until, notes)
+    code, c, s, level, rise, lift = land(p, z, until, notes)
     note_turn(p, notes, before, theta, z[TIME], z[THETA])
     if code == DONE and z[TIME] < until:
-        return strike_all(p, z, c, s, u, v, notes)
+        return strike_all(p, z, c, s, level, rise, lift, notes)
     return code
 
 

@@ -17,7 +17,17 @@ from juggleproof.scenes.figures.drawing import Plane, blank, pdf, polylines, sty
 from juggleproof.scenes.figures.look import B1, INK, KEPT, Look
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames
-from juggleproof.scenes.part.layout import ANGLES, COLUMNS, lying, pitch, place, rows, vibration
+from juggleproof.scenes.part.layout import (
+    ANGLES,
+    COLUMNS,
+    lying,
+    noun,
+    pitch,
+    place,
+    rows,
+    vibration,
+    ways,
+)
 from juggleproof.scenes.part.setting import Array, Scene
 
 # -------------------------------------------------------------------------------------------------
@@ -59,13 +69,14 @@ def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
 def caption(setting: Scene, seen: Array) -> str:
     """What stands below the figure."""
     counts = "; ".join(
-        f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are nearer"
-        " to lying"
+        f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are"
+        f" {ways(setting)[1]}"
         for one in seen[1:]
     )
     return (
         "The foremost row starts at 0 to 9 degrees from left to right, each row behind it ten"
-        " degrees further, the last block at 90 degrees. Rectangles are drawn at their true angles"
+        f" degrees further, the last block at 90 degrees. {noun(setting).capitalize()} are drawn at"
+        " their true angles"
         " and heights above the table, each at its own place: how far a block has drifted along"
         f" the table is left out. Here, {counts}. The paper's figure shows all of them lying after"
         " 3 s."
@@ -77,11 +88,16 @@ def alt(setting: Scene, seen: Array) -> str:
     counts = ", ".join(
         f"{int((~lying(setting, states)).sum())} at {states[0, body.TIME]:g} s" for states in seen
     )
+    upright, lies = ways(setting)
+    lean = (
+        ", from the upright one at the lower left to the one that lies in the back row"
+        if setting.shape is None
+        else ""
+    )
     return (
-        f"{len(seen)} grids of {len(seen[0])} rectangles, one for each time. At the start the"
-        " rectangles lean ever more to the left, from the upright one at the lower left to the one"
-        " that lies in the back row."
-        f" Nearer to upright are {counts}; all others are nearer to lying."
+        f"{len(seen)} grids of {len(seen[0])} {noun(setting)}, one for each time. At the start the"
+        f" {noun(setting)} lean ever more to the left{lean}."
+        f" {upright.capitalize()} are {counts}; all others are {lies}."
     )
 
 
@@ -134,7 +150,7 @@ def drawn(setting: Scene, seen: Array) -> Figure:
     plane.words(
         (72 * WIDTH / 2, 72 * height), line[:1].upper() + line[1:], (0, -4), va="top", fontsize=10
     )
-    legend(figure, height)
+    legend(figure, height, ways(setting))
     return figure
 
 
@@ -161,15 +177,18 @@ def outline(setting: Scene, state: Array, block: int) -> list[Point]:
     column, row = place(block)
     x, y = column * step, row * step + state[body.Y] - body.table_height(p, state[body.TIME])
     c, s = cos(state[body.THETA]), sin(state[body.THETA])
-    return [(x + body.corner_x(p, i, c, s), y + body.corner_y(p, i, c, s)) for i in range(4)]
+    return [
+        (x + body.corner_x(p, i, c, s), y + body.corner_y(p, i, c, s))
+        for i in range(len(setting.polygon().corners))
+    ]
 
 
-def legend(figure: Figure, height: float) -> None:
+def legend(figure: Figure, height: float, names: tuple[str, str]) -> None:
     """The legend of the two colours."""
     plane = Plane(figure, (0, 0, 1, 1), (0, 72 * WIDTH), (0, 72 * height))
     for x, look, label, (wide, high) in (
-        (170.0, UPRIGHT, "nearer to upright", (6.0, 12.0)),
-        (320.0, LYING, "nearer to lying", (12.0, 6.0)),
+        (170.0, UPRIGHT, names[0], (6.0, 12.0)),
+        (320.0, LYING, names[1], (12.0, 6.0)),
     ):
         fill(
             plane,

@@ -9,15 +9,16 @@ from math import asin, cos, floor, pi, sin
 from juggleproof.scenes.part.body import (
     A_X,
     A_Y,
+    AT_SIDES,
     CONTACTS,
     CORNER,
     DONE,
+    DRAG,
+    DRIVE,
     FALLS,
     FLIGHT,
     FRICTION,
     GYRATION,
-    HALF_LONG,
-    HALF_SHORT,
     LAST_LYING,
     LAST_UPRIGHT,
     MODE,
@@ -25,17 +26,18 @@ from juggleproof.scenes.part.body import (
     OMEGA,
     PHASE_X,
     PHASE_Y,
-    QUARTER,
     RISES,
+    SIDES,
     SINCE,
+    SINE,
     SLIDE,
-    SPLIT,
     STEP,
     STEPS,
     THETA,
     TIME,
     TOLERANCE,
     TOO_MANY_STEPS,
+    TURN,
     V_X,
     V_Y,
     W_X,
@@ -47,56 +49,71 @@ from juggleproof.scenes.part.body import (
     compiled,
     corner_x,
     corner_y,
+    face_angle,
+    first_angle,
+    next_corner,
+    shaken,
     table_glide,
     table_height,
     table_lift,
     table_place,
     table_push,
     table_rise,
+    until_knot,
 )
 from juggleproof.scenes.part.flight import safe_step
-from juggleproof.scenes.part.strike import first_turn, hold, stay, strike
+from juggleproof.scenes.part.strike import foot, hold, stay, strike
 
 # -------------------------------------------------------------------------------------------------
 # Which way up.
 #
-# Which way up a block is, as it is noted: nearer to upright or to lying, since when, and how often
-# it changed.
+# On which face a block would come to lie from where it is, as it is noted: on a lowest one or on
+# another, since when, and how often that changed.
 #
-# The two are parted where a block, tilted on a corner, has its centre above that corner: at
-# atan(a/b) from upright.
+# Two faces are parted where a block, tilted on a corner, has its centre above that corner: a
+# rectangle at atan(a/b) from upright.  From AT_SIDES on stand these angles, from -pi on, and for
+# the side below each whether its face is a lowest one.
 
 
 @compiled
 def side(p: Floats, theta: float) -> int:
-    """An even number where the block is nearer to upright, an odd one where to lying; it grows by 1
-    whenever theta passes from one to the other.
+    """The number of the side on which a block is; it grows by 1 whenever theta passes from one to
+    the next.
     """
-    split = p[SPLIT]
-    turns = floor((theta + split) * (1 / pi))
-    return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)
+    count, at = int(p[SIDES]), int(p[AT_SIDES])
+    around = floor(theta / TURN + 0.5)
+    rest, k = theta - around * TURN, 0
+    while k < count and p[at + k] <= rest:
+        k += 1
+    return int(around) * count + k
+
+
+@compiled
+def is_lying(p: Floats, number: int) -> bool:
+    """Whether the face of a side is a lowest one."""
+    count = int(p[SIDES])
+    return p[int(p[AT_SIDES]) + count + number % count] != 0
 
 
 @compiled
 def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, theta1: float) -> None:
     """Notes the sides that a block was on from t0 to t1, turning evenly."""
     before, after = side(p, theta0), side(p, theta1)
-    lying = after % 2 == 1
+    lying = is_lying(p, after)
     if before != after:
-        split = p[SPLIT]
+        count, at = int(p[SIDES]), int(p[AT_SIDES])
         step = 1 if after > before else -1
-        last = t0
         for k in range(before, after, step):
-            # the boundary between the sides k and k + step, after side `edge`
-            edge = k if step == 1 else k - 1
-            angle = (edge // 2) * pi + split if edge % 2 == 0 else (edge // 2 + 1) * pi - split
+            lay = is_lying(p, k)
+            if lay == is_lying(p, k + step):
+                continue
+            edge = k if step == 1 else k - 1  # the side below the angle that is passed
+            around = edge // count
+            angle = around * TURN + p[at + edge - around * count]
             last = min(max(t0 + (t1 - t0) * (angle - theta0) / (theta1 - theta0), t0), t1)
             if last >= notes[SINCE]:
-                if k % 2 == 0:
-                    notes[FALLS] += 1
-                else:
-                    notes[RISES] += 1
-        notes[LAST_UPRIGHT if lying else LAST_LYING] = last
+                notes[RISES if lay else FALLS] += 1
+            notes[LAST_LYING if lay else LAST_UPRIGHT] = last
     notes[LAST_LYING if lying else LAST_UPRIGHT] = t1
 
 
@@ -116,18 +133,32 @@ LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of
 
 
 @compiled
-def lift_off(p: Floats, t: float) -> float:
+def lift_off(p: Floats, t: float, end: float, notes: Floats) -> float:
     """The time (s) at which the table next falls faster than g, t where it does; 1e300 where it
-    never does.
+    does not up to `end`, -1 where that took too many steps.
     """
     if p[G] + table_lift(p, t) <= 0:
         return t
     if p[A_Y] * p[W_Y] * p[W_Y] <= p[G]:
         return 1e300
-    ends = asin(p[G] / (p[A_Y] * p[W_Y] * p[W_Y]))
-    phase = p[W_Y] * t + p[PHASE_Y]
-    turns = floor((phase - ends) / (2 * pi))
-    return t + (2 * pi * (turns + 1) + ends - phase) / p[W_Y]
+    if p[DRIVE] == SINE:
+        ends = asin(p[G] / (p[A_Y] * p[W_Y] * p[W_Y]))
+        phase = p[W_Y] * t + p[PHASE_Y]
+        turns = floor((phase - ends) / (2 * pi))
+        return t + (2 * pi * (turns + 1) + ends - phase) / p[W_Y]
+    fall = p[A_Y] * p[W_Y] ** 4 + LEAST_FALL
+    for _ in range(MOST_STEPS):
+        notes[STEPS] += 1
+        value, rate = p[G] + table_lift(p, t), shaken(p, t, 1, 3)
+        if value <= FORCE_RESOLUTION and rate < 0:
+            return t
+        step = min(safe_step(max(value + FORCE_RESOLUTION, 0.0), rate, fall), until_knot(p, t))
+        if t + step >= end:
+            return 1e300
+        if t + step == t:  # the next float
+            return t
+        t += step
+    return -1.0
 
 
 @compiled
@@ -135,8 +166,10 @@ def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, fl
     """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
     how fast that changes.
     """
+    value = grip * (p[G] + table_lift(p, t)) - way * (table_push(p, t) - p[DRAG])
+    if p[DRIVE] != SINE:
+        return value, grip * shaken(p, t, 1, 3) - way * shaken(p, t, 0, 3)
     wy, wx = p[W_Y], p[W_X]
-    value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
     rate = -grip * p[A_Y] * wy**3 * cos(wy * t + p[PHASE_Y]) + way * p[A_X] * wx**3 * cos(
         wx * t + p[PHASE_X]
     )
@@ -144,17 +177,22 @@ def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, fl
 
 
 @compiled
-def slip_time(p: Floats, t: float, end: float, grip: float, notes: Floats) -> float:
-    """The first time up to `end` at which sticking needs more than `grip` times the normal force;
-    `end` where there is none, -1 where it took too many steps.
+def slip_time(
+    p: Floats, t: float, end: float, left: float, right: float, notes: Floats
+) -> tuple[float, float]:
+    """The first time up to `end` at which sticking needs more than `right` times the normal force
+    to the right, or `left` times it to the left, and to which side, 1 or -1; `end` where there is
+    none, -1 where it took too many steps.
     """
+    grip = max(abs(left), abs(right))
     fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
     first = True
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        step = end - t
+        step = min(end - t, until_knot(p, t))
+        nearest, side = 1e300, 1.0
         for way in (-1.0, 1.0):
-            value, rate = face_margin(p, t, grip, way)
+            value, rate = face_margin(p, t, right if way > 0 else left, way)
             if (
                 value < -FORCE_RESOLUTION
                 and first
@@ -162,15 +200,17 @@ def slip_time(p: Floats, t: float, end: float, grip: float, notes: Floats) -> fl
                 and rate < 0
                 and not first
             ):
-                return t
+                return t, way
+            if value < nearest:
+                nearest, side = value, way
             step = min(step, safe_step(max(value + FORCE_RESOLUTION, 0.0), rate, fall))
         if t + step >= end:
-            return end
+            return end, 0.0
         if t + step == t and not first:  # the next float
-            return t
+            return t, side
         first = False
         t += step
-    return -1.0
+    return -1.0, 0.0
 
 
 @compiled
@@ -184,13 +224,13 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float, notes: Fl
     first = True
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        speed = slide * (S - table_glide(p, t) + glide) - mu * (
+        speed = slide * (S - table_glide(p, t) + glide + p[DRAG] * (t - start)) - mu * (
             p[G] * (t - start) + table_rise(p, t) - rise
         )
-        rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
+        rate = -slide * (table_push(p, t) - p[DRAG]) - mu * (p[G] + table_lift(p, t))
         if speed <= SPEED_RESOLUTION and rate < 0 and not first:
             return t
-        step = safe_step(max(speed + SPEED_RESOLUTION, 0.0), rate, fall)
+        step = min(safe_step(max(speed + SPEED_RESOLUTION, 0.0), rate, fall), until_knot(p, t))
         if t + step >= end:
             return end
         if t + step == t and not first:  # the next float
@@ -206,42 +246,43 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     it gave up.
     """
     t, x, vx, slide = z[TIME], z[X], z[V_X], z[SLIDE]
-    upright = int(z[CORNER]) % 2 == 0
-    half, tall = (p[HALF_SHORT], p[HALF_LONG]) if upright else (p[HALF_LONG], p[HALF_SHORT])
+    left, tall, right = foot(p, int(z[CORNER]))
     mu = p[FRICTION]
-    tips = mu * tall > half
-    grip = half / tall if tips else mu
-    began, leaves = t, lift_off(p, t)
-    end = min(until, leaves, t + LONGEST_PIECE)
-    push, tipped, code = 0.0, False, TOO_MANY_STEPS
+    began, end = t, min(until, t + LONGEST_PIECE)
+    leaves = lift_off(p, t, end, notes)
+    if leaves < 0:
+        return TOO_MANY_STEPS
+    end = min(end, leaves)
+    # over which end the block tips: friction to the right tips it over the left one
+    over, code = 0.0, TOO_MANY_STEPS
     notes[CONTACTS] += 1
     most = notes[STEPS] + MOST_STEPS
     while notes[STEPS] < most:
         notes[STEPS] += 1
         if slide == 0:
-            after = slip_time(p, t, end, grip, notes)
+            after, way = slip_time(p, t, end, min(mu, right / tall), min(mu, left / tall), notes)
             if after < 0:
                 break
             x, vx = x + table_place(p, after) - table_place(p, t), table_glide(p, after)
             t = after
             if t < end:
-                push = table_push(p, t)
-                tipped = tips
-                slide = 0.0 if tips else -1.0 if push > 0 else 1.0
-        elif tips:
-            push, tipped = -slide, True
+                if mu * tall > (left if way > 0 else right):
+                    over = -way
+                else:
+                    slide = -1.0 if table_push(p, t) > p[DRAG] else 1.0
+        elif slide * mu * tall > right or -slide * mu * tall > left:
+            over = 1.0 if slide * mu * tall > right else -1.0
         else:
             after = stop_time(p, t, end, slide, vx - table_glide(p, t), notes)
             if after < 0:
                 break
             h, rise = after - t, table_rise(p, t)
-            x += vx * h - slide * mu * (
-                p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h
-            )
-            vx -= slide * mu * (p[G] * h + table_rise(p, after) - rise)
+            fallen = p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h
+            x += vx * h - slide * mu * fallen + p[DRAG] / 2 * h * h
+            vx += p[DRAG] * h - slide * mu * (p[G] * h + table_rise(p, after) - rise)
             t = after
             if t < end:
-                push = table_push(p, t)
+                push = table_push(p, t) - p[DRAG]
                 vx = table_glide(p, t)
                 slide = (
                     0.0
@@ -250,28 +291,18 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                     if push > 0
                     else 1.0
                 )
-        if t >= end or tipped:
+        if t >= end or over != 0:
             code = DONE
             break
     note_turn(p, notes, began, z[THETA], t, z[THETA])
     z[TIME], z[X], z[V_X], z[SLIDE] = t, x, vx, slide
     z[Y], z[V_Y] = table_height(p, t) + tall, table_rise(p, t)
-    if tipped:
-        tip(p, z, push)
+    if over != 0:
+        edge = int(z[CORNER])
+        stay(p, z, edge if over < 0 else next_corner(p, edge))
     elif t >= leaves:
         z[MODE] = FLIGHT
     return code
-
-
-@compiled
-def tip(p: Floats, z: Floats, push: float) -> None:
-    """Stands a block that tips on its corner: the left one where friction pushes it to the
-    right.
-    """
-    c, s = cos(z[THETA]), sin(z[THETA])
-    for i in range(4):
-        if corner_y(p, i, c, s) < 0 and corner_x(p, i, c, s) * push < 0:
-            stay(p, z, i)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -314,8 +345,8 @@ def pivoted(
     spin = omega + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
     if slide != 0:
         return (
-            x + h * (vx + h / 6 * (f1 + f2 + f3)),
-            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4),
+            x + h * (vx + h / 6 * (f1 + f2 + f3 + 3 * p[DRAG])),
+            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4 + 6 * p[DRAG]),
             after,
             spin,
         )
@@ -352,13 +383,13 @@ def margin(
     omega: float,
     i: int,
     slide: float,
-    turn: float,
+    turn: int,
 ) -> float:
-    """How far a phase is from ending in this way; `turn` is the number of quarter turns from which
-    on corner i is the lowest.
+    """How far a phase is from ending in this way; `turn` is the number of the angle from which on
+    corner i is the lowest.
     """
     if ended == LANDS:
-        return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta)
+        return min(theta - face_angle(p, turn), face_angle(p, turn + 1) - theta)
     if ended == STOPS:
         return slide * (vx - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)
@@ -367,7 +398,7 @@ def margin(
 
 @compiled
 def ending(
-    p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float
+    p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: int
 ) -> int:
     """What no longer holds of the phase: LASTS where everything does."""
     if margin(p, LANDS, t, vx, theta, omega, i, slide, turn) < 0:
@@ -388,7 +419,7 @@ def end_of_phase(
     omega: float,
     i: int,
     slide: float,
-    turn: float,
+    turn: int,
     h: float,
     ended: int,
 ) -> tuple[float, float, int]:
@@ -450,13 +481,13 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
-    turn = first_turn(i, theta)
+    turn = first_angle(p, i, theta)
     gap = z[Y] + corner_y(p, i, cos(theta), sin(theta)) - table_height(p, t)
     ended, hurried = LASTS, False
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        h = min(p[STEP] * step_factor(p, theta, i, slide), until - t)
+        h = min(p[STEP] * step_factor(p, theta, i, slide), until - t, until_knot(p, t))
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
         if ended != LASTS:
@@ -468,7 +499,8 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 hurried = early < MOMENT
             x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         if ended == LANDS:
-            theta2 = (turn if theta2 < (turn + 0.5) * QUARTER else turn + 1) * QUARTER
+            start, after = face_angle(p, turn), face_angle(p, turn + 1)
+            theta2 = start if theta2 < (start + after) / 2 else after
         note_turn(p, notes, t, theta, t + h, theta2)
         t, x, vx, theta, omega = min(t + h, until), x2, vx2, theta2, omega2
         if ended == STOPS:

@@ -1,12 +1,12 @@
 """A scene of the part: block, table, contact and accuracy, with what the paper gives and what is
-inferred.
+inferred; and on which face a block rests.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
@@ -14,10 +14,17 @@ from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
+from juggleproof.scenes.part.drive import Harmonics, Record
+from juggleproof.scenes.part.shape import (
+    Polygon,
+    balances,
+    geometry,
+    polygon,
+    stable_faces,
+)
 
 Launch = Literal["rest", "table"]
 Array = NDArray[np.float64]
-JAMS = 4 / 3  # the friction from which a rectangle can jam: claim part-jamming
 LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
 LONGEST = 1e5  # seconds of a run
 COARSEST = 0.01  # of half the short side: the largest tolerance
@@ -35,6 +42,7 @@ RANGES = {
     "f_y": (0.0, 1e4),
     "phase_x": (-100.0, 100.0),
     "phase_y": (-100.0, 100.0),
+    "tilt": (-1.0, 1.0),
     "rest_speed": (1e-8, 1.0),
     "tolerance": (LEAST_TOLERANCE, LARGEST_TOLERANCE),
 }
@@ -58,7 +66,9 @@ class Scene:
     """A block on a vibrating table, in SI units: half sides a <= b in metres, frequencies in hertz,
     phases in radians; made by `scene`.
 
-    The table is at (A_x sin(2 pi f_x t + phase_x), A_y sin(2 pi f_y t + phase_y)).
+    The table is at (A_x sin(2 pi f_x t + phase_x), A_y sin(2 pi f_y t + phase_y)), or where `drive`
+    says, along it and away from it; its right is up by `tilt` radians.  Of another `shape` than a
+    rectangle a and b are half the width and height at theta = 0.
     """
 
     a: float
@@ -75,28 +85,77 @@ class Scene:
     tolerance: float
     rest_speed: float
     launch: Launch
+    shape: Polygon | None = None
+    tilt: float = 0.0
+    drive: Harmonics | Record | None = None
+
+    def polygon(self) -> Polygon:
+        """The block's corners, of a rectangle from the lower left one on."""
+        a, b = self.a, self.b
+        return self.shape or Polygon(((-a, -b), (a, -b), (a, b), (-a, b)))
+
+    def lying(self) -> tuple[int, ...]:
+        """The edges on which a block counts as lying: those above which its centre is lowest when
+        at rest, of a rectangle the long ones.
+
+        >>> scene(e=0.7, mu=0.08).lying()
+        (1, 3)
+        """
+        if self.shape is None:
+            return tuple(one for one in (1, 3) if one in stable_faces(self.polygon(), self.tilt))
+        heights = geometry(self.shape).heights
+        holding = stable_faces(self.shape, self.tilt)
+        least = min(heights[i] for i in holding)
+        return tuple(i for i in holding if heights[i] == least)
 
     def parameters(self, check: bool = True) -> Array:
         """The numbers that the kernels take (`juggleproof.scenes.part.body`); `check`: whether they
         count how often an impact breaks a guarantee.
         """
-        p = np.zeros(body.PARAMETERS)
-        p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
-        p[body.A_X], p[body.W_X], p[body.PHASE_X] = self.A_x, 2 * math.pi * self.f_x, self.phase_x
-        p[body.A_Y], p[body.W_Y], p[body.PHASE_Y] = self.A_y, 2 * math.pi * self.f_y, self.phase_y
-        p[body.HALF_SHORT], p[body.HALF_LONG], p[body.GYRATION] = (
-            self.a,
-            self.b,
-            (self.a**2 + self.b**2) / 3,
-        )
+        block = geometry(self.polygon())
+        numbers, record = np.zeros(body.EDGES), [] if self.drive is None else self.drive.numbers()
+        edges = [
+            [*corner, *direction]
+            for corner, direction in zip(self.polygon().corners, block.directions)
+        ]
+        faces = sorted(block.turns)
+        sides = balances(self.polygon(), self.tilt)
+        lies = [float(below in self.lying()) for _, below in sides]
+        tail = [*np.ravel(edges), *faces, *(angle for angle, _ in sides), *lies, *record]
+        p = np.concatenate([numbers, tail])
+        p[body.G], p[body.DRAG] = self.g * math.cos(self.tilt), -self.g * math.sin(self.tilt)
+        p[body.RESTITUTION], p[body.FRICTION] = self.e, self.mu
+        p[body.PHASE_X], p[body.PHASE_Y] = self.phase_x, self.phase_y
+        (p[body.A_X], p[body.W_X]), (p[body.A_Y], p[body.W_Y]) = self.shaken()
+        p[body.GYRATION], p[body.REACH] = block.gyration, block.reach
+        p[body.SIZE] = block.reach + self.highest()
         p[body.TOLERANCE], p[body.REST_SPEED], p[body.STEP] = (
             self.tolerance,
             max(self.rest_speed, self.least_rest_speed()),
             self.step(),
         )
-        p[body.SPLIT], p[body.REACH] = math.atan(self.a / self.b), math.hypot(self.a, self.b)
-        p[body.CHECKED] = check
+        p[body.CHECKED], p[body.CORNERS], p[body.SIDES] = check, len(edges), len(sides)
+        p[body.FIRST] = block.turns.index(faces[0])
+        p[body.LEAST_TURN] = body.TURN * min(
+            after - before for before, after in zip(faces, [*faces[1:], faces[0] + 1])
+        )
+        p[body.AT_FACES] = body.EDGES + 4 * len(edges)
+        p[body.AT_SIDES] = p[body.AT_FACES] + len(edges)
+        p[body.AT_DRIVE] = p[body.AT_SIDES] + 2 * len(sides)
+        p[body.DRIVE] = body.SINE if self.drive is None else self.drive.KIND
         return p
+
+    def shaken(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """(A, W) along the table and away from it, such that A W^k bounds the derivatives of its
+        place from the second to the fourth; the amplitude and the frequency of a sine.
+        """
+        if self.drive is not None:
+            return self.drive.bounds()
+        return (self.A_x, 2 * math.pi * self.f_x), (self.A_y, 2 * math.pi * self.f_y)
+
+    def highest(self) -> float:
+        """How far from 0 the table's height is at most, in metres."""
+        return self.A_y if self.drive is None else self.drive.highest()
 
     def least_rest_speed(self) -> float:
         """The least rest speed, in m/s, at which chatter ends: a hop gains less by the rounding of
@@ -106,8 +165,10 @@ class Scene:
         >>> scene(e=0.9, mu=0.3, A_y=0.0).least_rest_speed() < 1e-7
         True
         """
-        fall = self.g + self.A_y * (2 * math.pi * self.f_y) ** 2
-        rounded = HOP * EPSILON * (math.hypot(self.a, self.b) + self.A_y)
+        A, W = self.shaken()[1]
+        fall = self.g + A * W**2
+        reach = geometry(self.polygon()).reach
+        rounded = HOP * EPSILON * (reach + self.highest())
         lost = max(1 - self.e**2, LEAST_LOSS)
         return max(HOP * fall * body.MOMENT, math.sqrt(HOP * fall * rounded / lost))
 
@@ -115,50 +176,64 @@ class Scene:
         """The length of a step of Runge and Kutta, in seconds, by its error term: fifth derivatives
         of table and fall, times h^5/120, make the tolerance.
         """
-        bound = (
-            abs(self.A_y) * (2 * math.pi * self.f_y) ** 5.0
-            + abs(self.A_x) * (2 * math.pi * self.f_x) ** 5
-            + 10 * self.g**2.5 / self.b**1.5
-        )
+        (along, fast), (high, quick) = self.shaken()
+        size = max(max(map(abs, corner)) for corner in self.polygon().corners)
+        bound = abs(high) * quick**5.0 + abs(along) * fast**5 + 10 * self.g**2.5 / size**1.5
         return min(float((120 * self.tolerance / bound) ** 0.2), 1e-3)
 
 
 def scene(
     *,
-    a: float = 0.01,
-    b: float = 0.02,
+    a: float | None = None,
+    b: float | None = None,
     e: float,
     mu: float,
     A_x: float = 0.0,
     f_x: float = 0.0,
     phase_x: float = 0.0,
-    A_y: float = 2e-4,
-    f_y: float = 60.0,
+    A_y: float | None = None,
+    f_y: float | None = None,
     phase_y: float = 0.0,
     g: float = STANDARD_GRAVITY,
     tolerance: float = 1e-12,
     rest_speed: float = 1e-3,
     launch: Launch = "rest",
+    shape: Polygon | Sequence[Sequence[float]] | None = None,
+    tilt: float = 0.0,
+    drive: Harmonics | Record | None = None,
 ) -> Scene:
-    """A scene; SceneError, one line, for numbers that make none.
+    """A scene; SceneError, one line, for numbers that make none.  `shape`: the corners of a convex
+    polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
 
     >>> scene(e=0.7, mu=0.08).b
     0.02
+    >>> scene(e=0.7, mu=0.08, shape=[(0, 0), (0.03, 0), (0, 0.03)]).lying()
+    (0, 2)
     """
+    if shape is not None:
+        if a is not None or b is not None:
+            raise SceneError("a and b are half the sides of a rectangle; give them or a shape")
+        shape = shape if isinstance(shape, Polygon) else polygon(shape)
+        a, b = ((max(axis) - min(axis)) / 2 for axis in zip(*shape.corners))
+    if drive is not None and (A_y or f_y or A_x or f_x or phase_x or phase_y):
+        raise SceneError(
+            "A, f and phase are of a single sine along each axis; give them or a drive"
+        )
     given = {
-        "a": a,
-        "b": b,
+        "a": 0.01 if a is None else a,
+        "b": 0.02 if b is None else b,
         "e": e,
         "mu": mu,
         "A_x": A_x,
         "f_x": f_x,
         "phase_x": phase_x,
-        "A_y": A_y,
-        "f_y": f_y,
+        "A_y": (2e-4 if drive is None else 0.0) if A_y is None else A_y,
+        "f_y": (60.0 if drive is None else 0.0) if f_y is None else f_y,
         "phase_y": phase_y,
         "g": g,
         "tolerance": tolerance,
         "rest_speed": rest_speed,
+        "tilt": tilt,
     }
     numbers = {name: _finite(value, name) for name, value in given.items()}
     for name in ("a", "b", "g", "rest_speed"):
@@ -169,31 +244,47 @@ def scene(
             raise SceneError(
                 f"{name} = {numbers[name]:.6g} is below 0; give the amount, and a phase"
             )
-    if numbers["a"] > numbers["b"]:
-        raise SceneError(f"a = {a:.6g} is longer than b = {b:.6g}; a is half the short side")
+    if shape is None and numbers["a"] > numbers["b"]:
+        raise SceneError(
+            f"a = {numbers['a']:.6g} is longer than b = {numbers['b']:.6g}; a is half the short"
+            " side"
+        )
     if not 0 <= numbers["e"] <= 1:
         raise SceneError(f"e = {e:.6g} is outside [0, 1]; it is the coefficient of restitution")
     if numbers["mu"] < 0:
         raise SceneError(f"mu = {mu:.6g} is below 0; it is the coefficient of friction")
-    if numbers["mu"] >= JAMS:
-        raise SceneError(
-            f"mu = {mu:.6g} is not below 4/3: from there on a corner can jam, and the impact law"
-            " has no answer"
-        )
     for name, (least, most) in RANGES.items():
         if not least <= numbers[name] <= most:
             raise SceneError(
                 f"{name} = {numbers[name]:.6g}{UNITS.get(name, '')} is outside {least:g} .."
                 f" {most:g}"
             )
-    if numbers["tolerance"] > COARSEST * numbers["a"]:
-        raise SceneError(
-            f"tolerance = {numbers['tolerance']:.6g} m is above {COARSEST:g} of a ="
-            f" {numbers['a']:.6g} m"
-        )
     if launch not in ("rest", "table"):
         raise SceneError(f"launch = {str(launch)[:40]!r}: choose 'rest' or 'table'")
-    return Scene(launch=launch, **numbers)
+    made = Scene(launch=launch, shape=shape, drive=drive, **numbers)
+    _refuse_block(made)
+    return made
+
+
+def _refuse_block(made: Scene) -> None:
+    """SceneError for friction with which the block can jam, a tolerance that is coarse beside it,
+    and a tilt at which no face holds it.
+    """
+    block = geometry(made.polygon())
+    if made.mu >= block.jams:
+        raise SceneError(
+            f"mu = {made.mu:.6g} is not below"
+            f" {'4/3' if made.shape is None else f'{block.jams:.6g}'}: from there on a corner can"
+            " jam, and the impact law has no answer"
+        )
+    if made.tolerance > COARSEST * block.shortest / 2:
+        raise SceneError(
+            f"tolerance = {made.tolerance:.6g} m is above {COARSEST:g} of"
+            f" {'a' if made.shape is None else 'half the shortest side'} ="
+            f" {block.shortest / 2:.6g} m"
+        )
+    if not stable_faces(made.polygon(), made.tilt):
+        raise SceneError(f"tilt = {made.tilt:.6g} rad: no face holds the block, which rolls on")
 
 
 def changed(setting: Scene, **numbers: float) -> Scene:
@@ -202,7 +293,10 @@ def changed(setting: Scene, **numbers: float) -> Scene:
     >>> changed(scene(e=0.7, mu=0.08), e=0.5).e
     0.5
     """
-    return scene(**{**asdict(setting), **numbers})
+    given = {one.name: getattr(setting, one.name) for one in fields(setting)}
+    if setting.shape is not None:
+        del given["a"], given["b"]
+    return scene(**{**given, **numbers})
 
 
 def _finite(value: float, name: str) -> float:
@@ -232,11 +326,7 @@ def standing(setting: Scene, angles: Sequence[float] | Array) -> Array:
     p = setting.parameters()
     states = np.zeros((len(theta), body.STATE))
     states[:, body.THETA] = theta
-    states[:, body.Y] = (
-        body.table_height(p, 0.0)
-        + np.abs(setting.a * np.sin(theta))
-        + np.abs(setting.b * np.cos(theta))
-    )
+    states[:, body.Y] = body.table_height(p, 0.0) + centre_heights(setting, theta)
     states[:, body.X] = body.table_place(p, 0.0)
     if setting.launch == "table":
         states[:, body.V_X], states[:, body.V_Y] = body.table_glide(p, 0.0), body.table_rise(p, 0.0)
@@ -269,8 +359,11 @@ def moving(
     refuse_long(setting, t)
     state = np.zeros((1, body.STATE))
     state[0, :7] = numbers
-    lowest = abs(setting.a * math.sin(theta)) + abs(setting.b * math.cos(theta))
-    gap = Y - lowest - body.table_height(setting.parameters(), t)
+    gap = (
+        Y
+        - float(centre_heights(setting, np.array([numbers[3]]))[0])
+        - body.table_height(setting.parameters(), t)
+    )
     if gap < -setting.tolerance:
         raise SceneError(
             f"Y = {Y:.6g} m puts the lowest corner {-gap:.3g} m into the table; the centre is at"
@@ -279,11 +372,36 @@ def moving(
     return state
 
 
+def centre_heights(setting: Scene, theta: Array) -> Array:
+    """How high the centre is above the table where a corner touches it, in metres, at angles in
+    radians; the shape stays.
+
+    >>> centre_heights(scene(e=0.7, mu=0.08), np.array([0.0])).tolist()
+    [0.02]
+    """
+    c, s = np.cos(theta), np.sin(theta)
+    return np.max([-x * s - y * c for x, y in setting.polygon().corners], axis=0)
+
+
+def faces_below(setting: Scene, theta: Array) -> NDArray[np.int64]:
+    """The edge on to which a block at rest at these angles, in radians, falls, or on which it lies:
+    one of `juggleproof.scenes.part.shape.stable_faces`; the shape stays.  Of a state on a face,
+    CORNER is the edge.
+
+    >>> faces_below(scene(e=0.7, mu=0.08), np.radians([0.0, 26.5, 26.6, 90.0, 180.0])).tolist()
+    [0, 0, 3, 3, 2]
+    """
+    sides = balances(setting.polygon(), setting.tilt)
+    rest = np.mod(np.asarray(theta) + math.pi, 2 * math.pi) - math.pi
+    after = np.searchsorted([angle for angle, _ in sides], rest, side="right") % len(sides)
+    return np.array([edge for _, edge in sides])[after]
+
+
 def refuse_turned(setting: Scene, theta: Array) -> None:
     """SceneError where an angle is so large that its rounding moves corners by more than a part of
     the tolerance.
     """
-    rounded = float(np.abs(theta).max()) * math.hypot(setting.a, setting.b) * EPSILON
+    rounded = float(np.abs(theta).max()) * geometry(setting.polygon()).reach * EPSILON
     if rounded > ROUNDING * setting.tolerance:
         raise SceneError(
             f"theta = {float(np.abs(theta).max()):.6g} rad is too many turns for a tolerance of"
@@ -297,7 +415,16 @@ def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
     """
     if not 0 <= until <= LONGEST:
         raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")
-    rounded = setting.A_y * (2 * math.pi * setting.f_y * until + abs(setting.phase_y)) * EPSILON
+    if setting.drive is not None:
+        if until > setting.drive.lasts():
+            raise SceneError(
+                f"{name} = {until:.6g} s is after the end of the record,"
+                f" {setting.drive.lasts():g} s"
+            )
+        rounded = setting.drive.rounded(until)
+    else:
+        turns = 2 * math.pi * setting.f_y * until + abs(setting.phase_y)
+        rounded = setting.A_y * turns * EPSILON
     if rounded > ROUNDING * setting.tolerance:
         raise SceneError(
             f"{name} = {until:.6g} s is too late for a tolerance of {setting.tolerance:g} m: the"

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from math import cos, floor, sin, sqrt
+from math import cos, sin, sqrt
 
 from juggleproof.scenes.part.body import (
-    A_Y,
     CHECKED,
     CLOSINGS,
     CONES,
     CORNER,
+    CORNER_Y,
     DONE,
+    DRAG,
+    EDGE_X,
+    EDGE_Y,
+    EDGES,
     FACE,
     FLIGHT,
     FRICTION,
     GAINS,
     GYRATION,
-    HALF_LONG,
-    HALF_SHORT,
     IMPACTS,
     JAMMED,
     LARGEST_REMOVED,
     MODE,
     MOMENT,
     OMEGA,
-    PHASE_Y,
     PIVOT,
     PULLS,
-    QUARTER,
     REACH,
     REST_SPEED,
     RESTITUTION,
@@ -38,17 +38,23 @@ from juggleproof.scenes.part.body import (
     TOO_MANY_IMPACTS,
     V_X,
     V_Y,
-    W_Y,
     Floats,
     G,
     Y,
     compiled,
-    corner,
     corner_x,
     corner_y,
+    face_angle,
+    first_angle,
+    flat_angle,
+    last_corner,
+    lowest,
+    next_corner,
     table_glide,
+    table_height,
     table_lift,
     table_push,
+    table_rise,
 )
 
 # -------------------------------------------------------------------------------------------------
@@ -137,10 +143,10 @@ def impulse(
 # What holds a block that stays on the table: the force at one corner, which sticks or slides, and
 # when it lets go.
 #
-# The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses
-# change its velocity (`juggleproof.symbolic.corner_impact`); the table's is subtracted.  SLIDE of a
-# state is the direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the
-# number of quarter turns of the face.
+# The corner's acceleration is (B1 F - B3 N + drag - omega^2 x, B2 N - B3 F - g - omega^2 y), as
+# impulses change its velocity (`juggleproof.symbolic.corner_impact`); the table's is subtracted.
+# SLIDE of a state is the direction of sliding, 0 where the corner or face sticks; CORNER the
+# corner, or the edge that lies on the table; in flight the one that was the lowest.
 
 
 @compiled
@@ -160,19 +166,10 @@ def hold(
         normal = down / (B2 + slide * p[FRICTION] * B3)
         along = -slide * p[FRICTION] * normal
     else:
-        across = omega * omega * x + table_push(p, t)
+        across = omega * omega * x + table_push(p, t) - p[DRAG]
         full = B1 * B2 - B3 * B3
         along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
     return along, normal, (x * normal - y * along) / k2
-
-
-@compiled
-def first_turn(i: int, theta: float) -> float:
-    """The number of quarter turns, near theta, from which on corner i is the lowest, for one
-    quarter turn.
-    """
-    start = (4 - i) % 4
-    return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -184,8 +181,9 @@ def first_turn(i: int, theta: float) -> float:
 # lands flat, one impulse acts midway between them, so that the mirror image of an orbit is an
 # orbit.  A corner slower than the rest speed v is struck without restitution and stays.  A face
 # whose two corners are slower than v comes to lie: turning and closing are taken away, and sliding
-# if it is slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is
-# added. Coming to rest moves a corner by at most two tolerances.
+# if it is slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length, where
+# the centre is above the face; none is added. Coming to rest moves a corner by at most two
+# tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
 ROUNDED_HOP = 1e-7  # of the speed of a corner that turns: its hops are lost in rounding
@@ -246,27 +244,37 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
     """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at
     rest.  DONE, or why it gave up.
     """
-    phase = p[W_Y] * z[TIME] + p[PHASE_Y]
-    return strike_all(p, z, cos(z[THETA]), sin(z[THETA]), cos(phase), sin(phase), notes)
+    t = z[TIME]
+    c, s = cos(z[THETA]), sin(z[THETA])
+    return strike_all(p, z, c, s, table_height(p, t), table_rise(p, t), table_lift(p, t), notes)
 
 
 @compiled
-def strike_all(p: Floats, z: Floats, c: float, s: float, u: float, v: float, notes: Floats) -> int:
-    """The same, with cosine and sine of theta, and of the table's phase.
+def strike_all(
+    p: Floats,
+    z: Floats,
+    c: float,
+    s: float,
+    level: float,
+    rise: float,
+    lift: float,
+    notes: Floats,
+) -> int:
+    """The same, with cosine and sine of theta, and the table's height, its speed and its
+    acceleration upwards.
 
     Of two corners: the lowest, and the other end of the face that is nearest to the table.
     """
-    a, b, t = p[HALF_SHORT], p[HALF_LONG], z[TIME]
-    glide, rise, level = table_glide(p, t), p[A_Y] * p[W_Y] * u, p[A_Y] * v
-    carried = p[G] - p[A_Y] * p[W_Y] * p[W_Y] * v > 0
-    touch = 2 * p[TOLERANCE]
-    sx, sy = -1.0 if s > 0 else 1.0, -1.0 if c > 0 else 1.0
-    if a * abs(s) <= b * abs(c):
-        tx, ty = -sx, sy
-    else:
-        tx, ty = sx, -sy
-    x1, y1 = sx * a * c - sy * b * s, sx * a * s + sy * b * c
-    x2, y2 = tx * a * c - ty * b * s, tx * a * s + ty * b * c
+    t = z[TIME]
+    glide, carried, touch = table_glide(p, t), p[G] + lift > 0, 2 * p[TOLERANCE]
+    first = lowest(p, int(z[CORNER]), c, s, 0.0)
+    second, edge = next_corner(p, first), first
+    before = last_corner(p, first)
+    y1, y2, y3 = corner_y(p, first, c, s), corner_y(p, second, c, s), corner_y(p, before, c, s)
+    if y3 < y2:
+        second, edge, y2 = before, before, y3
+    x1, x2 = corner_x(p, first, c, s), corner_x(p, second, c, s)
+    z[CORNER] = first
     for _ in range(MOST_IMPACTS):
         rest = rest_speed(p, z[OMEGA])
         still = max(STILL, ROUNDED_SPEED * (abs(z[V_Y]) + abs(z[OMEGA]) * p[REACH]))
@@ -274,18 +282,18 @@ def strike_all(p: Floats, z: Floats, c: float, s: float, u: float, v: float, not
         C1, C2 = z[V_Y] + z[OMEGA] * x1 - rise, z[V_Y] + z[OMEGA] * x2 - rise
         near1, near2 = gap1 <= touch, gap2 <= touch
         if near1 and near2 and carried and abs(C1) < rest and abs(C2) < rest:
-            lie_down(p, z, t, level, rise, notes)
+            lie_down(p, z, edge, level, rise, notes)
             return DONE
         closing1, closing2 = near1 and C1 < -still, near2 and C2 < -still
         if not closing1 and not closing2:
             z[MODE] = FLIGHT
             still1, still2 = near1 and abs(C1) <= still, near2 and abs(C2) <= still
             if still1 or still2:
-                first = still1 and (not still2 or gap1 <= gap2)
-                stay(p, z, corner(sx, sy) if first else corner(tx, ty))
+                nearer = still1 and (not still2 or gap1 <= gap2)
+                stay(p, z, first if nearer else second)
                 if z[MODE] == FLIGHT:
                     # a corner without speed, any deeper, would end the next flight at once
-                    z[Y] += max(-p[TOLERANCE] / 2 - (gap1 if first else gap2), 0.0)
+                    z[Y] += max(-p[TOLERANCE] / 2 - (gap1 if nearer else gap2), 0.0)
             return DONE
         if closing1 and closing2 and C1 == C2:
             x, y = (x1 + x2) / 2, (y1 + y2) / 2
@@ -299,19 +307,33 @@ def strike_all(p: Floats, z: Floats, c: float, s: float, u: float, v: float, not
 
 
 @compiled
-def lie_down(p: Floats, z: Floats, t: float, level: float, rise: float, notes: Floats) -> None:
-    """Lays a face on the table: it turns no more, and goes up and down with the table."""
-    turns = floor(z[THETA] / QUARTER + 0.5)
-    glide = table_glide(p, t)
+def lie_down(p: Floats, z: Floats, edge: int, level: float, rise: float, notes: Floats) -> None:
+    """Lays an edge on the table: the block turns no more, and goes up and down with the table."""
+    glide = table_glide(p, z[TIME])
     before = energy(p, z[V_X] - glide, z[V_Y] - rise, z[OMEGA])
     if abs(z[V_X] - glide) < rest_speed(p, z[OMEGA]):
         z[V_X] = glide
-    z[THETA], z[OMEGA], z[V_Y] = turns * QUARTER, 0.0, rise
-    z[Y] = level + (p[HALF_LONG] if turns % 2 == 0 else p[HALF_SHORT])
-    z[MODE], z[CORNER] = FACE, turns
+    z[THETA], z[OMEGA], z[V_Y] = flat_angle(p, edge, z[THETA]), 0.0, rise
+    z[Y] = level + foot(p, edge)[1]
+    z[MODE], z[CORNER] = FACE, edge
     z[SLIDE] = slide_of(z[V_X] - glide)
     notes[LARGEST_REMOVED] = max(
         notes[LARGEST_REMOVED], before - energy(p, z[V_X] - glide, 0.0, 0.0)
+    )
+
+
+@compiled
+def foot(p: Floats, edge: int) -> tuple[float, float, float]:
+    """Of a block that lies on an edge: how far the left end is to the left of the centre, how high
+    the centre is, and how far the right end is to the right, in metres.
+    """
+    at = EDGES + 4 * edge
+    end = EDGES + 4 * next_corner(p, edge)
+    across, up = p[at + EDGE_X], p[at + EDGE_Y]
+    return (
+        -(p[at] * across + p[at + CORNER_Y] * up),
+        p[at] * up - p[at + CORNER_Y] * across,
+        p[end] * across + p[end + CORNER_Y] * up,
     )
 
 
@@ -326,9 +348,9 @@ def stay(p: Floats, z: Floats, i: int) -> None:
     """Corner i, which touches and does not close, stays on the table where a force holds it there;
     else the block flies.
     """
-    turn = first_turn(i, z[THETA])
+    turn = first_angle(p, i, z[THETA])
     # two corners touch, and this one is not quite the lowest
-    z[THETA] = min(max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER)
+    z[THETA] = min(max(z[THETA], face_angle(p, turn)), face_angle(p, turn + 1))
     t, theta, omega = z[TIME], z[THETA], z[OMEGA]
     slide = slide_of(z[V_X] - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)

@@ -26,6 +26,8 @@ from tests.proofs.command.running import Done
 pytest.importorskip("numba")
 SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
 
+FIGURE = ["--figure", "f.svg"]
+
 BAD = [
     (["--mu", "-0.1"], "mu = -0.1 is below 0"),
     (["--mu", "4/3"], "mu = 1.33333 is not below 4/3: from there on a corner can jam"),
@@ -57,6 +59,20 @@ BAD = [
     (["--keep", "/dev/null/done"], "no folder to keep chunks in"),
     (["-o", "table.svg"], "table.svg: the name is to end in .csv or .npz"),
     (["-o", "/dev/null/table.csv"], "cannot be written"),
+    (["--shape", "0,0 4,0 4,2"], "--shape goes with --figure or --animation; table I"),
+    (["--tilt", "5", "--still"], "--tilt goes with --figure or --animation"),
+    ([*FIGURE, "--shape", "0,0 4,0 4,2 0,0"], "corners 0 and 3 of the shape are the same"),
+    ([*FIGURE, "--shape", "0,0 4,0 1,1 0,4"], "not convex at its corner (0.01, 0.01) m"),
+    ([*FIGURE, "--shape", "0,0 4 4,2"], "--shape: '4' is not X,Y"),
+    ([*FIGURE, "--shape", "0,0 4,e 4,2"], "--shape: '4,e' is no corner"),
+    ([*FIGURE, "--shape", "no such.txt"], "no such.txt: no such file"),
+    ([*FIGURE, "--shape", "0,0 4,0 4,2", "--face", "2x4"], "--face and --shape do not go together"),
+    ([*FIGURE, "--shape", "0,0 4,0 4,2", "--mu", "1.3"], "mu = 1.3 is not below 1.0"),
+    ([*FIGURE, "--tilt", "80"], "tilt = 1.39626 is outside"),
+    ([*FIGURE, "--along", "30"], "'30' is not HERTZ:MILLIMETRES[:DEGREES]"),
+    ([*FIGURE, "--away", "30:2000"], "a harmonic of 2 m, 30 Hz and 0 rad is out of range"),
+    ([*FIGURE, "--away", "30:1", "--drive", "d.csv"], "--drive goes without --along and --away"),
+    ([*FIGURE, "--drive", "no.csv"], "no.csv: no such file"),
     (["--figure", "f.txt"], "f.txt: the name is to end in .svg or .pdf"),
 ]
 
@@ -68,6 +84,39 @@ def test_rejects_a_wish_that_cannot_be_carried_out(
     assert run([*SMALL, *options]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1 and reason in lines[0]
+
+
+RECORDS = [
+    ("t,x,y\n0,0,0\n0.1,0,nan\n0.2,0,0\n", "row 2 of the record has a number that is not finite"),
+    ("0,0,0\n0.1,0,0\n0.1,0,0\n", "the times of a record grow"),
+    ("0,0,0\n0.1,0\n", "line 2 has 2 columns"),
+    ("t,x,y\n0,0,0\n1,a,0\n", "line 3 has no three numbers"),
+    ("t,x,y\n", "no rows of time, x and y"),
+    ("0,0,0\n1,0,0\n", "a record of 2 rows"),
+    ("0,0,0\n1,0,0\n2,0,5000\n", "leaves the 1 m about 0"),
+    ("0,0,0\n1,0,0\n2,0,0\n", "time = 3 s is after the end of the record, 2 s"),
+]
+
+
+@pytest.mark.parametrize(("text", "reason"), RECORDS)
+def test_rejects_a_record_that_is_none(
+    text: str, reason: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "drive.csv"
+    path.write_text(text)
+    figure = ["simulate", "part", "--figure", str(tmp_path / "f.svg"), "--drive", str(path)]
+    assert run(figure) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1 and reason in lines[0]
+
+
+def test_figure_of_a_shape_on_a_tilted_table_of_harmonics_is_drawn_holds(tmp_path: Path) -> None:
+    (tmp_path / "corners.txt").write_text("0,0\n3,0\n1,4\n")
+    shape = ["--shape", str(tmp_path / "corners.txt"), "--tilt", "3", "--away", "60:0.2,120:0.05"]
+    path = tmp_path / "f.svg"
+    assert run(["simulate", "part", "--figure", str(path), *shape]) == 0
+    drawn = path.read_text()
+    assert "over a lowest face" in drawn and "tilted by 3 degrees" in drawn
 
 
 def test_table_is_told_with_what_it_assumes_holds(

@@ -10,8 +10,7 @@ It knows flights and impacts of one corner, and nothing of rest: it stops where 
 (`Chatter`), where two corners strike together (`Simultaneous`), and where a corner grazes the table
 too closely to tell (`Undecided`).  Nothing is proved: rounding is not enclosed.
 
-In reading order: the part and its table, where the reference stops, flight, impact, the first time
-of contact, the orbit.  Metres, seconds and radians throughout.
+The part and its table, where the reference stops, flight, impact, contact, the orbit: SI units.
 """
 
 from __future__ import annotations
@@ -123,6 +122,8 @@ class Model:
         )
         self.k2 = (self.a**2 + self.b**2) / 3
         self.rho = self.context.sqrt(self.a**2 + self.b**2)
+        self.ends = [(along * self.a, up * self.b) for along, up in CORNERS]
+        self.drag = self.context.mpf(0)  # what pulls along the table, of which g is the rest
         self.noise = self.context.mpf(10) ** (GUARD_DIGITS - digits)
 
     def lift(self, value: Given) -> mpf:
@@ -147,6 +148,11 @@ class Model:
         _, along = self._shaken(self.sideways, t)
         height, up = self._shaken(self.upwards, t)
         return height, along, up
+
+    def steepest(self) -> mpf:
+        """A bound of the table's acceleration upwards."""
+        amplitude, frequency, _ = self.upwards
+        return abs(amplitude) * (2 * self.context.pi * frequency) ** 2
 
     def _shaken(self, axis: tuple[mpf, ...], t: mpf) -> tuple[mpf, mpf]:
         """A sin(W t + phase) and its rate."""
@@ -198,8 +204,7 @@ def places(model: Model, theta: mpf) -> list[tuple[mpf, mpf]]:
     [(3, 4), (-3, 4), (-3, -4), (3, -4)]
     """
     cosine, sine = model.context.cos_sin(theta)
-    ends = [(along * model.a, up * model.b) for along, up in CORNERS]
-    return [(cosine * x - sine * y, sine * x + cosine * y) for x, y in ends]
+    return [(cosine * x - sine * y, sine * x + cosine * y) for x, y in model.ends]
 
 
 class Flight:
@@ -210,13 +215,13 @@ class Flight:
 
     def state(self, t: mpf) -> State:
         """The state at the time t: the parabola, and the even turn."""
-        start, lasted = self.start, t - self.start.t
+        start, lasted, drag = self.start, t - self.start.t, self.model.drag
         return State(
             t,
-            start.X + start.VX * lasted,
+            start.X + start.VX * lasted + drag * lasted**2 / 2,
             start.Y + start.VY * lasted - self.model.g * lasted**2 / 2,
             start.theta + start.omega * lasted,
-            start.VX,
+            start.VX + drag * lasted,
             start.VY - self.model.g * lasted,
             start.omega,
         )
@@ -240,13 +245,11 @@ class Flight:
         omega^2 times the corner's distance.
         """
         model = self.model
-        amplitude, frequency, _ = model.upwards
-        shaken = abs(amplitude) * (2 * model.context.pi * frequency) ** 2
-        return model.g + shaken + self.start.omega**2 * model.rho
+        return model.g + model.steepest() + self.start.omega**2 * model.rho
 
 
 def dropped(
-    setting: Setting, theta: Given, height: Given, digits: int = 50, **others: Given
+    setting: Setting | Model, theta: Given, height: Given, digits: int = 50, **others: Given
 ) -> State:
     """The state whose lowest corner stands so high above the table; `others` by their names.
 
@@ -256,7 +259,7 @@ def dropped(
     >>> int(dropped(setting(3, 4, e=0, mu=0), 0, 2).Y)
     6
     """
-    model = Model(setting, digits)
+    model = setting if isinstance(setting, Model) else Model(setting, digits)
     start = model.lifted(State(theta=theta, **others))
     lowest = min(gap for gap, _ in Flight(model, start).gaps(start.t))
     return start._replace(Y=model.lift(height) - lowest)
@@ -494,7 +497,7 @@ class Event(NamedTuple):
 
 
 def reference_orbit(
-    setting: Setting,
+    setting: Setting | Model,
     start: State,
     until: Given,
     digits: int = 50,
@@ -514,7 +517,7 @@ def reference_orbit(
     >>> [(f"{float(event.time):.12f}", event.corner) for event in events]
     [('0.200000000000', 2), ('0.400000000000', 2)]
     """
-    model = Model(setting, digits)
+    model = setting if isinstance(setting, Model) else Model(setting, digits)
     begun, last = model.lifted(start), model.lift(until)
     _refuse_what_does_not_fly(model, begun, last)
     events: list[Event] = []

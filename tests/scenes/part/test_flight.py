@@ -66,13 +66,8 @@ def gaps(p: Array, z: Array, s: Array | float) -> Array:
     theta = z[body.THETA] + z[body.OMEGA] * s
     table = p[body.A_Y] * np.sin(p[body.W_Y] * (z[body.TIME] + s) + p[body.PHASE_Y])
     centre = z[body.Y] + z[body.V_Y] * s - p[body.G] * s * s / 2 - table
-    a, b = p[body.HALF_SHORT], p[body.HALF_LONG]
-    return np.stack(
-        [
-            centre + x * np.sin(theta) + y * np.cos(theta)
-            for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))
-        ]
-    )
+    corners = p[body.EDGES :][: 4 * int(p[body.CORNERS])].reshape(-1, 4)[:, :2]
+    return np.stack([centre + x * np.sin(theta) + y * np.cos(theta) for x, y in corners])
 
 
 def flown(block: Scene, start: Array) -> tuple[Array, float]:

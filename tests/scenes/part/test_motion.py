@@ -318,7 +318,7 @@ def test_each_end_of_a_pivot_is_distinguished_holds() -> None:
 
     def end(theta: float, omega: float, slide: float, speed: float = 0.0) -> int:
         across = speed + omega * body.corner_y(p, 0, math.cos(theta), math.sin(theta))
-        return ending(p, 0.0, across, theta, omega, 0, slide, 0.0)
+        return ending(p, 0.0, across, theta, omega, 0, slide, 0)
 
     assert (
         end(0.46, 0.0, 0.0) == LASTS
@@ -368,7 +368,7 @@ def test_mirrored_start_gives_the_mirrored_orbit_holds(given: dict[str, object])
     faces = right.states[:, body.MODE] == body.FACE
     corners = [one.states[:, body.CORNER] for one in (right, left)]
     assert (MIRRORED_CORNER[corners[0][pivots].astype(int)] == corners[1][pivots]).all()
-    assert (corners[0][faces] == -corners[1][faces]).all()
+    assert (-corners[0][faces] % 4 == corners[1][faces]).all()
     assert right.notes[:, body.IMPACTS].sum() > 91
 
 
