@@ -30,7 +30,7 @@ from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, now_and_then
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
-from juggleproof.scenes.table.motion import MOST, Table, flights_by_state
+from juggleproof.scenes import table
 
 NAME = "sine"
 STORE = Path("sine.certificates")
@@ -248,8 +248,8 @@ def simulated(covered: Covered) -> Iterator[str]:
         return
     share, speed = map(float, rectangle.basin)
     alpha, value = (sum(in_floats(ends)) / 2 for ends in (rectangle.alpha, rectangle.values))
-    counts = flights_by_state(Table(alpha, value), speed, *SIMULATED)
-    there = ((counts >= 0) & (counts <= MOST)).mean()
+    counts = table.flights_by_state(table.Table(alpha, value), speed, *SIMULATED)
+    there = ((counts >= 0) & (counts <= table.MOST)).mean()
     yield (
         f"certified: {share:.2%} of these impacts; simulated, at alpha = {alpha:g} and"
         f" Gamma = {value:g}: {there:.2%} of {counts.size:,}"
