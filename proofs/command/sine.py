@@ -298,12 +298,13 @@ def _executor(options: SineOptions) -> Iterator[Executor | None]:
         except ImportError:
             raise ClaimError("--executor: needs the extra `peers`, for Dask") from None
         try:
-            with distributed.Client(options.executor, timeout=10) as client:
-                yield client.get_executor()
+            client = distributed.Client(options.executor, timeout=10)
         except (OSError, ValueError, TypeError) as error:
             raise ClaimError(
                 f"--executor {options.executor}: no Dask cluster answers ({type(error).__name__})"
             ) from None
+        with client:
+            yield client.get_executor()
         return
     jobs = options.jobs or os.cpu_count() or 1
     if jobs == 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -13,7 +14,15 @@ from juggleproof.certificates.checker import Work
 from juggleproof.certificates.sine import checker, flights
 from juggleproof.certificates.sine.checker import check_folder, check_line, main
 from tests.certificates.sine import worlds
-from tests.certificates.sine.lines import ACCEPTED, REJECTED, line, refuting
+from tests.certificates.sine.lines import (
+    ACCEPTED,
+    REJECTED,
+    cut_once,
+    line,
+    packed,
+    ranked,
+    refuting,
+)
 from tests.certificates.sine.mutants import NO_STATEMENTS
 from tests.certificates.sine.states import CODE
 
@@ -168,6 +177,38 @@ def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) 
     *digests, first, second = told.stdout.splitlines()
     assert len(digests) >= 2 and all("sha256" in one for one in digests)
     assert first.startswith("certified ") and second.startswith("refuted ")
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no process tells its memory")
+def test_the_most_columns_and_the_most_cells_take_below_50_megabytes_holds(tmp_path: Path) -> None:
+    lines = [
+        line(ranks=ranked(lambda one: cut_once(one, 7))),
+        line(
+            grid=[1 << 15, 32, 64],
+            trap=[384, 24, 32, "3/2"],
+            arc=[97 << 7, 262 << 7],
+            ranks=packed(bytes([1]) * (1 << 21)),
+        ),
+    ]
+    assert [check_line(one)[1] for one in lines] == [
+        "the bounce is not inside the trap for each alpha",
+        "a cell of the trap has a rank",
+    ]
+    named = folder(tmp_path, [TRUE], lines)
+    code = (
+        "import runpy, sys; sys.argv = sys.argv[1:]\n"
+        "try: runpy.run_path(sys.argv[0], run_name='__main__')\n"
+        "finally: print(open('/proc/self/status').read())"
+    )
+    told = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code, str(ROOT / "certificates" / "sine"), named],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert told.stdout.count("rejected") == 2
+    (kilobytes,) = re.findall(r"VmHWM:\s+(\d+) kB", told.stdout)
+    assert 10_000 < int(kilobytes) < 50_000
 
 
 def test_no_check_can_be_switched_off_holds() -> None:
