@@ -181,15 +181,15 @@ def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no process tells its memory")
 def test_the_most_columns_and_the_most_cells_take_below_50_megabytes_holds(tmp_path: Path) -> None:
-    lines = [
-        line(ranks=ranked(lambda one: cut_once(one, 7))),
-        line(
-            grid=[1 << 15, 32, 64],
-            trap=[384, 24, 32, "3/2"],
-            arc=[97 << 7, 262 << 7],
-            ranks=packed(bytes([1]) * (1 << 21)),
-        ),
-    ]
+    ranks = bytearray([1]) * (126 << 14)
+    ranks[60 * 126 + 3] = 255
+    flat = line(
+        grid=[1 << 14, 64, 126],
+        trap=[384, 96, 128, "3/2"],
+        arc=[97 << 6, 262 << 6],
+        ranks=packed(bytes(ranks) + bytes([1]) * 4),
+    )
+    lines = [line(ranks=ranked(lambda one: cut_once(one, 7))), flat]
     assert [check_line(one)[1] for one in lines] == [
         "the bounce is not inside the trap for each alpha",
         "a cell of the trap has a rank",
@@ -208,7 +208,7 @@ def test_the_most_columns_and_the_most_cells_take_below_50_megabytes_holds(tmp_p
     )
     assert told.stdout.count("rejected") == 2
     (kilobytes,) = re.findall(r"VmHWM:\s+(\d+) kB", told.stdout)
-    assert 10_000 < int(kilobytes) < 50_000
+    assert 10_000 < int(kilobytes) < 45_000  # the walks of a column take up to 6 MB more
 
 
 def test_no_check_can_be_switched_off_holds() -> None:
