@@ -23,7 +23,7 @@ from tests.certificates.sine.lines import (
     ranked,
     refuting,
 )
-from tests.certificates.sine.mutants import NO_STATEMENTS
+from tests.certificates.sine.mutants import NO_STATEMENTS, work_is_bounded
 from tests.certificates.sine.states import CODE
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -163,6 +163,10 @@ def test_work_bounds_what_a_cover_may_take_holds() -> None:
     whole = [((Fraction(k, 160), Fraction(k + 1, 160)), rectangle.values) for k in range(80)]
     assert not worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 25))
     assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 20))
+
+
+def test_work_bounds_cells_lines_and_folders_holds() -> None:
+    assert work_is_bounded(CODE)
 
 
 def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) -> None:
