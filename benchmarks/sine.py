@@ -133,8 +133,7 @@ def main() -> None:
     ]
     rows = [HEAD, *(row for _, points in series for _, row, _ in points)]
     cores = [("processes", "seconds", "verdict", "boxes", "1e-6 of area/s")]
-    tables = rows, [*cores, *by_processes(options.jobs)], whole
-    done = "\n\n".join(map(plain, tables))
+    done = f"{plain(rows)}\n\n{plain([*cores, *by_processes(options.jobs)])}\n\n{plain(whole)}"
     if not options.accept:
         print(done)
         return
