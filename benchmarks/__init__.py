@@ -13,6 +13,7 @@ it but `juggleproof bench`.
     stability  the maps in examples: what is proved, and by a semidefinite program
     sine       the table that moves as a sine: growth with width, distance to the edges, processes
     feeder     drives and amplitudes that the certificates of that table hold for
+    wedge      the share of the area between its curves that they cover
     words      words of flights that no ball follows, for `settles`
     speed      whole commands: seconds and memory
 

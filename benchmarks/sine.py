@@ -1,5 +1,5 @@
 """The table that moves as a sine: seconds against width of a box and distance to the curves where
-the theorem ends, and certified area against processes.
+the theorem ends, certified area against processes, and whole commands beside their aims.
 
     python -m juggleproof.benchmarks.sine
     python -m juggleproof.benchmarks.sine --accept     # writes tables and plot into the page
@@ -16,6 +16,7 @@ from tempfile import TemporaryDirectory
 
 from juggleproof.benchmarks.figures import ABSENT, as_svg, can_plot, new_figure
 from juggleproof.benchmarks.generated import DOCS, Generated
+from juggleproof.benchmarks.speed import arguments_of, measure
 from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import check_line, read_statement
 from juggleproof.certificates.sine.cover import GRIDS, cover
@@ -28,11 +29,16 @@ from juggleproof.scenes.table.curves import doubling, g_of, grazing
 TABLES = Generated(DOCS / "benchmarks.md", "sine")
 PLOT = DOCS / "img" / "sine-growth.svg"
 MIDDLE = Fraction(1, 20), Fraction(197, 1000)  # alpha and g
-WIDTHS = (0, 1, 2, 4, 6, 7, 8)  # half widths in alpha and g, in thousandths
+WIDTHS = (0, 1, 2, 4, 5, 6, 7, 8)  # half widths in alpha and g, in thousandths
 DISTANCES = (100, 50, 20, 10, 5, 2, 1)  # of Gamma, in thousandths
 AREA = (
     "the period-one bounce is stable and every motion tends to it for all"
     " alpha in [1/25, 3/50] and Gamma in [149/50, 79/25]"
+)
+COMMANDS = (  # with the most CPU seconds and megabytes that they may take
+    ("juggleproof certify sine --alpha 0.05 --gamma 3.10 --jobs 1 --store DIR", "1", ""),
+    ("python -I -S certificates/sine", "2", "50"),
+    ("python -I -S certificates/sine certificates/sine/wide", "", "50"),
 )
 Row = tuple[str, str, str, str, str]
 HEAD: Row = ("", "search s", "check s", "cells", "bytes")
@@ -86,6 +92,17 @@ def by_processes(most: int) -> Iterator[tuple[str, ...]]:
         yield str(jobs), f"{spent:.1f}", done.outcome, str(len(done.boxes)), f"{rate:.0f}"
 
 
+def by_command() -> Iterator[Row]:
+    """Rows: CPU seconds and megabytes of commands, each in a process of its own, with the aims.
+
+    No command seems to take fewer megabytes than this process before: so they come first.
+    """
+    for command, seconds, megabytes in COMMANDS:
+        with TemporaryDirectory() as folder:
+            spent, most = measure(arguments_of(command, folder))
+        yield f"{spent:.2g}", seconds, f"{most:.0f}", megabytes, command
+
+
 Series = list[tuple[float, Row, float | None]]
 
 
@@ -108,6 +125,7 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--accept", action="store_true")
     options = parser.parse_args()
+    whole = [("CPU s", "aim", "MB", "aim", "command"), *by_command()]
     series = [
         ("width of the box", list(by_width())),
         ("above the second orbit", list(by_distance("above the second orbit", grazing, 1))),
@@ -115,7 +133,7 @@ def main() -> None:
     ]
     rows = [HEAD, *(row for _, points in series for _, row, _ in points)]
     cores = [("processes", "seconds", "verdict", "boxes", "1e-6 of area/s")]
-    done = f"{plain(rows)}\n\n{plain([*cores, *by_processes(options.jobs)])}"
+    done = f"{plain(rows)}\n\n{plain([*cores, *by_processes(options.jobs)])}\n\n{plain(whole)}"
     if not options.accept:
         print(done)
         return

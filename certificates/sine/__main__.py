@@ -4,6 +4,7 @@ What it runs are the files that others import under a longer name.
 """
 
 # The standard library comes first, from its own place, as in the first checker's `__main__`.
+import array  # noqa: F401
 import base64  # noqa: F401
 import binascii  # noqa: F401
 import collections.abc  # noqa: F401

@@ -99,6 +99,7 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
     check_grid(grid)
     read = stored = columns * rows
     require(read <= len(data), "not one rank for each cell")
+    work.spend(stored)
     first = {i: bytearray(data[i * rows : (i + 1) * rows]) for i in range(columns)}
     levels = [Level(grid, first, {i: bytearray([WHOLE]) * rows for i in range(columns)})]
     while True:
@@ -113,8 +114,10 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
         parts = 4 * sum(wide.cells[i].count(PARTED) for i in cut)
         require(read + parts <= len(data), "not one rank for each cell")
         grid = halved(grid)
-        stored += 2 * grid.rows * len(cut)
+        more = 2 * grid.rows * len(cut)
+        stored += more
         require(stored <= MAX_CELLS, "too many cells")
+        work.spend(more)
         narrow = Level(grid, {}, {})
         for i in cut:
             for side in 2 * i, 2 * i + 1:
@@ -132,7 +135,6 @@ def read_levels(certificate: Certificate, work: Work) -> list[Level]:
             for row in wide.rows(i, PARTED):
                 sides = narrow.ranks[2 * i], narrow.ranks[2 * i + 1]
                 wide.ranks[i][row] = max(max(side[2 * row : 2 * row + 2]) for side in sides)
-    work.spend(stored)
     return levels
 
 

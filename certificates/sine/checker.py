@@ -43,7 +43,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any, NamedTuple, TypeGuard
 
-from ..checker import Rejected, Work, load
+from ..checker import MAX_STATEMENTS, Rejected, Work, load
 from .cells import Attraction, Certificate, check_box
 from .flights import (
     MAX_CELLS,
@@ -196,6 +196,7 @@ def meets(one: Counterexample, rectangle: Rectangle) -> bool:
 # ------------------------------------------------------------ files
 
 STATEMENTS, CERTIFICATES = "statements.txt", "certificates.jsonl"
+MAX_FOLDER_STEPS = 1 << 28  # for all lines and statements of a folder
 NUMBER = r"([0-9]{1,30}(?:/[1-9][0-9]{0,29})?)"
 STATEMENT = re.compile(
     "the period-one bounce is stable and (?:every motion tends"
@@ -270,10 +271,11 @@ def read_line(line: str) -> Certificate | Counterexample:
     return Certificate(grid, width, low, high, rational(weight), (start, end), ranks)
 
 
-def check_line(line: str) -> tuple[Proved | None, str]:
+def check_line(line: str, work: Work | None = None) -> tuple[Proved | None, str]:
     """(what the line proves, ""), or (None, why it proves nothing)."""
+    work = work or Work(MAX_STEPS)
     try:
-        read, work = read_line(line), Work(MAX_STEPS)
+        read = read_line(line)
         if isinstance(read, Certificate):
             return check_box(read, work), ""
         if read.refutes == "saddle":
@@ -287,33 +289,41 @@ def check_line(line: str) -> tuple[Proved | None, str]:
         return None, f"malformed ({type(error).__name__})"
 
 
-def outcome(rectangle: Rectangle, proved: Sequence[Proved]) -> tuple[str, str]:
+def outcome(
+    rectangle: Rectangle, proved: Sequence[Proved], work: Work | None = None
+) -> tuple[str, str]:
     """(certified, refuted or unknown; why it is unknown), by what the lines prove."""
-    boxes = [(one.alpha, one.g) for one in proved if serves(one, rectangle)]
-    if any(isinstance(one, Counterexample) and meets(one, rectangle) for one in proved):
-        return "refuted", ""
+    work = work or Work(MAX_STEPS)
     try:
-        check_cover(rectangle, boxes, Work(MAX_STEPS))
+        work.spend(10 * len(proved))
+        boxes = [(one.alpha, one.g) for one in proved if serves(one, rectangle)]
+        if any(isinstance(one, Counterexample) and meets(one, rectangle) for one in proved):
+            return "refuted", ""
+        check_cover(rectangle, boxes, work)
     except (Refused, Rejected) as reason:
         return "unknown", str(reason)
     return "certified", ""
 
 
-def check_folder(folder: str) -> list[tuple[str, str, str]]:
+def check_folder(folder: str, left: int = MAX_FOLDER_STEPS) -> list[tuple[str, str, str]]:
     """[(statement or line, outcome, reason)]: each line of certificates that is rejected, and each
-    statement, certified, refuted or unknown.
+    statement, certified, refuted or unknown; `left`: the steps that may be spent on all of them.
     """
-    lines = load(os.path.join(folder, STATEMENTS)).splitlines()
+    lines = load(os.path.join(folder, STATEMENTS), MAX_STATEMENTS).splitlines()
     rectangles = [read_statement(line) for line in lines]
     proved: list[Proved] = []
     results = []
     for number, line in enumerate(load(os.path.join(folder, CERTIFICATES)).splitlines(), 1):
-        proves, why = check_line(line)
+        limit = min(MAX_STEPS, left)
+        work = Work(limit)
+        proves, why = check_line(line, work)
+        left -= limit - work.left
         if proves:
             proved.append(proves)
         else:
             results.append((f"{CERTIFICATES}, line {number}", "rejected", why))
-    return results + [(one.text, *outcome(one, proved)) for one in rectangles]
+    rest = Work(left)
+    return results + [(one.text, *outcome(one, proved, rest)) for one in rectangles]
 
 
 def main(arguments: list[str]) -> int:

@@ -6,6 +6,7 @@ first checker's meter of work; integers and fractions only.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import lru_cache
@@ -55,7 +56,7 @@ def pi_times(unit: int) -> int:
 
 
 @lru_cache(maxsize=4)
-def sines(count: int) -> tuple[int, ...]:
+def sines(count: int) -> array[int]:
     """2^40 sin(2 pi j/count) for j below count, a multiple of 4, each within one unit.
 
     Taylor's sum in units of 2^-96 in the first quarter, the others by symmetry; the rest of the sum
@@ -73,7 +74,7 @@ def sines(count: int) -> tuple[int, ...]:
             odd += 2
         quarter.append(total + (1 << FINE - BITS - 1) >> FINE - BITS)
     half = quarter + quarter[-2:0:-1]
-    return tuple(half + [-value for value in half])
+    return array("q", half + [-value for value in half])
 
 
 PI2 = 2 * pi_times(1 << FINE) >> FINE - BITS  # 2 pi, rounded down
@@ -187,10 +188,12 @@ class Flights:
         self.sin = sines(2 * columns)
         self.cos = self.sin[columns // 2 :] + self.sin[: columns // 2]
         heights = [c * sin + self.g * cos for sin, cos in zip(self.sin, self.cos)]
-        self.height = [height // PI2 for height in heights]
-        self.velocity = [c * cos - self.g * sin >> BITS for sin, cos in zip(self.sin, self.cos)]
+        # below 2^45 all of them, or OverflowError: eight bytes for each
+        self.height = array("q", (height // PI2 for height in heights))
+        waves = zip(self.sin, self.cos)
+        self.velocity = array("q", (c * cos - self.g * sin >> BITS for sin, cos in waves))
         turn = ((PI2 + 1) * self.half >> BITS) + 1
-        self.S_low, self.S_high = [], []
+        self.S_low, self.S_high = array("q"), array("q")
         for j in range(1, 2 * columns, 2):
             middle = (heights[j] >> BITS) * PI2 >> BITS
             radius = gamma * turn >> BITS

@@ -30,7 +30,7 @@ from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, now_and_then
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
-from juggleproof.scenes.table.motion import MOST, Table, flights_by_state
+from juggleproof.scenes import table
 
 NAME = "sine"
 STORE = Path("sine.certificates")
@@ -248,8 +248,8 @@ def simulated(covered: Covered) -> Iterator[str]:
         return
     share, speed = map(float, rectangle.basin)
     alpha, value = (sum(in_floats(ends)) / 2 for ends in (rectangle.alpha, rectangle.values))
-    counts = flights_by_state(Table(alpha, value), speed, *SIMULATED)
-    there = ((counts >= 0) & (counts <= MOST)).mean()
+    counts = table.flights_by_state(table.Table(alpha, value), speed, *SIMULATED)
+    there = ((counts >= 0) & (counts <= table.MOST)).mean()
     yield (
         f"certified: {share:.2%} of these impacts; simulated, at alpha = {alpha:g} and"
         f" Gamma = {value:g}: {there:.2%} of {counts.size:,}"
@@ -298,12 +298,13 @@ def _executor(options: SineOptions) -> Iterator[Executor | None]:
         except ImportError:
             raise ClaimError("--executor: needs the extra `peers`, for Dask") from None
         try:
-            with distributed.Client(options.executor, timeout=10) as client:
-                yield client.get_executor()
+            client = distributed.Client(options.executor, timeout=10)
         except (OSError, ValueError, TypeError) as error:
             raise ClaimError(
                 f"--executor {options.executor}: no Dask cluster answers ({type(error).__name__})"
             ) from None
+        with client:
+            yield client.get_executor()
         return
     jobs = options.jobs or os.cpu_count() or 1
     if jobs == 1:

@@ -7,4 +7,13 @@ attractors  what balls come to over restitution and drive, simulated
 plane       what the pictures have in common
 cover       which boxes of parameters are certified, between the curves, over what balls come to
 pictures    ball and table over time; how long states take to the bounce
+
+Importing this package loads what it needs only when a name is first used.
 """
+
+from __future__ import annotations
+
+from juggleproof.symbolic.lazy import lazy_names
+
+NAMES = {".motion": "MOST Table flights_by_state"}
+__all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

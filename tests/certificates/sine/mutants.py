@@ -7,6 +7,7 @@ from __future__ import annotations
 import types
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from flint import arb
@@ -14,7 +15,7 @@ from flint import arb
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.sine import cells, checker, flights
 from tests.certificates.sine import bounds, states, worlds
-from tests.certificates.sine.lines import ACCEPTED, REJECTED
+from tests.certificates.sine.lines import ACCEPTED, REJECTED, line, refuting
 from tests.certificates.sine.states import STEPS, Code, box
 
 FILES = {"flights": flights, "cells": cells, "checker": checker}
@@ -117,6 +118,34 @@ def in_order(code: Code) -> bool:
     )
 
 
+def work_is_bounded(code: Code) -> bool:
+    """All cells that are read count; lines and statements share what a folder may spend."""
+    levels = Work(STEPS)
+    there = code.cells.read_levels(code.checker.read_line(line("cut")), levels)
+    cells_read = sum(len(level.ranks) * level.grid.rows for level in there)
+    whole = Work(STEPS)
+    code.checker.check_line(line(), whole)
+    spent = STEPS - whole.left
+
+    def found(lines: list[str], left: int, greatest: str = "197/1000") -> list[str]:
+        statement = f"{worlds.BEGINS} alpha in [1/20, 1/20] and g in [197/1000, {greatest}]\n"
+        with TemporaryDirectory() as folder:
+            Path(folder, "statements.txt").write_text(statement)
+            Path(folder, "certificates.jsonl").write_text("".join(f"{one}\n" for one in lines))
+            results = code.checker.check_folder(folder, left)
+        return [f"{word} {why}".rstrip() for _, word, why in results]
+
+    unstable = refuting("multiplier", "1/20", "290/1000", 16, 16)
+    return (
+        STEPS - levels.left == cells_read
+        and found([line()], spent + 1000) == ["certified"]
+        and found([line()], spent + 5) == ["unknown too much work"]
+        and found([line()] * 2, spent + 1000) == ["rejected too much work", "unknown too much work"]
+        and found([unstable], 10, "290/1000") == ["refuted"]
+        and found([unstable], 9, "290/1000") == ["unknown too much work"]
+    )
+
+
 def tests_of_rules() -> Iterator[Test]:
     for _, make, why in REJECTED:
         yield rejects(make, why)
@@ -132,6 +161,7 @@ def tests_of_rules() -> Iterator[Test]:
     yield lambda code: not worlds.wrong_drives(code, 30, seed=1)
     yield lambda code: not worlds.wrong_traps(code, 20, seed=1)[1]
     yield in_order
+    yield work_is_bounded
     for _, make in ACCEPTED:
         yield accepts(make)
 

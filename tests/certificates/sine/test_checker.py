@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -13,8 +14,16 @@ from juggleproof.certificates.checker import Work
 from juggleproof.certificates.sine import checker, flights
 from juggleproof.certificates.sine.checker import check_folder, check_line, main
 from tests.certificates.sine import worlds
-from tests.certificates.sine.lines import ACCEPTED, REJECTED, line, refuting
-from tests.certificates.sine.mutants import NO_STATEMENTS
+from tests.certificates.sine.lines import (
+    ACCEPTED,
+    REJECTED,
+    cut_once,
+    line,
+    packed,
+    ranked,
+    refuting,
+)
+from tests.certificates.sine.mutants import NO_STATEMENTS, work_is_bounded
 from tests.certificates.sine.states import CODE
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -156,6 +165,10 @@ def test_work_bounds_what_a_cover_may_take_holds() -> None:
     assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 20))
 
 
+def test_work_bounds_cells_lines_and_folders_holds() -> None:
+    assert work_is_bounded(CODE)
+
+
 def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) -> None:
     named = folder(tmp_path, [TRUE, FALSE[1]], [line(), SADDLES[1]])
     told = subprocess.run(
@@ -168,6 +181,38 @@ def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) 
     *digests, first, second = told.stdout.splitlines()
     assert len(digests) >= 2 and all("sha256" in one for one in digests)
     assert first.startswith("certified ") and second.startswith("refuted ")
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no process tells its memory")
+def test_the_most_columns_and_the_most_cells_take_below_50_megabytes_holds(tmp_path: Path) -> None:
+    ranks = bytearray([1]) * (126 << 14)
+    ranks[60 * 126 + 3] = 255
+    flat = line(
+        grid=[1 << 14, 64, 126],
+        trap=[384, 96, 128, "3/2"],
+        arc=[97 << 6, 262 << 6],
+        ranks=packed(bytes(ranks) + bytes([1]) * 4),
+    )
+    lines = [line(ranks=ranked(lambda one: cut_once(one, 7))), flat]
+    assert [check_line(one)[1] for one in lines] == [
+        "the bounce is not inside the trap for each alpha",
+        "a cell of the trap has a rank",
+    ]
+    named = folder(tmp_path, [TRUE], lines)
+    code = (
+        "import runpy, sys; sys.argv = sys.argv[1:]\n"
+        "try: runpy.run_path(sys.argv[0], run_name='__main__')\n"
+        "finally: print(open('/proc/self/status').read())"
+    )
+    told = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code, str(ROOT / "certificates" / "sine"), named],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert told.stdout.count("rejected") == 2
+    (kilobytes,) = re.findall(r"VmHWM:\s+(\d+) kB", told.stdout)
+    assert 10_000 < int(kilobytes) < 45_000  # the walks of a column take up to 6 MB more
 
 
 def test_no_check_can_be_switched_off_holds() -> None:

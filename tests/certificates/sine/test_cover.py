@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
 from concurrent.futures import BrokenExecutor, Executor, Future
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -145,6 +147,45 @@ def test_boxes_are_kept_where_an_executor_dies(
     with pytest.raises(ClaimError, match=r"^the executor failed \(BrokenExecutor: gone\)"):
         cover_it(whole, tmp_path, Dying())
     assert len(kept(tmp_path, None)[0]) == 1
+
+
+class Cluster:
+    """What stands for Dask: a cluster that answers, and then dies, or one that does not answer."""
+
+    def __init__(self, address: str, timeout: int) -> None:
+        if address != "there":
+            raise OSError
+
+    def __enter__(self) -> Cluster:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        return None
+
+    def get_executor(self) -> Executor:
+        return Dying()
+
+
+@pytest.mark.parametrize(
+    ("address", "message"),
+    [
+        ("there", "the executor failed (BrokenExecutor: gone); certified boxes are kept"),
+        ("gone", "--executor gone: no Dask cluster answers (OSError)"),
+    ],
+)
+def test_rejects_a_cluster_that(
+    address: str,
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=Cluster))
+    monkeypatch.setattr(covering, "START", (Fraction(1, 200), Fraction(1, 200)))
+    options = ["--alpha", "0.05", "--gamma", "3.09:3.11", "--store", str(tmp_path)]
+    assert run(["certify", "sine", *options, "--executor", address]) == 2
+    *_, error = capsys.readouterr().err.splitlines()
+    assert error.startswith(f"juggleproof: {message}")
 
 
 def test_a_dask_cluster_finds_the_same_bytes_holds(tmp_path: Path) -> None:
