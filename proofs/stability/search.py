@@ -4,9 +4,10 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import compress, islice
 
 import sympy
 
@@ -112,7 +113,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         line, _, text = (proof.why() or fault).partition("\n")
         if guards != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
-        return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
+        where = lines_named(system, line)
+        return Outcome(proof, "unknown", f"the map{where}: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     other = None if every else by_its_point(original)
     if other:
@@ -209,11 +211,21 @@ def without_empty_pieces(system: Map) -> Map:
     points = region(inside, system.names, SAMPLES)
     lines = [f"forall {' '.join(system.names)}", f"given {inside}"]
     kept = [
-        piece
+        here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
         for piece, here in zip(system.pieces, system.applying(points))
-        if here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
     ]
-    return replace(system, pieces=tuple(kept))
+    pieces, places = (tuple(compress(every, kept)) for every in (system.pieces, system.lines))
+    return replace(system, pieces=pieces, lines=places)
+
+
+def lines_named(system: Map, fault: str) -> str:
+    """Where the pieces stand that a premise of the map names at the end of its name; all, where it
+    names none; nothing where the map is from no file.
+    """
+    named = re.match(r"(?:apart|stays)((?:-\d+)+),", fault)
+    numbers = [int(k) - 1 for k in named[1].split("-")[1:]] if named else range(len(system.pieces))
+    rows = sorted({system.lines[k] for k in numbers}) if system.lines else []
+    return f", line{'s' * (len(rows) > 1)} {', '.join(map(str, rows))}" if rows else ""
 
 
 def without_fixed_point(system: Map) -> MapRule:
