@@ -119,8 +119,8 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-        for rule, signs in weighted_sum_rules(setting, space, name):
-            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
+        for rule, signs, searches in weighted_sum_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs, searches):
                 return True
         for rule, signs in saturated_rules(setting, space, name):
             if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
