@@ -12,7 +12,7 @@ from itertools import compress, islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.algebraic import by_its_point, has_one_point
+from juggleproof.proofs.stability.algebraic import Renamed, by_its_point, has_one_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -164,6 +164,10 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                 faults.append(f"{at}{name_of(fixed)} {fault}")
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
+    other = by_its_point(original, several=True) if len(every) > 1 else None
+    found = of_several(other, budget, log) if other else None
+    if found:
+        return Outcome(*found, lines)
     proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
@@ -180,6 +184,24 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                     sentence = f"{near}; of other states nothing was found"
                     return Outcome(proof, "region", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
+
+
+def of_several(other: Renamed, budget: int, log: Report) -> tuple[Proof, str, str] | None:
+    """That none of several fixed points attracts another, with one of them as a parameter: a domain
+    knows no roots, and an orbit may divide by what has them.
+    """
+    system = with_licences(other.system)
+    proof = Proof(budget=budget, most=MORE_WORK * budget // BUDGET)
+    if not proof.add(system.rule(f"{system.name}/map")):
+        for fixed in fixed_points(system):
+            log(head_of(fixed))
+            fault = by_orbit(proof, setting_of(system, fixed, system.domain), log)
+            if fault:
+                (e,), old = system.point, other.parameter
+                at = where_open(system.domain, proof.domain(), system.parameters)
+                where = f"here {old} = {other.term}, where samples alone say that each {old} has"
+                return proof, "refuted", f"{at}{e} {fault}; {where} such {e}"
+    return None
 
 
 def note(lines: list[str], text: str) -> None:

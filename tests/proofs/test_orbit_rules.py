@@ -397,7 +397,9 @@ def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
     path = file_of(tmp_path, put(NEAR, "rate", "a/2"))
     assert certify(path) == 1
     place = place_in_file(str(path), 9)
-    line = f"1 of the 8 premises of `contracts` at {place}: closer-1, on the set, piece 1 multiplies"
+    line = (
+        f"1 of the 8 premises of `contracts` at {place}: closer-1, on the set, piece 1 multiplies"
+    )
     assert line in capsys.readouterr().out
     assert run(["explain", "mine", str(path)]) == 0
     out = capsys.readouterr().out

@@ -103,7 +103,11 @@ SETTLED = {  # name: (text, exit code, first line)
         f"refuted  identity: 0 {AWAY} 1/2, which is a fixed point",
     ),
     "shift": ("state x\npiece x + 1", 1, "refuted  shift: no state of the space is a fixed point"),
-    "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map, lines 2, 3: "),
+    "gap": (
+        "state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3",
+        1,
+        "unknown  gap: the map, lines 2, 3: ",
+    ),
     "overlap": (
         "state x\npiece x <= 0 -> x/2\npiece x >= 0 -> x/3",
         1,
