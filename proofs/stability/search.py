@@ -165,9 +165,9 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
     other = by_its_point(original, several=True) if len(every) > 1 else None
-    found = of_several(other, budget, log) if other else None
-    if found:
-        return Outcome(*found, lines)
+    none_attracts = of_several(other, budget, log) if other else None
+    if none_attracts:
+        return Outcome(*none_attracts, lines)
     proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
@@ -236,7 +236,7 @@ def without_empty_pieces(system: Map) -> Map:
         here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
         for piece, here in zip(system.pieces, system.applying(points))
     ]
-    pieces, places = (tuple(compress(every, kept)) for every in (system.pieces, system.lines))
+    pieces, places = tuple(compress(system.pieces, kept)), tuple(compress(system.lines, kept))
     return replace(system, pieces=pieces, lines=places)
 
 

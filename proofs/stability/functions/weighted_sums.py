@@ -85,7 +85,8 @@ def scales(setting: Setting) -> list[list[str]]:
     domain adds to that of the map, or nothing; then also what does at those of the map's.
     """
     given = atoms(setting.system.domain)
-    added, own = [], []
+    added: list[str] = []
+    own: list[str] = []
     for bound in atoms(setting.domain):
         at = np.asarray(value(written(bound[0]), setting.constants), float)
         if 0 < at.min() < CLOSE * at.max():
