@@ -154,10 +154,11 @@ def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node
         return ("close",)
     ring = Ring(tuple(state.context.index))
     value = ring.names.index("value")
-    every = range(len(state.facts))
+    every = list(range(len(state.facts)))
     on_it = [k for k, (poly, _) in enumerate(state.facts) if ring.read(poly).degrees()[value]]
     # a case that the facts contradict by themselves needs no more cases
-    for numbers, effort in ((every, 1),) if state.choices else ((every, 2), (on_it, SQUARED)):
+    tries = [(every, 1)] if state.choices else [(every, 2), (on_it, SQUARED)]
+    for numbers, effort in tries:
         try:
             few = with_facts(state, numbers)
             node = search_closing(few, known, Budget(BUDGET), effort=effort, confirm=False)
@@ -167,7 +168,8 @@ def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node
             return renumbered(node, numbers)
     if not state.choices:
         return None
-    rest, nodes = state.branch(), []
+    rest = state.branch()
+    nodes: list[Node] = []
     for one in rest.choices.pop(0):
         node = closed_by_squares(rest.branch(one), known)
         if node is None:
