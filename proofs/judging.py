@@ -338,7 +338,7 @@ class Judge:
             if name not in proofs
         }
         self.judgement.unproved[rule.name] = [premises[name].text() for name in reasons]
-        count = f"{len(reasons)} of the {len(premises)} premises of `{rule.kind}`:"
+        count = f"{len(reasons)} of the {len(premises)} premises of `{rule.kind}` at {self.where}:"
         between = "\n  " if len(reasons) > 1 else " "
         return {"unknown": between.join([count, *reasons.values()])}
 

@@ -30,7 +30,7 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.points import PARAMETERS
-from juggleproof.proofs.stability.samples import Arrays, Floats, region
+from juggleproof.proofs.stability.samples import Arrays, Floats, divides, multiplied_out, region
 
 NAMES = "ecuvwz"  # for the point, the first that is free
 REAL = 1e-9  # imaginary part, in floats
@@ -47,9 +47,10 @@ class Renamed:
     term: str
 
 
-def by_its_point(system: Map) -> Renamed | None:
+def by_its_point(system: Map, several: bool = False) -> Renamed | None:
     """The map of one variable with its point for a parameter, where at samples there is one fixed
-    point in the space for each value of the parameters; None elsewhere.
+    point in the space for each value of the parameters, or where there are `several` of one
+    equation; None elsewhere.
 
     >>> from juggleproof.proofs.stability.given import read_rows
     >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
@@ -70,7 +71,8 @@ def by_its_point(system: Map) -> Renamed | None:
                 one for one in symbols(system.parameters) if sympy.Poly(factor, one).degree() == 1
             ]
             inside = conjunction(system.space, guard)
-            if linear and sympy.degree(factor, state) > 2 and is_the_point(system, factor, inside):
+            high = sympy.degree(factor, state) > (1 if several else 2)
+            if linear and high and is_the_point(system, factor, inside, several):
                 # polynomials first, which need no licences
                 old = min(linear, key=lambda one: sympy.Poly(factor, one).LC().has(state))
                 (term,) = sympy.solve(factor, old)
@@ -85,6 +87,8 @@ def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) ->
     over = tuple(one for one in system.parameters if one != old) + (name,)
     at_point = renamed(inside, {system.state[0]: name})
     every = conjuncts(renamed(conjunction(at_point, system.domain), put))
+    facts = {poly: f"{written(poly)} > 0" for one in every for poly, strict in atoms(one) if strict}
+    every = [multiplied_out(one, facts) if divides(one) else one for one in every]
     kept = [one for one in every if one != ANYWHERE]
     for part in reversed(every):  # what the others say already
         rest = [one for one in kept if one != part]
@@ -183,9 +187,9 @@ def shows(lines: Sequence[str], formula: str) -> bool:
     return is_certified([*lines, f"show {formula}"], BUDGET)
 
 
-def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
+def is_the_point(system: Map, equation: Expr, inside: str, several: bool) -> bool:
     """Whether at all samples of the parameters one zero of the equation is in the set, and no other
-    one is.
+    one is; or whether several are.
     """
     (state,) = symbols(system.state)
     parameters = region(system.domain, system.parameters, PARAMETERS)
@@ -194,10 +198,11 @@ def is_the_point(system: Map, equation: Expr, inside: str) -> bool:
         return False
     size = len(next(iter(parameters.values())))
     columns = [column(written(c), parameters, size) for c in poly.all_coeffs()]
-    return size > 0 and all(
-        zeros_inside(system, parameters, row, k, inside) == 1
+    counts = [
+        zeros_inside(system, parameters, row, k, inside)
         for k, row in enumerate(np.stack(columns, axis=1))
-    )
+    ]
+    return bool(counts) and (min(counts) > 1 if several else {*counts} == {1})
 
 
 def zeros_inside(system: Map, parameters: Arrays, row: Floats, k: int, inside: str) -> int:

@@ -29,6 +29,7 @@ from juggleproof.proofs.stability.entering import (
     within,
 )
 from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
+from juggleproof.proofs.stability.functions.energies import energy_rules
 from juggleproof.proofs.stability.functions.envelopes import envelope_rules
 from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
@@ -119,11 +120,14 @@ def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
-        for rule, signs in weighted_sum_rules(setting, space, name):
-            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
+        for rule, signs, searches in weighted_sum_rules(setting, space, name):
+            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs, searches):
                 return True
         for rule, signs in saturated_rules(setting, space, name):
             if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
+                return True
+        for rule, searches in energy_rules(setting, space, name):
+            if not tried(proof, rule, EFFORTS, BOX_BUDGET, log, searches=searches):
                 return True
         before = proof.work
         for rule in equation_rules(setting, space, name):

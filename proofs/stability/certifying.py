@@ -69,10 +69,10 @@ class Proof:
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
                 proof = None
-                if signs and name in signs:
-                    proof = proof_by_signs(premises[name], self.known, signs[name])
                 if searches and name in searches:
                     proof = searches[name](premises[name], self.known)
+                if proof is None and signs and name in signs:
+                    proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
                 proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)

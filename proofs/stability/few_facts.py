@@ -7,7 +7,8 @@ from collections.abc import Collection, Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Ring, total_degree
 from juggleproof.certificates.nodes import Node, Proof
-from juggleproof.certificates.search.closing import search_closing, sign_node
+from juggleproof.certificates.search.certificate import search_proof
+from juggleproof.certificates.search.closing import SQUARED, search_closing, sign_node
 from juggleproof.certificates.search.falls.by_products import (
     obligations_closed,
     renumbered,
@@ -117,3 +118,61 @@ def few_of(
             for powers in (False, True) if linear else (True,):
                 found[powers].setdefault(str(poly), number)
     return [list(numbers.values()) for numbers in found.values()][: 1 if terms else 2]
+
+
+def proof_by_squares(
+    premise: checker.Statement, known: dict[str, checker.Statement]
+) -> Proof | None:
+    """A proof of the premise without squares, which is the shorter one; or by the cases of
+    disjunctions, each from its facts as they are, or by sums of squares times those on the value;
+    None where none is found.
+    """
+    for effort in (1, 2):
+        try:
+            found = search_proof(premise, known, Budget(BUDGET), effort=effort)
+        except Exhausted:
+            continue
+        if found is not None:
+            return found
+    unfolding = unfolded(premise)
+    try:
+        steps = obligations_closed(unfolding, known, Budget(BUDGET))
+    except Exhausted:
+        return None
+    node = None
+    if steps is not None:
+        node = closed_by_squares(state_of(unfolding).assume(unfolding.goal(False)), known)
+    if steps is None or node is None:
+        return None
+    proof: Proof = ("proof", steps, node)
+    return proof if proves(premise, proof, known) else None
+
+
+def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node | None:
+    """A node that contradicts the facts of the state, by the cases of its disjunctions."""
+    if state.closed:
+        return ("close",)
+    ring = Ring(tuple(state.context.index))
+    value = ring.names.index("value")
+    every = list(range(len(state.facts)))
+    on_it = [k for k, (poly, _) in enumerate(state.facts) if ring.read(poly).degrees()[value]]
+    # a case that the facts contradict by themselves needs no more cases
+    tries = [(every, 1)] if state.choices else [(every, 2), (on_it, SQUARED)]
+    for numbers, effort in tries:
+        try:
+            few = with_facts(state, numbers)
+            node = search_closing(few, known, Budget(BUDGET), effort=effort, confirm=False)
+        except Exhausted:
+            continue
+        if node:
+            return renumbered(node, numbers)
+    if not state.choices:
+        return None
+    rest = state.branch()
+    nodes: list[Node] = []
+    for one in rest.choices.pop(0):
+        node = closed_by_squares(rest.branch(one), known)
+        if node is None:
+            return None
+        nodes.append(node)
+    return "cases", 0, nodes

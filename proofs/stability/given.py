@@ -45,7 +45,8 @@ LONGEST = 60  # characters of a text in a message
 @dataclass(frozen=True)
 class Map:
     """A map of states, piece by piece, with its parameters; everything is text of the statement
-    language.  `point` is what the user names as the point, if anything.
+    language.  `point` is what the user names as the point, if anything; `lines`: where each piece
+    stands in the file of the map, if there is one.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Map:
     space: str
     pieces: tuple[Piece, ...]
     point: tuple[str, ...] = ()
+    lines: tuple[int, ...] = ()
 
     def rule(self, name: str = "map") -> MapRule:
         """The map as a statement of the checker."""
@@ -364,6 +366,9 @@ def read_rows(
     for k, (keyword, text) in enumerate(rows):
         try:
             system = _with_line(system, keyword, text)
+            if numbers and keyword == "piece":
+                added = len(system.pieces) - len(system.lines)
+                system = replace(system, lines=(*system.lines, *[numbers[k]] * added))
         except ClaimError as problem:
             raise ClaimError(f"{place(k)}: {problem}") from None
         except (checker.Rejected, RecursionError):

@@ -17,8 +17,10 @@ from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import Setting, bounded_below
 from juggleproof.proofs.stability.given import (
+    Expr,
     Map,
     column,
+    conjunction,
     expression,
     holds,
     symbols,
@@ -29,6 +31,7 @@ from juggleproof.proofs.stability.samples import (
     Floats,
     Point,
     after,
+    licence,
     orbit_ends,
     strays,
     with_point_licences,
@@ -153,6 +156,8 @@ def escape_rules(
             if len(roots) < len({*setting.point.roots, *start.roots}):
                 continue  # one name for two roots
             domain = with_point_licences(setting.domain, start)
+            for divisor in divisors_along(system, start, word):
+                domain = conjunction(domain, licence(divisor, domain))
             yield MapRule(
                 name,
                 (
@@ -164,6 +169,20 @@ def escape_rules(
                     ("word", " ".join(str(k + 1) for k in word)),
                 ),
             )
+
+
+def divisors_along(system: Map, start: Point, word: Sequence[int]) -> Iterator[Expr]:
+    """What the images along the word divide by, in the parameters; of a start with a root nothing,
+    since a domain knows no roots.
+    """
+    state, here = symbols(system.state), [expression(term) for term in start.terms]
+    for k in () if start.roots else word:
+        put = dict(zip(state, here))
+        for image in system.images[k]:
+            below = sympy.fraction(sympy.together(image))[1].subs(put, simultaneous=True)
+            above = sympy.fraction(sympy.together(below))[0]
+            yield from (one for one, _ in sympy.factor_list(above)[1] if one.free_symbols)
+        here = [sympy.cancel(image.subs(put, simultaneous=True)) for image in system.images[k]]
 
 
 def _is_escape(setting: Setting, start: Point, word: Sequence[int]) -> bool:

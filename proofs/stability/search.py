@@ -4,14 +4,15 @@ which the checker takes certificates.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import compress, islice
 
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.algebraic import by_its_point, has_one_point
+from juggleproof.proofs.stability.algebraic import Renamed, by_its_point, has_one_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -112,7 +113,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         line, _, text = (proof.why() or fault).partition("\n")
         if guards != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
-        return Outcome(proof, "unknown", f"the map: {line}", [text] if text else [])
+        where = lines_named(system, line)
+        return Outcome(proof, "unknown", f"the map{where}: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     other = None if every else by_its_point(original)
     if other:
@@ -162,6 +164,10 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                 faults.append(f"{at}{name_of(fixed)} {fault}")
     if faults:
         return Outcome(proof, "refuted", "; ".join(faults), lines)
+    other = by_its_point(original, several=True) if len(every) > 1 else None
+    none_attracts = of_several(other, budget, log) if other else None
+    if none_attracts:
+        return Outcome(*none_attracts, lines)
     proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
@@ -178,6 +184,24 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                     sentence = f"{near}; of other states nothing was found"
                     return Outcome(proof, "region", sentence, lines)
     return Outcome(proof, "unknown", "", lines)
+
+
+def of_several(other: Renamed, budget: int, log: Report) -> tuple[Proof, str, str] | None:
+    """That none of several fixed points attracts another, with one of them as a parameter: a domain
+    knows no roots, and an orbit may divide by what has them.
+    """
+    system = with_licences(other.system)
+    proof = Proof(budget=budget, most=MORE_WORK * budget // BUDGET)
+    if not proof.add(system.rule(f"{system.name}/map")):
+        for fixed in fixed_points(system):
+            log(head_of(fixed))
+            fault = by_orbit(proof, setting_of(system, fixed, system.domain), log)
+            if fault:
+                (e,), old = system.point, other.parameter
+                at = where_open(system.domain, proof.domain(), system.parameters)
+                where = f"here {old} = {other.term}, where samples alone say that each {old} has"
+                return proof, "refuted", f"{at}{e} {fault}; {where} such {e}"
+    return None
 
 
 def note(lines: list[str], text: str) -> None:
@@ -209,11 +233,21 @@ def without_empty_pieces(system: Map) -> Map:
     points = region(inside, system.names, SAMPLES)
     lines = [f"forall {' '.join(system.names)}", f"given {inside}"]
     kept = [
-        piece
+        here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
         for piece, here in zip(system.pieces, system.applying(points))
-        if here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
     ]
-    return replace(system, pieces=tuple(kept))
+    pieces, places = tuple(compress(system.pieces, kept)), tuple(compress(system.lines, kept))
+    return replace(system, pieces=pieces, lines=places)
+
+
+def lines_named(system: Map, fault: str) -> str:
+    """Where the pieces stand that a premise of the map names at the end of its name; all, where it
+    names none; nothing where the map is from no file.
+    """
+    named = re.match(r"(?:apart|stays)((?:-\d+)+),", fault)
+    numbers = [int(k) - 1 for k in named[1].split("-")[1:]] if named else range(len(system.pieces))
+    rows = sorted({system.lines[k] for k in numbers}) if system.lines else []
+    return f", line{'s' * (len(rows) > 1)} {', '.join(map(str, rows))}" if rows else ""
 
 
 def without_fixed_point(system: Map) -> MapRule:

@@ -16,6 +16,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.certificates.votes.z3 import vote_and_model
+from juggleproof.proofs.claims import place_in_file
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
@@ -358,7 +359,8 @@ def test_an_overlap_and_a_gap_are_shown_with_a_state_holds(
     out = capsys.readouterr().out
     (gap,) = (line for line in out.splitlines() if "covers, " in line)
     (overlap,) = (line for line in out.splitlines() if "apart-2-1, " in line)
-    assert "mine/map is open: 2 of the 5 premises of `map`:\n" in out
+    place = place_in_file(str(path), 8)
+    assert f"mine/map is open: 2 of the 5 premises of `map` at {place}:\n" in out
     assert gap.startswith(
         "      covers, the guard of some piece holds at each state of the space: false"
     )
@@ -394,7 +396,10 @@ def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
 ) -> None:
     path = file_of(tmp_path, put(NEAR, "rate", "a/2"))
     assert certify(path) == 1
-    line = "1 of the 8 premises of `contracts`: closer-1, on the set, piece 1 multiplies"
+    place = place_in_file(str(path), 9)
+    line = (
+        f"1 of the 8 premises of `contracts` at {place}: closer-1, on the set, piece 1 multiplies"
+    )
     assert line in capsys.readouterr().out
     assert run(["explain", "mine", str(path)]) == 0
     out = capsys.readouterr().out

@@ -8,6 +8,7 @@ In reading order, each importing those before it only:
 - `norms`: polytope norms that piecewise affine maps contract.
 - `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
+- `energies`: forms that a piece conserves, over two steps.
 - `envelopes`: functions of one variable, by fractional linear involutions.
 - `part_metric`: greatest weighted distances, with the part metric.
 - `equations`: a point by its equations, and terms in the parameters.

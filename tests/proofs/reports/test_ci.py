@@ -131,9 +131,8 @@ def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, OPEN))
     assert messages(suite, "error") == {
         "open": "unknown: neither proved nor refuted; open/main is open: 1 of the 3 premises of"
-        " `map`: stays-1, piece 1 takes the space into itself: false at a = 1, x = 1/2, where"
-        " x_next <= 1"
-        " comes to 3/2 <= 1"
+        f" `map` at {tmp_path / 'mine.py'}:12: stays-1, piece 1 takes the space into itself: false"
+        " at a = 1, x = 1/2, where x_next <= 1 comes to 3/2 <= 1"
     } and not messages(suite, "failure")
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from juggleproof.proofs.stability.algebraic import Renamed, by_its_point, has_one_point
 from juggleproof.proofs.stability.given import Map, read_rows
-from juggleproof.proofs.stability.search import search_stability
+from juggleproof.proofs.stability.search import of_several, search_stability
 
 
 def relaxed(image: str, domain: str, space: str) -> Map:
@@ -53,3 +53,21 @@ def test_what_samples_alone_say_of_the_point_is_said_to_rest_on_them_holds(
     monkeypatch.setattr("juggleproof.proofs.stability.algebraic.BUDGET", 0)
     sentence = search_stability(MAPS["root"]).sentence
     assert sentence.endswith("; here a = e^3, where samples alone say that each a has one such e")
+
+
+SIGMOID = "a*x^2/(1 + x^2)"  # with two fixed points, both roots, where a > 2
+
+
+def test_of_several_points_with_roots_none_attracts_another_holds() -> None:
+    found = by_its_point(relaxed(SIGMOID, "a > 2", "x > 0"), several=True)
+    assert found is not None
+    assert (found.term, found.system.domain) == ("(e^2 + 1)/e", "e > 0 and e^2 - 2*e + 1 > 0")
+    settled = of_several(found, 2_000_000, lambda line: None)
+    assert settled is not None
+    proof, verdict, sentence = settled
+    assert (verdict, proof.rules[-1].name) == ("refuted", "relaxed/escapes")
+    assert sentence.startswith("e does not attract 1/e, which is a fixed point; here a = ")
+
+
+def test_none_attracts_another_fails_without_several_points() -> None:
+    assert by_its_point(relaxed(SIGMOID, "a > 2", "x > 1"), several=True) is None

@@ -103,16 +103,20 @@ SETTLED = {  # name: (text, exit code, first line)
         f"refuted  identity: 0 {AWAY} 1/2, which is a fixed point",
     ),
     "shift": ("state x\npiece x + 1", 1, "refuted  shift: no state of the space is a fixed point"),
-    "gap": ("state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3", 1, "unknown  gap: the map: "),
+    "gap": (
+        "state x\npiece x < 0 -> x/2\npiece x > 0 -> x/3",
+        1,
+        "unknown  gap: the map, lines 2, 3: ",
+    ),
     "overlap": (
         "state x\npiece x <= 0 -> x/2\npiece x >= 0 -> x/3",
         1,
-        "unknown  overlap: the map: ",
+        "unknown  overlap: the map, lines 2, 3: ",
     ),
     "leaving": (
         "state x\nspace 0 <= x and x <= 1\npiece x/2 + 1",
         1,
-        "unknown  leaving: the map: ",
+        "unknown  leaving: the map, line 3: ",
     ),
     "empty": (
         "over a\ndomain a > 1 and a < 0\nstate x\npiece x/2",
@@ -310,8 +314,8 @@ def test_what_is_written_of_a_file_with_any_name_is_certified_holds(
 def test_what_is_unknown_says_which_premise_with_its_text_holds(tmp_path: Path) -> None:
     done = running.run("stability", str(map_file(tmp_path, "overlap")), "-o", str(tmp_path / "out"))
     assert done.stdout.splitlines() == [
-        "unknown  overlap: the map: apart-2-1, the guards of pieces 1 and 2 do not overlap: false"
-        " at x = 0",
+        "unknown  overlap: the map, lines 2, 3: apart-2-1, the guards of pieces 1 and 2 do not"
+        " overlap: false at x = 0",
         "tried",
         "  statement overlap/map.apart-2-1",
         "  forall x",

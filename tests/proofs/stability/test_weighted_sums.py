@@ -25,6 +25,12 @@ def lozi(domain: str) -> Map:
     return read_rows("lozi", rows)
 
 
+def lozi_in_two(domain: str) -> Map:
+    """The same with b as a parameter."""
+    rows = [("over", "a b"), ("domain", f"0 < a and 0 < b and {domain}"), ("state", "x y")]
+    return read_rows("lozi", [*rows, ("piece", "1 - a*abs(x) + y, b*x")])
+
+
 def integrator(domain: str) -> Map:
     """A leaky integrator behind a comparator: it jumps at 0."""
     rows = [("over", "p u"), ("domain", domain), ("state", "x")]
@@ -41,8 +47,8 @@ def proved(system: Map) -> Proof:
     assert not found.add(system.rule(f"{system.name}/map"))
     setting = setting_of(system, points[0], system.domain)
     rules = weighted_sum_rules(setting, system.space, f"{system.name}/lyapunov")
-    for rule, signs in islice(rules, 2):
-        if not found.add(rule, (1, 2), 200_000, signs):
+    for rule, signs, searches in islice(rules, 2):
+        if not found.add(rule, (1, 2), 200_000, signs, searches):
             break
     return found
 
@@ -64,6 +70,18 @@ def test_no_statement_is_left_that_the_theorem_does_not_name_holds() -> None:
     rules = {rule.name: rule for rule in found_of_lozi().proof.rules}
     named = {text for rule in rules.values() for _, text in rule.rows}
     assert set(rules) - named == {"lozi/exactly"}
+
+
+def test_a_map_of_lozi_in_two_parameters_is_stable_where_it_contracts_holds() -> None:
+    """The loss goes to 0 at an end of the domain that is given, not found."""
+    found = proved(lozi_in_two("a + b < 1"))
+    assert set(found.known) == {"lozi/map", "lozi/lyapunov"}
+    assert found.rules[-1].rows[1] == ("domain", "0 < a and 0 < b and a + b < 1 and a - b + 1 > 0")
+    assert len(str(found.certificates)) < 25_000
+
+
+def test_a_map_of_lozi_in_two_parameters_fails_without_a_contraction() -> None:
+    assert set(proved(lozi_in_two("a + b <= 1")).known) == {"lozi/map"}
 
 
 def test_rejects_a_map_of_lozi_beyond_where_it_contracts() -> None:

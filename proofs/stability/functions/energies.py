@@ -1,0 +1,102 @@
+"""Energies that a piece conserves, for maps that are affine in pieces: forms E with E(A g) = E(g)
+for the linear part A of a piece, and g the gap to the point.
+
+Where no piece raises E, but states keep it for a step, V = E + E(f) falls by what the first of two
+steps loses, and the second; as an oscillator does whose damping saturates.
+
+Source: J. P. LaSalle, The Stability and Control of Discrete Processes (1986).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from itertools import product
+
+import numpy as np
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.certificates.search.falls.by_products import proof_by_products
+from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.few_facts import proof_by_squares
+from juggleproof.proofs.stability.functions.norms import is_affine
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.values import Setting, lyapunov_rules
+from juggleproof.proofs.stability.given import Expr, column, expression, symbols, written
+
+TRIED = 3  # statements for an energy
+
+
+def energy_rules(
+    setting: Setting, on: str, name: str
+) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+    """The statements `lyapunov` that samples do not refute, those that fit best first, each with
+    searches for the premises that V falls, and by how much at least.
+    """
+    system = setting.system
+    if setting.have or len(system.pieces) == 1 or not is_affine(system):
+        return
+    numbers = range(1, len(system.pieces) + 1)
+    falls = [f"falls-{i}-{k}" for i, k in product(numbers, numbers)]
+    searches: dict[str, Search] = dict.fromkeys(falls, proof_by_squares)
+    searches["least"] = partial(
+        proof_by_products,
+        terms=range(len(system.pieces)),
+        unknowns=(),
+        squares=[f"{one}_gap" for one in system.state],
+        signs=(),
+    )
+    for energy in energies(setting):
+        every = lyapunov_rules(setting, over_two_steps(setting, energy), on, name)
+        for _, rule in sorted(every, key=lambda one: one[0])[:TRIED]:
+            yield rule, searches
+
+
+def energies(setting: Setting) -> Iterator[Expr]:
+    """The forms in the gaps that are positive at samples, and that a piece conserves, and with it
+    no other but multiples of them.
+    """
+    state = symbols(setting.system.state)
+    seen: set[Expr] = set()
+    gaps = symbols([f"{one}_gap" for one in setting.system.state])
+    samples = setting.states.points
+    n = len(state)
+    entries = {
+        (i, j): sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for i in range(n) for j in range(n)
+    }
+    form = sympy.Matrix(n, n, lambda i, j: entries[i, j])
+    unknowns = sorted(set(entries.values()), key=str)
+    for images in setting.system.images:
+        matrix = sympy.Matrix(images).jacobian(state)
+        rows, _ = sympy.linear_eq_to_matrix(list(matrix.T * form * matrix - form), unknowns)
+        kernel = rows.nullspace()
+        if len(kernel) != 1:
+            continue
+        (vector,) = kernel
+        found = form.subs(dict(zip(unknowns, vector * sympy.ilcm(1, *_divisors(vector)))))
+        energy = sympy.expand((sympy.Matrix(gaps).T * found * sympy.Matrix(gaps))[0])
+        at = column(written(energy), samples, len(setting.states.which))
+        energy = energy if np.median(at) > 0 else -energy
+        if ((at > 0).all() or (at < 0).all()) and energy not in seen:
+            seen.add(energy)
+            yield energy
+
+
+def _divisors(vector: sympy.Matrix) -> list[Expr]:
+    """The numbers that the entries divide by."""
+    return [sympy.Rational(entry).q for entry in vector if entry.is_Rational]
+
+
+def over_two_steps(setting: Setting, energy: Expr) -> Function:
+    """The energy of a state and that of the next one, a term for each piece."""
+    system = setting.system
+    gaps = symbols([f"{one}_gap" for one in system.state])
+    point = list(map(expression, setting.point.terms))
+    here = {one: e + gap for one, e, gap in zip(symbols(system.state), point, gaps)}
+    terms = []
+    for images in system.images:
+        after = [image.subs(here, simultaneous=True) - e for image, e in zip(images, point)]
+        later = energy.subs(dict(zip(gaps, after)), simultaneous=True)
+        terms.append(written(sympy.expand(energy + later)))
+    return Function(tuple(terms), tuple(guard for guard, _ in system.pieces))
