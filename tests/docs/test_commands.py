@@ -117,6 +117,10 @@ ELSEWHERE = {
     ),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
     "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
+    "python -m juggleproof.benchmarks.engines": (
+        "tests/benchmarks/test_engines.py",
+        "engines.main([])",
+    ),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
     "python -m juggleproof.benchmarks.peers": (
         "tests/benchmarks/test_peers.py",
