@@ -150,8 +150,8 @@ def _reading(options: PartOptions) -> Reading:
     likely = chosen(recorded()).reading
     along, up = likely.phase_x, likely.phase_y
     if options.phase is not None:
-        first, _, second = options.phase.partition(",")
-        along, up = _number(first, "phase"), _number(second or first, "phase")
+        first, both, second = options.phase.partition(",")
+        along, up = _number(first, "phase"), _number(second if both else first, "phase")
     return Reading(
         _known(options.face or likely.face, "--face", FACES),
         _known(options.amplitudes or likely.amplitudes, "--amplitudes", AMPLITUDES),

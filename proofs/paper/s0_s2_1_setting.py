@@ -246,7 +246,7 @@ def read_as() -> str:
 
 def seconds(onset: float | None) -> str:
     """An onset, or that none is within the run."""
-    return "none" if onset is None else f"{onset:g}"
+    return "none" if onset is None else f"{onset:g} s"
 
 
 def spread(counts: list[int]) -> str:
@@ -263,7 +263,7 @@ def onset_of(row: Onset) -> str:
     """A row of table I: the median onset with its spread, and what the paper prints."""
     printed = "chaotic" if row["paper"] is None else f"{row['paper']:g} s"
     return (
-        f"{name_of(row)} {seconds(row['median'])} s ({seconds(row['low'])} to"
+        f"{name_of(row)} {seconds(row['median'])} ({seconds(row['low'])} to"
         f" {seconds(row['high'])}, {row['chaotic']} chaotic; printed {printed})"
     )
 

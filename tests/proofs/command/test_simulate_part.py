@@ -8,6 +8,7 @@ import csv
 import os
 import signal
 import time
+from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from itertools import count
 from multiprocessing import get_context
@@ -20,7 +21,7 @@ import pytest
 from juggleproof.proofs.command import simulate_part
 from juggleproof.proofs.command.main import run
 from juggleproof.scenes.part.onsets import PAPER, Row, discrepancies
-from juggleproof.scenes.part.readings import chosen, read, recorded
+from juggleproof.scenes.part.readings import STATED, Task, chosen, read, recorded
 from tests.proofs.command.running import Done
 
 pytest.importorskip("numba")
@@ -121,6 +122,30 @@ def test_sweep_is_recorded_and_the_most_likely_pair_told_holds(
     output = capsys.readouterr().out
     assert f"e = {best.reading.e:g}, mu = {best.reading.mu:g}, onset by the" in output
     assert f"log-likelihood {best.likelihood:.2f}; " in output
+
+
+def test_the_search_of_readings_is_written_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All three stages, each cut to two readings and 0.1 s."""
+
+    def cut(tasks: Callable[..., list[Task]], seed: int) -> Callable[..., list[Task]]:
+        return lambda *done: [Task(*task[:2], 1, seed, 0.1) for task in tasks(*done)[:2]]
+
+    for seed, name in enumerate(("screened", "neighbours", "finals")):
+        monkeypatch.setattr(simulate_part, name, cut(getattr(simulate_part, name), seed))
+    written = []
+    for jobs in "12":
+        path = tmp_path / f"{jobs}.json"
+        assert run([*SMALL, "--jobs", jobs, "--sweep", "readings", "-o", str(path)]) == 0
+        written.append(path.read_bytes())
+        stages = read(path.read_text())
+        assert [(one.seed, one.tried, len(one.points)) for one in stages] == [
+            (seed, 2, 2) for seed in range(3)
+        ]
+        assert [one.reading for one in stages[2].points] == [*STATED]
+        assert capsys.readouterr().out.count("2x4  peak") == 6
+    assert written[0] == written[1]
 
 
 def test_stored_sweep_gives_the_reading_of_the_scene_holds(
