@@ -17,7 +17,6 @@ import math
 import statistics
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from importlib.util import find_spec
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +30,12 @@ from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.onsets import jittered
 from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import JAMMING, first_slide, impulse, mode_of, strike
+
+try:  # the optional extra `peers`
+    import mujoco
+    import pymunk
+except ImportError:
+    mujoco = pymunk = None
 
 TABLE = Generated(DOCS / "benchmarks.md", "engines")
 HEADS = (
@@ -115,8 +120,6 @@ class Moving(NamedTuple):
 
 def in_pymunk(block: Scene, starts: Array, step: float) -> Moving:
     """Blocks over a still floor in pymunk; they do not meet one another."""
-    import pymunk
-
     space = pymunk.Space()
     space.collision_slop = CLEARANCE
     floor = pymunk.Poly(
@@ -165,8 +168,6 @@ def damping(e: float) -> float:
 
 def in_mujoco(block: Scene, starts: Array, step: float) -> Moving:
     """Blocks in a plane over a floor in MuJoCo; they do not meet one another."""
-    import mujoco
-
     turn = SPRING / step
     contact = (
         f'friction="{block.mu} 0 0" solref="{-(turn**2)} {-2 * damping(block.e) * turn}"'
@@ -197,8 +198,8 @@ ENGINES: dict[str, Engine] = {"pymunk": in_pymunk, "MuJoCo": in_mujoco}
 
 
 def present() -> list[str]:
-    """The engines that are installed."""
-    return [name for name in ENGINES if find_spec(name.lower())]
+    """The engines, where both are installed."""
+    return [] if mujoco is None else [*ENGINES]
 
 
 # -------------------------------------------------------------------------------------------------
