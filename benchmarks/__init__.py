@@ -10,6 +10,7 @@ it but `juggleproof bench`.
     bounds     minima of the literature, enclosed and checked
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table
+    engines    the same by pymunk and by MuJoCo: error against the impact law, and cost
     stability  the maps in examples: what is proved, and by a semidefinite program
     sine       the table that moves as a sine: growth with width, distance to the edges, processes
     feeder     drives and amplitudes that the certificates of that table hold for

@@ -187,7 +187,9 @@ def add_part(scenes: Commands) -> None:
     )
     wish = part.add_argument_group("what is computed (default: table I, beside the paper's)")
     wish.add_argument(
-        "--sweep", metavar="G", help="table I over a grid: e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
+        "--sweep",
+        metavar="G",
+        help="table I over a grid: e=FROM:TO:COUNT,mu=FROM:TO:COUNT; or over all: readings",
     )
     wish.add_argument(
         "--still",
@@ -210,19 +212,20 @@ def add_part(scenes: Commands) -> None:
     how.add_argument(
         "--face",
         metavar="F",
-        help="centimetres in the plane: 2x4, 1x2 or 1x4 (default: 2x4, inferred)",
+        help="centimetres in the plane: 2x4, 1x2 or 1x4 (default: inferred by the stored sweep)",
     )
     how.add_argument(
         "--amplitudes",
-        default="peak",
         metavar="A",
-        help="peak or peak-to-peak (default: peak, inferred)",
+        help="peak or peak-to-peak (default: inferred by the stored sweep)",
     )
     how.add_argument(
         "--phase",
-        default="0",
         metavar="D",
-        help="degrees by which the table's motion along itself leads (default: 0, given)",
+        help=(
+            "degrees at which the table's sines start, on both axes; or X,Y: along and up (default:"
+            " inferred by the stored sweep)"
+        ),
     )
     how.add_argument(
         "--launch",

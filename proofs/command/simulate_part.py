@@ -8,9 +8,11 @@ import sys
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
-from typing import BinaryIO, TypeVar
+from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
@@ -23,24 +25,33 @@ from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_rec
 from juggleproof.scenes.part.ensemble import in_words, no_vibration
 from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
-    AMPLITUDES,
-    FACES,
     PAPER,
     Interrupted,
-    Point,
     Table,
     as_csv,
-    as_json,
     as_npz,
-    chosen,
-    recorded,
-    sweep,
     table_one,
+)
+from juggleproof.scenes.part.readings import (
+    AMPLITUDES,
+    FACES,
+    Point,
+    Reading,
+    Stage,
+    Task,
+    as_json,
+    chosen,
+    finals,
+    neighbours,
+    recorded,
+    screened,
+    stage,
+    sweep,
 )
 from juggleproof.scenes.part.setting import Launch, Scene, scene
 from juggleproof.scenes.part.shape import Polygon, polygon
 
-T = TypeVar("T")
+SINES = ("A_x", "f_x", "phase_x", "A_y", "f_y", "phase_y")
 OTHERS = ("shape", "tilt", "along", "away", "drive")
 MOST_BYTES = 100_000_000  # of a file of corners or of a record
 WISHES = ("sweep", "still", "figure", "animation")
@@ -62,8 +73,8 @@ class PartOptions(argparse.Namespace):
     e: str | None
     mu: str | None
     face: str | None
-    amplitudes: str
-    phase: str
+    amplitudes: str | None
+    phase: str | None
     launch: Launch
     vibration: str
     shape: str | None
@@ -105,7 +116,7 @@ def part(options: PartOptions) -> int:
             )
     _refuse_unwritable(options, wishes[0])
     with _threads(options.jobs) as executor:
-        return DONE_BY[wishes[0]](options, _setting(options), executor)
+        return DONE_BY[wishes[0]](options, executor)
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
@@ -145,41 +156,55 @@ def _number(text: str, name: str) -> float:
         ) from None
 
 
-def _one_of(text: str, name: str, known: Mapping[str, T]) -> T:
+def _known(text: str, name: str, known: Mapping[str, object]) -> str:
     if text not in known:
         raise ClaimError(f"{name} {text[:40]!r}: choose from {', '.join(known)}")
-    return known[text]
+    return text
 
 
-def _setting(options: PartOptions) -> Scene:
-    """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
+def _reading(options: PartOptions) -> Reading:
+    """The reading of the options; what is not given is as in the most likely one that is stored."""
+    likely = chosen(recorded()).reading
+    along, up = likely.phase_x, likely.phase_y
+    if options.phase is not None:
+        first, both, second = options.phase.partition(",")
+        along, up = _number(first, "phase"), _number(second if both else first, "phase")
+    return Reading(
+        _known(options.face or likely.face, "--face", FACES),
+        _known(options.amplitudes or likely.amplitudes, "--amplitudes", AMPLITUDES),
+        along,
+        up,
+        likely.e if options.e is None else _number(options.e, "e"),
+        likely.mu if options.mu is None else _number(options.mu, "mu"),
+    )
+
+
+def _setting(options: PartOptions, reading: Reading) -> Scene:
+    """The scene of the options under a reading."""
+    frequency, amplitude = _vibration(options.vibration)
+    contact = {
+        "tolerance": _number(options.tolerance, "tolerance"),
+        "rest_speed": _number(options.rest_speed, "rest speed"),
+    }
+    plain = reading.scene(
+        options.launch, A_x=reading.peak * amplitude, f_x=frequency, **contact
+    )
     if options.shape is not None and options.face is not None:
         raise ClaimError("--face and --shape do not go together; give one of them")
-    a, b = _one_of(options.face or "2x4", "--face", FACES)
-    peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
-    stored = options.sweep is None and (options.e is None or options.mu is None)
-    pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
-    frequency, amplitude = _vibration(options.vibration)
-    drive = _drive(options, peak)
-    given: dict[str, float] = {} if options.shape is not None else {"a": a, "b": b}
-    if drive is None:
-        given |= {
-            "A_x": peak * amplitude,
-            "f_x": frequency,
-            "phase_x": math.radians(_number(options.phase, "phase")),
-            "A_y": peak * 2e-4,
-            "f_y": 60.0,
-        }
+    if all(getattr(options, name) in (None, "0") for name in OTHERS):
+        return plain
+    shape = None if options.shape is None else _shape(options.shape)
+    drive = _drive(options, reading)
     return scene(
-        **given,
-        e=pair.e if options.e is None else _number(options.e, "e"),
-        mu=pair.mu if options.mu is None else _number(options.mu, "mu"),
-        tolerance=_number(options.tolerance, "tolerance"),
-        rest_speed=_number(options.rest_speed, "rest speed"),
+        **({"a": plain.a, "b": plain.b} if shape is None else {}),
+        **({name: getattr(plain, name) for name in SINES} if drive is None else {}),
+        e=reading.e,
+        mu=reading.mu,
         launch=options.launch,
-        shape=None if options.shape is None else _shape(options.shape),
+        shape=shape,
         tilt=math.radians(_number(options.tilt, "tilt")),
         drive=drive,
+        **contact,
     )
 
 
@@ -219,8 +244,10 @@ def _read(path: Path) -> str:
         raise ClaimError(f"{path}: no text") from None
 
 
-def _drive(options: PartOptions, peak: float) -> Harmonics | Record | None:
-    """How the table moves where it is no single sine along each axis."""
+def _drive(options: PartOptions, reading: Reading) -> Harmonics | Record | None:
+    """How the table moves where it is no single sine along each axis; a harmonic without a phase
+    starts at 0, the axis that is not given as in the reading.
+    """
     if options.drive is not None:
         if options.along is not None or options.away is not None:
             raise ClaimError("--drive goes without --along and --away; give one of them")
@@ -230,8 +257,9 @@ def _drive(options: PartOptions, peak: float) -> Harmonics | Record | None:
             raise ClaimError(f"{options.drive}: {fault}") from None
     if options.along is None and options.away is None:
         return None
-    along = options.along or f"{options.vibration}:{options.phase}"
-    return harmonics(*(_sines(text, peak) for text in (along, options.away or "60:0.2")))
+    along = options.along or f"{options.vibration}:{reading.phase_x}"
+    away = options.away or f"60:0.2:{reading.phase_y}"
+    return harmonics(*(_sines(text, reading.peak) for text in (along, away)))
 
 
 def _sines(text: str, peak: float) -> list[tuple[float, float, float]]:
@@ -253,15 +281,16 @@ def _vibration(text: str) -> tuple[float, float]:
     return _number(pieces[0], "the frequency"), _number(pieces[1], "the amplitude") / 1000
 
 
-def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
-    interrupted = False
+def _table(options: PartOptions, executor: Executor | None) -> int:
+    reading, interrupted = _reading(options), False
+    setting = _setting(options, reading)
     try:
         computed = table_one(
             setting,
             ensembles=options.ensembles,
             horizon=_number(options.horizon, "horizon"),
             seed=options.seed,
-            peak=AMPLITUDES[options.amplitudes],
+            peak=reading.peak,
             executor=executor,
             report=progress(),
             check=options.check,
@@ -269,7 +298,7 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
         )
         clear()
         # before anything is printed, to a reader who may not stay
-        keep_results(setting, computed, options.amplitudes, options.seed)
+        keep_results(setting, computed, reading.amplitudes, options.seed)
     except Interrupted as stop:
         clear()
         computed, interrupted = stop.table, True
@@ -277,9 +306,7 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
             f"juggleproof: interrupted; {len(computed.rows)} of {len(PAPER)} rows are done",
             file=sys.stderr,
         )
-    part_tables.table(
-        computed, setting, options.amplitudes, options.e is None and options.mu is None
-    )
+    part_tables.table(computed, setting, reading.amplitudes)
     if options.output is not None:
         with written_aside(options.output) as file:
             _writer(options.output)(computed, file)
@@ -311,57 +338,67 @@ def _axis(text: str, name: str) -> list[float]:
     return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
 
 
-def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
+def _sweep(options: PartOptions, executor: Executor | None) -> int:
     if options.e is not None or options.mu is not None:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
+    whole = options.sweep == "readings"
+    stages: list[Stage] = []
+    wanted, interrupted = [screened(), neighbours()] if whole else [_grid(options)], False
+    print(part_tables.POINT_HEADS)
+    while wanted and not interrupted:
+        tasks, points = wanted.pop(0), list[Point]()
+
+        def report(_done: int, _of: int, points: list[Point] = points) -> None:
+            if points[-1].likelihoods:
+                print(part_tables.point(points[-1]), flush=True)
+
+        try:
+            sweep(tasks, executor, report, points)
+        except KeyboardInterrupt:
+            interrupted = True
+            print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
+        if points:
+            stages.append(stage(tasks, points))
+        if whole and len(stages) == 2:
+            wanted.append(finals([one.points for one in stages]))
+    if stages and stages[-1].points:
+        print(part_tables.likeliest(stages))
+    if options.output is not None and stages:
+        with written_aside(options.output) as file:
+            file.write(as_json(stages).encode())
+        print(f"{options.output}: {sum(len(one.points) for one in stages)} points written")
+    return 130 if interrupted else 0
+
+
+def _grid(options: PartOptions) -> list[Task]:
+    """The points of a grid of restitution and friction, all else as the options say."""
     grid = options.sweep or ""
     axes = {
         name.strip(): text for name, _, text in (piece.partition("=") for piece in grid.split(","))
     }
     if set(axes) != {"e", "mu"}:
         raise ClaimError(
-            f"--sweep {grid[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
+            f"--sweep {grid[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT, or"
+            " readings"
         )
-    horizon = _number(options.horizon, "horizon")
-    points: list[Point] = []
-
-    def report(point: Point) -> None:
-        points.append(point)
-        print(part_tables.point(point), flush=True)
-
-    print(part_tables.POINT_HEADS)
-    interrupted = False
-    try:
-        sweep(
-            setting,
-            _axis(axes["e"], "e"),
-            _axis(axes["mu"], "mu"),
-            ensembles=options.ensembles,
-            horizon=horizon,
-            seed=options.seed,
-            peak=AMPLITUDES[options.amplitudes],
-            executor=executor,
-            report=report,
-        )
-    except KeyboardInterrupt:
-        interrupted = True
-        print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
-    if points:
-        best = chosen(points)
-        print(f"least misfit: e = {best.e:g}, mu = {best.mu:g}, {best.misfit:.3f}")
-    if options.output is not None and points:
-        with written_aside(options.output) as file:
-            file.write(as_json(points, options.ensembles, horizon, options.seed).encode())
-        print(f"{options.output}: {len(points)} points written")
-    return 130 if interrupted else 0
+    plain, horizon = _reading(options), _number(options.horizon, "horizon")
+    readings = [
+        replace(plain, e=e, mu=mu)
+        for e, mu in product(_axis(axes["e"], "e"), _axis(axes["mu"], "mu"))
+    ]
+    return [
+        Task(one, _setting(options, one), options.ensembles, options.seed, horizon)
+        for one in readings
+    ]
 
 
-def _still(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
-    print(in_words(no_vibration(setting, executor)))
+def _still(options: PartOptions, executor: Executor | None) -> int:
+    print(in_words(no_vibration(_setting(options, _reading(options)), executor)))
     return 0
 
 
-def _drawn(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
+def _drawn(options: PartOptions, executor: Executor | None) -> int:
+    setting = _setting(options, _reading(options))
     if options.figure is not None:
         needed("matplotlib")
         from juggleproof.scenes.part.picture import figure_two
@@ -375,7 +412,7 @@ def _drawn(options: PartOptions, setting: Scene, executor: Executor | None) -> i
     return 0
 
 
-DONE_BY: dict[str, Callable[[PartOptions, Scene, Executor | None], int]] = {
+DONE_BY: dict[str, Callable[[PartOptions, Executor | None], int]] = {
     "table": _table,
     "sweep": _sweep,
     "still": _still,

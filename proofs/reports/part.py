@@ -22,21 +22,32 @@ from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
     ENSEMBLES,
     HORIZON,
-    Point,
     Row,
     Table,
+    discrepancies,
+)
+from juggleproof.scenes.part.readings import (
+    AMPLITUDES,
+    BANDWIDTH,
+    ONSETS,
+    SCATTER,
+    Point,
+    Stage,
+    as_good,
     assumptions,
     chosen,
-    discrepancies,
-    misfit,
+    likelihood,
     recorded,
 )
-from juggleproof.scenes.part.setting import Scene, scene
+from juggleproof.scenes.part.setting import Scene
 
 # -------------------------------------------------------------------------------------------------
 # What `juggleproof simulate part` prints.
 
-POINT_HEADS = "    e     mu   misfit   median onset of the six rows in s (chaotic ensembles)"
+POINT_HEADS = (
+    "face amplitudes    phases        e     mu   log-likelihood: last, first, stopped;"
+    "   median onset of the six rows in s (chaotic ensembles)"
+)
 
 RULES = (
     (
@@ -48,6 +59,17 @@ RULES = (
         " half of the run; a row is, if more than half are."
     ),
     "censored: ensembles that have not settled at the end of the run.",
+)
+
+LIKELIHOOD = (
+    "of the paper's one run of each row, summed over the rows: the part of ensembles that are"
+    f" chaotic, or the density of ln(onset) at the print by normal kernels of width {BANDWIDTH:g},"
+    " with one ensemble more that is spread over all"
+)
+
+RULE_NAMES = (
+    "last: the onset is the last time at which a block is upright; first: the first at which none"
+    " is; stopped: the same where the run is stopped then."
 )
 
 
@@ -76,7 +98,7 @@ def line(row: Row) -> tuple[str, ...]:
     )
 
 
-def table(computed: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
+def table(computed: Table, setting: Scene, amplitudes: str) -> None:
     """Table I beside the paper's, what it assumes, and where it differs."""
     count = len(computed.rows[0].chaotic)
     print(
@@ -91,7 +113,7 @@ def table(computed: Table, setting: Scene, amplitudes: str, swept: bool) -> None
     for rule in RULES:
         print(rule)
     print()
-    known = assumptions(setting, amplitudes, swept)
+    known = assumptions(setting, amplitudes)
     draw(
         ("assumed", "value", "", "why"),
         [(one.name, one.value, one.standing, one.why) for one in known],
@@ -102,10 +124,10 @@ def table(computed: Table, setting: Scene, amplitudes: str, swept: bool) -> None
     print("differs from the paper:" if differing else "no row differs from the paper")
     for one in differing:
         print(f"  {one}")
-    print(
-        f"misfit {misfit(computed):.3f}: the mean over rows of |ln(median/paper)|, at most 1; for a"
-        " chaotic print, the part of ensembles that are not"
-    )
+    print(f"log-likelihood {likelihood(computed.rows):.2f}: {LIKELIHOOD}")
+    print()
+    draw(("stored readings, log-likelihood", *ONSETS), followed(), _console())
+    print(RULE_NAMES)
 
 
 def violations(run: Run, setting: Scene) -> bool:
@@ -127,9 +149,43 @@ def violations(run: Run, setting: Scene) -> bool:
 def point(one: Point) -> str:
     """A point of a sweep in one line."""
     rows = "  ".join(
-        f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.medians, one.chaotic)
+        f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.last, one.chaotic)
     )
-    return f"{one.e:6.3f} {one.mu:6.3f} {one.misfit:7.3f} {rows}"
+    what = one.reading
+    return (
+        f"{what.face}  {what.amplitudes:12} {what.phase_x:4g},{what.phase_y:4g} {what.e:6.3f}"
+        f" {what.mu:6.3f}  {' '.join(f'{lnl:7.2f}' for lnl in one.likelihoods)}  {rows}"
+    )
+
+
+def likeliest(stages: Sequence[Stage]) -> str:
+    """The most likely point of a sweep, its onset, and how many are as likely within scatter."""
+    best = chosen(stages)
+    rule = ONSETS[best.likelihoods.index(best.likelihood)]
+    return (
+        f"most likely: {name_of(best)}, onset by the {rule} time, log-likelihood"
+        f" {best.likelihood:.2f}; {len(as_good(stages))} of {len(stages[-1].points)} points within"
+        f" {SCATTER:g}"
+    )
+
+
+def followed() -> list[list[str]]:
+    """The readings of the last stage that is stored, the likeliest first: name, and the logarithm
+    of the likelihood by each way to read an onset.
+    """
+    return [
+        [name_of(one), *(f"{lnl:.2f}" for lnl in one.likelihoods)]
+        for one in sorted(recorded()[-1].points, key=lambda one: -one.likelihood)
+    ]
+
+
+def name_of(one: Point) -> str:
+    """A reading in words."""
+    what = one.reading
+    return (
+        f"{what.face} cm, {what.amplitudes}, phases {what.phase_x:g} and {what.phase_y:g} degrees,"
+        f" e = {what.e:g}, mu = {what.mu:g}"
+    )
 
 
 # -------------------------------------------------------------------------------------------------
@@ -143,14 +199,15 @@ SWEEP = (
     Path(__file__).resolve().parents[2] / "scenes" / "part" / "sweep.json"
 )  # where e and mu of the scene come from
 HEADS = ("along the table", "paper", "median onset", "16 to 84 %", "chaotic", "censored")
-SEED, AMPLITUDES = 1, "peak"
+SEED = 1
 Lines = Sequence[Sequence[str]]
 
 
 @dataclass(frozen=True)
 class Results:
     """Table I and what belongs to it, in words: its rows as `HEADS` says, the rules they are judged
-    by, assumptions (name, value, standing, why).
+    by, assumptions (name, value, standing, why), the logarithm of its likelihood, and the likeliest
+    readings that are stored with theirs.
     """
 
     run: str
@@ -158,7 +215,10 @@ class Results:
     rules: Sequence[str]
     assumed: Lines
     differs: Sequence[str]
-    misfit: str
+    likelihood: str
+    meaning: str
+    readings: Lines
+    names: str
     still: str
     figure: Mapping[
         str, str
@@ -166,17 +226,16 @@ class Results:
 
 
 def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
-    """Whether a run of table I is the one that the report shows: nothing chosen, (e, mu) of the
-    stored sweep, full ensembles.
+    """Whether a run of table I is the one that the report shows: nothing chosen, the most
+    likely reading that is stored, full ensembles.
     """
     try:
-        pair = chosen(recorded())
+        likely = chosen(recorded()).reading
     except SceneError:  # no sweep is stored, or none that can be read
         return False
-    wanted = scene(
-        e=pair.e, mu=pair.mu, A_x=setting.A_x, f_x=setting.f_x
-    )  # table I has its own vibrations along the table
-    return (setting, amplitudes, seed) == (wanted, AMPLITUDES, SEED) and all(
+    # table I has its own vibrations along the table
+    wanted = likely.scene(A_x=setting.A_x, f_x=setting.f_x)
+    return (setting, amplitudes, seed) == (wanted, likely.amplitudes, SEED) and all(
         (len(row.chaotic), row.horizon) == (ENSEMBLES, HORIZON) for row in computed.rows
     )
 
@@ -188,24 +247,24 @@ def results(setting: Scene, computed: Table, amplitudes: str) -> Results:
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
         [[*line(row)] for row in computed.rows],
         [*RULES],
-        [
-            [one.name, one.value, one.standing, one.why]
-            for one in assumptions(setting, amplitudes, True)
-        ],
+        [[one.name, one.value, one.standing, one.why] for one in assumptions(setting, amplitudes)],
         discrepancies(computed.rows),
-        f"{misfit(computed):.3f}",
+        f"{likelihood(computed.rows):.2f}",
+        LIKELIHOOD,
+        followed(),
+        RULE_NAMES,
         in_words(no_vibration(setting)),
-        figure_two(setting),
+        figure_two(setting, AMPLITUDES[amplitudes]),
     )
 
 
-def figure_two(setting: Scene) -> dict[str, str]:
+def figure_two(setting: Scene, peak: float) -> dict[str, str]:
     """Figure 2 with what stands beside it; nothing where matplotlib is absent."""
     if find_spec("matplotlib") is None:
         return {}
     from juggleproof.scenes.part import picture
 
-    shaken = picture.as_in_figure_two(setting)
+    shaken = picture.as_in_figure_two(setting, peak)
     seen = frames(shaken, ANGLES, picture.TIMES)
     return {
         "slug": picture.SLUG,

@@ -2,15 +2,15 @@
 
     python -m juggleproof.proofs.simulations.compute    computes the figures anew, and writes them
 
-The part of section 2.1 has the e and mu of the stored sweep; its orbits are chaotic, so that
-another processor gives other figures within their scatter.  Orbits of the juggler are exact.
+The part of section 2.1 has the most likely reading of the stored sweep; its orbits are chaotic, so
+that another processor gives other figures within their scatter.  Orbits of the juggler are exact.
 """
 
 from __future__ import annotations
 
 import json
 from fractions import Fraction
-from math import ceil, floor, sqrt
+from math import ceil, floor, isinf, sqrt
 from operator import ne
 from statistics import median
 
@@ -22,6 +22,7 @@ from juggleproof.proofs.simulations.figures import (
     Entry,
     Figures,
     Frame,
+    Given,
     Onset,
     Still,
 )
@@ -35,12 +36,11 @@ from juggleproof.scenes.part.onsets import (
     ENSEMBLES,
     PAPER,
     Table,
-    chosen,
     jittered,
-    recorded,
     table_one,
 )
-from juggleproof.scenes.part.setting import Scene, changed, scene
+from juggleproof.scenes.part.readings import Reading, chosen, recorded
+from juggleproof.scenes.part.setting import Scene
 from juggleproof.symbolic import delta_E_sup
 from juggleproof.symbolic.algebra import alpha as restitution
 from juggleproof.symbolic.algebra import r
@@ -62,9 +62,9 @@ def still_table(setting: Scene) -> Still:
     )
 
 
-def figure_two(setting: Scene, ensembles: int = ENSEMBLES) -> Frame:
+def figure_two(reading: Reading, ensembles: int = ENSEMBLES) -> Frame:
     """Figure 2: the table moves along itself by 1 mm at 30 Hz."""
-    shaken = changed(setting, f_x=30.0, A_x=1e-3)
+    shaken = reading.scene(f_x=30.0, A_x=reading.peak * 1e-3)
     states = frames(shaken, jittered(ensembles, SEED).ravel(), [EARLY, LATE])
     early, late = (
         [[floor(turns + 0.5) % 2 == 0 for turns in one] for one in at]
@@ -77,6 +77,11 @@ def figure_two(setting: Scene, ensembles: int = ENSEMBLES) -> Frame:
     )
 
 
+def settled(onset: float) -> float | None:
+    """An onset, None where it is not within the run."""
+    return None if isinf(onset) else round(onset, 2)
+
+
 def onsets(computed: Table) -> list[Onset]:
     """The rows of table I."""
     notes = computed.run.notes.reshape(len(PAPER), -1, body.NOTES)
@@ -85,9 +90,9 @@ def onsets(computed: Table) -> list[Onset]:
             frequency=row.frequency,
             amplitude=1000 * row.amplitude,
             paper=row.paper,
-            median=round(row.quantile(0.5), 2),
-            low=round(row.quantile(0.16), 2),
-            high=round(row.quantile(0.84), 2),
+            median=settled(row.quantile(0.5)),
+            low=settled(row.quantile(0.16)),
+            high=settled(row.quantile(0.84)),
             chaotic=sum(row.chaotic),
             censored=row.censored(),
             rises=int(notes[k, :, body.RISES].sum()),
@@ -126,16 +131,22 @@ def time_to_region(alpha: Fraction, starts: int = STARTS) -> Entry:
 
 def compute() -> Figures:
     """All figures, in about a minute.  SceneError without numba, the extra `part`."""
-    pair = chosen(recorded())
-    setting = scene(e=pair.e, mu=pair.mu)
+    reading = chosen(recorded()).reading
+    setting = reading.scene()
     return Figures(
         seed=SEED,
         ensembles=ENSEMBLES,
-        e=pair.e,
-        mu=pair.mu,
+        reading=Given(
+            face=reading.face,
+            amplitudes=reading.amplitudes,
+            phase_x=reading.phase_x,
+            phase_y=reading.phase_y,
+            e=reading.e,
+            mu=reading.mu,
+        ),
         still=still_table(setting),
-        frame=figure_two(setting),
-        table=onsets(table_one(setting, seed=SEED)),
+        frame=figure_two(reading),
+        table=onsets(table_one(setting, seed=SEED, peak=reading.peak)),
         region=[time_to_region(alpha) for alpha in ALPHAS],
     )
 

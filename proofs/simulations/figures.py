@@ -37,16 +37,17 @@ class Frame(TypedDict):
 
 class Onset(TypedDict):
     """A row of table I: vibration in Hz and mm, the paper's onset in seconds or None, the median
-    and the 16 and 84 percent of ours, how many ensembles are chaotic, how many have not settled at
-    the end, and how often a block rises from lying in the second half of the runs.
+    and the 16 and 84 percent of ours, None where they are chaotic or later than the run, how many
+    ensembles are chaotic, how many have not settled at the end, and how often a block rises from
+    lying in the second half of the runs.
     """
 
     frequency: float
     amplitude: float
     paper: float | None
-    median: float
-    low: float
-    high: float
+    median: float | None
+    low: float | None
+    high: float | None
     chaotic: int
     censored: int
     rises: int
@@ -61,13 +62,25 @@ class Entry(TypedDict):
     greatest: float
 
 
+class Given(TypedDict):
+    """The reading of table I: the face in the plane, what an amplitude is, the phases in degrees,
+    restitution and friction.
+    """
+
+    face: str
+    amplitudes: str
+    phase_x: float
+    phase_y: float
+    e: float
+    mu: float
+
+
 class Figures(TypedDict):
     """All that is kept."""
 
     seed: int
     ensembles: int
-    e: float
-    mu: float
+    reading: Given
     still: Still
     frame: Frame
     table: list[Onset]

@@ -14,7 +14,8 @@ In reading order:
     rest       lasting contact: on a face, or on a corner
     motion     the orbit of one block
     ensemble   many blocks
-    onsets     table I and sweeps
+    onsets     table I
+    readings   what it leaves open, and how likely its prints are
     layout     how blocks are laid out in a picture
     picture    figure 2
     animation  the same in motion, as one HTML file
@@ -31,6 +32,7 @@ NAMES = {
     "..errors": "SceneError",
     ".setting": "Scene scene standing moving",
     ".ensemble": "Run run fresh_notes",
-    ".onsets": "Row Table table_one Point chosen misfit recorded sweep",
+    ".onsets": "Row Table table_one",
+    ".readings": "Point Reading chosen likelihood recorded sweep",
 }
 __all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

@@ -1,19 +1,14 @@
-"""Table I of the paper and sweeps over restitution and friction, what is inferred from them, and
-their files.
-"""
+"""Table I of the paper over jittered ensembles, and its files."""
 
 from __future__ import annotations
 
 import csv
 import io
-import json
-import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass
-from functools import cache
+from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO, Literal
+from typing import BinaryIO
 
 import numpy as np
 
@@ -185,227 +180,7 @@ def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: 
 
 
 # -------------------------------------------------------------------------------------------------
-# Sweeps.
-#
-# Table I over a grid of restitution and friction, which the paper does not give; and the choice of
-# one pair for all rows, by a stated rule.
-
-RECORD = Path(__file__).with_name("sweep.json")
-WORST = 1.0  # of a row: as if its onset were off by a factor e
-MOST_POINTS = 10_000
-# misfits that differ by less are not distinguished: two sweeps of 16 ensembles that differ in
-# rounding alone differ by up to 0.12
-SCATTER = 0.1
-
-
-@dataclass(frozen=True)
-class Point:
-    """Table I at one (e, mu): each row's median onset in seconds, None where it is censored or
-    chaotic; the chaotic parts; and the misfit.
-    """
-
-    e: float
-    mu: float
-    medians: tuple[float | None, ...]
-    chaotic: tuple[int, ...]
-    misfit: float
-
-
-def misfit(table: Table) -> float:
-    """How far a table is from the paper's: the mean over its rows of |ln(median/paper)|, at most 1.
-
-    A row that the paper calls chaotic counts the part of its ensembles that are not.
-    """
-    return sum(
-        _row_misfit(row.paper, row.quantile(0.5), sum(row.chaotic) / len(row.chaotic))
-        for row in table.rows
-    ) / len(table.rows)
-
-
-def _row_misfit(paper: float | None, median: float, chaotic: float) -> float:
-    if paper is None:
-        return 1 - chaotic
-    return min(WORST, abs(math.log(median / paper))) if 0 < median < math.inf else WORST
-
-
-def sweep(
-    setting: Scene,
-    es: Sequence[float],
-    mus: Sequence[float],
-    *,
-    ensembles: int,
-    horizon: float,
-    seed: int,
-    peak: float = 1.0,
-    executor: Executor | None = None,
-    report: Callable[[Point], None] | None = None,
-) -> list[Point]:
-    """Table I at every pair of the grid, in its order; `report` is called with each point as it is
-    done; SceneError for an empty or too large grid.
-    """
-    if not 0 < len(es) * len(mus) <= MOST_POINTS:
-        raise SceneError(f"a sweep of {len(es)} by {len(mus)} points is outside 1 .. {MOST_POINTS}")
-    points = []
-    for e in es:
-        for mu in mus:
-            table = table_one(
-                changed(setting, e=e, mu=mu),
-                ensembles=ensembles,
-                horizon=horizon,
-                seed=seed,
-                peak=peak,
-                executor=executor,
-            )
-            medians = [row.quantile(0.5) for row in table.rows]
-            points.append(
-                Point(
-                    e,
-                    mu,
-                    tuple(None if math.isinf(m) else round(m, 6) for m in medians),
-                    tuple(sum(row.chaotic) for row in table.rows),
-                    round(misfit(table), 6),
-                )
-            )
-            if report:
-                report(points[-1])
-    return points
-
-
-def chosen(points: Sequence[Point]) -> Point:
-    """The pair with the least misfit; the first of the grid where several have it.
-
-    >>> chosen([Point(0.5, 0.1, (), (), 0.9), Point(0.7, 0.1, (), (), 0.2)]).e
-    0.7
-    """
-    return min(points, key=lambda point: point.misfit)
-
-
-def as_good(points: Sequence[Point]) -> list[Point]:
-    """The pairs whose misfit is within `SCATTER` of the least.
-
-    >>> pairs = [(0.5, 0.9), (0.7, 0.2), (0.8, 0.25)]
-    >>> len(as_good([Point(e, 0.1, (), (), misfit) for e, misfit in pairs]))
-    2
-    """
-    most = chosen(points).misfit + SCATTER
-    return [point for point in points if point.misfit <= most]
-
-
-def as_json(points: Sequence[Point], ensembles: int, horizon: float, seed: int) -> str:
-    """A record of a sweep."""
-    return (
-        json.dumps(
-            {
-                "ensembles": ensembles,
-                "horizon": horizon,
-                "seed": seed,
-                "points": [asdict(point) for point in points],
-            },
-            indent=1,
-        )
-        + "\n"
-    )
-
-
-@cache
-def recorded() -> tuple[Point, ...]:
-    """The sweep that is stored beside this file; (e, mu) of the scene come from it.
-
-    >>> min(point.misfit for point in recorded()) == chosen(recorded()).misfit
-    True
-    """
-    try:
-        points = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
-        return tuple(
-            Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"])
-            for p in points
-        )
-    except (OSError, ValueError, KeyError, TypeError) as fault:
-        raise SceneError(
-            f"{RECORD.name}: the stored sweep cannot be read ({fault}); give --e and --mu, or write"
-            " it anew by a sweep"
-        ) from None
-
-
-# -------------------------------------------------------------------------------------------------
-# Assumptions.
-#
-# What the paper gives of its simulation, what is inferred and what is chosen here; and where the
-# results differ.
-
-Standing = Literal["given", "inferred", "chosen"]
-# half sides in metres of the block's face in the plane
-FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}
-AMPLITUDES = {"peak": 1.0, "peak-to-peak": 0.5}
-
-
-@dataclass(frozen=True)
-class Assumption:
-    """One entry: what it is about, its value in this run, where it comes from, and why."""
-
-    name: str
-    value: str
-    standing: Standing
-    why: str
-
-
-def assumptions(setting: Scene, amplitudes: str, swept: bool) -> list[Assumption]:
-    """All that a run of table I assumes; `swept` where e and mu are those of the stored sweep."""
-    origin = "an option of this run"
-    if swept:
-        origin = (
-            "the least misfit of the stored sweep, made before, with another seed;"
-            f" {len(as_good(recorded()))} of its {len(recorded())} pairs are as good within scatter"
-        )
-    pair: Standing = "inferred" if swept else "chosen"
-    phase = math.degrees(setting.phase_x - setting.phase_y)
-    in_phase: Standing = "given" if phase == 0 else "chosen"
-    return [
-        Assumption("block", "1 x 2 x 4 cm, in a vertical plane", "given", "section 2.1"),
-        Assumption(
-            "face in the plane",
-            f"{200 * setting.a:g} x {200 * setting.b:g} cm",
-            "inferred",
-            "sides of 1 : 2, for the still table parts 26 from 27 degrees; 2 x 4 or 1 x 2 cm",
-        ),
-        Assumption("restitution e", f"{setting.e:g}", pair, origin),
-        Assumption("friction mu", f"{setting.mu:g}", pair, origin),
-        Assumption(
-            "vertical vibration",
-            f"{1000 * setting.A_y:g} mm at {setting.f_y:g} Hz, a sine",
-            "given",
-            "table I",
-        ),
-        Assumption("amplitudes", amplitudes, "inferred", "the paper says magnitude"),
-        Assumption(
-            "phase along the table",
-            f"{phase:g} degrees",
-            in_phase,
-            "in phase, figure 2; taken for table I too" if phase == 0 else "an option of this run",
-        ),
-        Assumption(
-            "starts", "0 to 90 degrees by 1, lowest corner on the table", "given", "section 2.1"
-        ),
-        Assumption(
-            "first speed",
-            {"rest": "at rest", "table": "as fast as the table"}[setting.launch],
-            "inferred",
-            "not told; the sine starts at full speed",
-        ),
-        Assumption(
-            "jitter",
-            f"at most {JITTER:g} degrees of each start and of each ensemble's phase",
-            "chosen",
-            "onsets scatter: only ensembles mean anything; who lies forgets its start, no phase",
-        ),
-        Assumption(
-            "impact",
-            "five modes, restitution by Poisson",
-            "inferred",
-            "the paper names Routh, and Wang and Mason; derived anew",
-        ),
-        Assumption("gravity", f"{setting.g:g} m/s^2", "chosen", ""),
-    ]
+# Where the rows differ from the paper's.
 
 
 def discrepancies(rows: tuple[Row, ...]) -> list[str]:
@@ -432,7 +207,7 @@ def discrepancies(rows: tuple[Row, ...]) -> list[str]:
 # -------------------------------------------------------------------------------------------------
 # Files.
 #
-# Table I and sweeps as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
+# Table I as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
 # from run to run.
 
 HEADS = ("f_x [Hz]", "A_x [m]", "paper [s]", "ensemble", "onset [s]", "chaotic", "censored")

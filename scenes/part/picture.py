@@ -52,9 +52,11 @@ def as_svg(figure: Figure) -> bytes:
 FORMS = {"svg": as_svg, "pdf": pdf}
 
 
-def as_in_figure_two(setting: Scene) -> Scene:
-    """The scene with the vibration along the table of the paper's figure 2: 30 Hz and 1 mm."""
-    return replace(setting, f_x=FREQUENCY, A_x=AMPLITUDE)
+def as_in_figure_two(setting: Scene, peak: float = 1.0) -> Scene:
+    """The scene with the vibration along the table of the paper's figure 2: 30 Hz and 1 mm, of
+    which the part `peak` is the amplitude.
+    """
+    return replace(setting, f_x=FREQUENCY, A_x=peak * AMPLITUDE)
 
 
 def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:

@@ -37,7 +37,7 @@ SMALLER = {
     "juggleproof simulate juggler --alpha 3/10 --random": "--random 1000",
     "juggleproof simulate juggler --picture basin": "--grid x=0:1:20,w=0:4:20",
     "juggleproof simulate juggler --picture bifurcation": "--alpha 1/5:3/5:5",
-    "juggleproof simulate part --sweep": "--ensembles 1 --horizon 0.05",
+    "juggleproof simulate part --sweep": "--ensembles 1 --horizon 0.1",
     "juggleproof simulate part --figure": "--horizon 0.05",
     "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
@@ -117,6 +117,14 @@ ELSEWHERE = {
     ),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
     "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
+    "juggleproof simulate part --sweep readings -o scenes/part/sweep.json": (
+        "tests/proofs/command/test_simulate_part.py",
+        '"--sweep", "readings", "-o", str(path)',
+    ),
+    "python -m juggleproof.benchmarks.engines": (
+        "tests/benchmarks/test_engines.py",
+        "engines.main([])",
+    ),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
     "python -m juggleproof.benchmarks.peers": (
         "tests/benchmarks/test_peers.py",
@@ -223,8 +231,6 @@ def test_a_command_that_is_shown_runs(
     if " lozi/" in command:
         shutil.copytree(lozi, tmp_path / "lozi")
     less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
-    if " -o scenes/" in command:
-        (tmp_path / "scenes/part").mkdir(parents=True)
     done = run(f"{command} {less}", page)
     assert done.returncode == 0, done.stdout + done.stderr
 

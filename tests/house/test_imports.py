@@ -47,6 +47,8 @@ FOREIGN = {
         "cvxpy",
         "scipy",
         "matplotlib",
+        "mujoco",
+        "pymunk",
         "rich",
     },
 }

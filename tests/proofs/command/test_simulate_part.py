@@ -5,10 +5,10 @@ be carried out.
 from __future__ import annotations
 
 import csv
-import json
 import os
 import signal
 import time
+from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from itertools import count
 from multiprocessing import get_context
@@ -20,11 +20,13 @@ import pytest
 
 from juggleproof.proofs.command import simulate_part
 from juggleproof.proofs.command.main import run
-from juggleproof.scenes.part.onsets import PAPER, Row, chosen, discrepancies, recorded
+from juggleproof.scenes.part.onsets import PAPER, Row, discrepancies
+from juggleproof.scenes.part.readings import STATED, Task, chosen, read, recorded
 from tests.proofs.command.running import Done
 
 pytest.importorskip("numba")
 SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
+SWEPT = [*SMALL, "--horizon", "0.1"]
 
 FIGURE = ["--figure", "f.svg"]
 
@@ -46,7 +48,10 @@ BAD = [
     (["--vibration", "30"], "--vibration '30' is not HERTZ:MILLIMETRES"),
     (["--vibration", "-3:1"], "f_x = -3 is below 0"),
     (["--jobs", "0"], "--jobs 0 is outside 1 .. 1024"),
+    (["--phase", "90,"], "phase = '' is no number"),
+    (["--phase", "0,north"], "phase = 'north' is no number"),
     (["--sweep", "e=0:1:2"], "has not e and mu"),
+    (["--sweep", "e=0:1:2,mu=0:0:1"], "horizon = 0.05 s is below 0.1 s"),
     (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
     (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
     (
@@ -149,34 +154,74 @@ def test_table_is_told_with_what_it_assumes_holds(
     )
 
 
-def test_sweep_is_recorded_and_the_pair_with_the_least_misfit_told_holds(
+def test_sweep_is_recorded_and_the_most_likely_pair_told_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "sweep.json"
-    assert run([*SMALL, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path)]) == 0
-    record = json.loads(path.read_text())
-    assert [(p["e"], p["mu"]) for p in record["points"]] == [
+    assert run([*SWEPT, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path)]) == 0
+    (record,) = read(path.read_text())
+    assert [(point.reading.e, point.reading.mu) for point in record.points] == [
         (0.6, 0.0),
         (0.6, 0.5),
         (0.8, 0.0),
         (0.8, 0.5),
     ]
-    assert record["ensembles"] == 2 and record["horizon"] == 0.05
-    best = min(record["points"], key=lambda point: point["misfit"])
-    assert (
-        f"least misfit: e = {best['e']:g}, mu = {best['mu']:g}, {best['misfit']:.3f}"
-        in capsys.readouterr().out
-    )
+    assert (record.ensembles, record.seed, record.horizon) == (2, 1, 0.1)
+    best = max(record.points, key=lambda point: point.likelihood)
+    output = capsys.readouterr().out
+    assert f"e = {best.reading.e:g}, mu = {best.reading.mu:g}, onset by the" in output
+    assert f"log-likelihood {best.likelihood:.2f}; " in output
 
 
-def test_stored_sweep_gives_the_pair_of_the_scene_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    best = chosen(recorded())
-    assert all(best.misfit <= point.misfit for point in recorded()) and len(recorded()) > 50
+def test_the_search_of_readings_is_written_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All three stages, each cut to two readings and 0.1 s."""
+
+    def cut(tasks: Callable[..., list[Task]], seed: int) -> Callable[..., list[Task]]:
+        return lambda *done: [Task(*task[:2], 1, seed, 0.1) for task in tasks(*done)[:2]]
+
+    for seed, name in enumerate(("screened", "neighbours", "finals")):
+        monkeypatch.setattr(simulate_part, name, cut(getattr(simulate_part, name), seed))
+    written = []
+    for jobs in "12":
+        path = tmp_path / f"{jobs}.json"
+        assert run([*SMALL, "--jobs", jobs, "--sweep", "readings", "-o", str(path)]) == 0
+        written.append(path.read_bytes())
+        stages = read(path.read_text())
+        assert [(one.seed, one.tried, len(one.points)) for one in stages] == [
+            (seed, 2, 2) for seed in range(3)
+        ]
+        assert [one.reading for one in stages[2].points] == [*STATED]
+        assert capsys.readouterr().out.count("2x4  peak") == 6
+    assert written[0] == written[1]
+
+
+def test_stored_sweep_gives_the_reading_of_the_scene_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    best = chosen(recorded()).reading
     assert run([*SMALL, "--ensembles", "1"]) == 0
     output = capsys.readouterr().out
     output = " ".join(output.split())
-    for name, value in (("restitution e", best.e), ("friction mu", best.mu)):
-        assert f"{name} {value:g} inferred the least misfit of the stored sweep" in output
+    for name, value in (
+        ("restitution e", f"{best.e:g}"),
+        ("friction mu", f"{best.mu:g}"),
+        ("amplitudes", best.amplitudes),
+        ("phases at the start", f"{best.phase_x:g} along, {best.phase_y:g} up, in degrees"),
+    ):
+        assert f"{name} {value} inferred the most likely reading of the stored search" in output
+
+
+@pytest.mark.parametrize(
+    ("phase", "told"), [("90", "90 along, 90 up"), ("-90,0", "-90 along, 0 up")]
+)
+def test_phase_turns_both_axes_holds(
+    phase: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run([*SMALL, "--ensembles", "1", f"--phase={phase}"]) == 0
+    output = " ".join(capsys.readouterr().out.split())
+    assert f"phases at the start {told}, in degrees chosen an option of this run" in output
 
 
 def row(paper: float | None, onsets: list[float], chaotic: tuple[bool, ...]) -> Row:
@@ -283,8 +328,10 @@ def test_an_interrupt_before_the_first_row_writes_nothing_holds(tmp_path: Path) 
 
 def test_an_interrupted_sweep_keeps_the_points_that_are_done_holds(tmp_path: Path) -> None:
     path = tmp_path / "sweep.json"
-    done = interrupted(tmp_path, 3, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path))
+    grid = ["--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "--horizon", "0.1"]
+    done = interrupted(tmp_path, 3, *grid, "-o", str(path))
     assert done.returncode == 130
     assert done.stderr == "juggleproof: interrupted; 3 points are done\n"
-    assert f"{path}: 3 points written" in done.stdout and "least misfit" in done.stdout
-    assert [point["mu"] for point in json.loads(path.read_text())["points"]] == [0.0, 0.5, 0.0]
+    assert f"{path}: 3 points written" in done.stdout and "most likely" in done.stdout
+    (record,) = read(path.read_text())
+    assert [point.reading.mu for point in record.points] == [0.0, 0.5, 0.0]

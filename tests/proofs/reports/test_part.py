@@ -28,11 +28,14 @@ MADE = Results(
     [["15 Hz 2 mm", "4 s", "3.60 s", "3.10 to 4.20", "0", "1"]],
     ["a rule"],
     [
-        ["friction mu", "0.08", "inferred", "the least misfit"],
+        ["friction mu", "0.08", "inferred", "the most likely"],
         ["block", "1 x 2 x 4 cm", "given", "section 2.1"],
     ],
     ["15 Hz 4 mm: chaotic in the paper, 0 of 2 ensembles are chaotic here"],
-    "0.200",
+    "-1.39",
+    "of the paper's one run of each row",
+    [["2x4 cm, peak, phases 0 and 0 degrees, e = 0.7, mu = 0.08", "-4.02", "-3.91", "-3.89"]],
+    "last: a rule",
     "Without vibration 27 blocks end upright.",
     {
         "slug": "fig-2",
@@ -64,7 +67,8 @@ def words(element: Element) -> str:
 
 def test_results_stand_beside_the_papers_holds() -> None:
     section = section_of(MADE)
-    table, assumed = section.all("table")
+    table, fits, assumed = section.all("table")
+    assert [one.text() for one in list(fits.all("tr"))[1].all("th", "td")] == [*MADE.readings[0]]
     assert [one.text() for one in table.all("th")][: len(HEADS)] == [*HEADS]
     cells = [one.text() for one in table.all("tr", "th", "td") if one.tag != "tr"][len(HEADS) :]
     assert cells == [*MADE.rows[0]]
@@ -75,7 +79,9 @@ def test_results_stand_beside_the_papers_holds() -> None:
         MADE.run,
         MADE.rules[0],
         MADE.differs[0],
-        MADE.misfit,
+        MADE.likelihood,
+        MADE.meaning,
+        MADE.names,
         MADE.still,
         MADE.figure["caption"],
     ):
@@ -163,12 +169,15 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     from juggleproof.scenes.part import scene
 
     onsets = import_module("juggleproof.scenes.part.onsets")
+    readings = import_module("juggleproof.scenes.part.readings")
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
-    monkeypatch.setattr(
-        part,
-        "recorded",
-        lambda: (onsets.Point(0.7, 0.08, (), (), 0.1), onsets.Point(0.5, 0.08, (), (), 0.3)),
+    points = tuple(
+        readings.Point(readings.Reading("2x4", "peak", 0, 0, e, 0.08), (), (), (), (lnl,) * 3, 1)
+        for e, lnl in ((0.7, -1.0), (0.5, -3.0))
     )
+    stored = (readings.Stage(2, 0, 0.5, 2, 2, points),)
+    for module in (part, readings):
+        monkeypatch.setattr(module, "recorded", lambda: stored)
     setting = scene(e=0.7, mu=0.08, A_x=1e-3, f_x=30.0)
     found = onsets.table_one(setting, ensembles=2, horizon=0.5)
     assert not part.keep_results(setting, found, "peak", 1) and kept_results() is None
