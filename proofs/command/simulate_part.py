@@ -1,4 +1,4 @@
-"""`juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation."""
+"""`juggleproof simulate part`: table I, its sweep, the still table, figure 2, its animation."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ import sys
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
-from fractions import Fraction
 from pathlib import Path
 from typing import BinaryIO, TypeVar
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import simulate_feeder as feeder
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.command.simulate_feeder import axis as _axis
+from juggleproof.proofs.command.simulate_feeder import number as _number
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports import part as part_tables
 from juggleproof.proofs.reports.part import keep_results
@@ -38,7 +40,7 @@ from juggleproof.scenes.part.onsets import (
 from juggleproof.scenes.part.setting import Launch, Scene, scene
 
 T = TypeVar("T")
-WISHES = ("sweep", "still", "figure", "animation")
+WISHES = ("clear", "trajectory", "orientation", "sweep", "still", "figure", "animation")
 SUFFIXES = {
     "figure": (".svg", ".pdf"),
     "animation": (".html",),
@@ -47,29 +49,22 @@ SUFFIXES = {
 }
 
 
-class PartOptions(argparse.Namespace):
+class PartOptions(feeder.FeederOptions):
     """What `juggleproof simulate part` takes."""
 
-    sweep: str | None
     still: bool
     figure: Path | None
     animation: Path | None
     e: str | None
     mu: str | None
     face: str
-    amplitudes: str
     phase: str
     launch: Launch
     vibration: str
-    ensembles: int
-    horizon: str
-    seed: int
     tolerance: str
     rest_speed: str
     jobs: int | None
-    check: bool
     keep: Path | None
-    output: Path | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -82,14 +77,26 @@ def part(options: PartOptions) -> int:
     interrupted.
     """
     needed("numba", "scene", "part")
-    wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
+    wishes = [name for name in WISHES if getattr(options, name) not in (None, False)] or ["table"]
+    if wishes[:2] == ["clear", "sweep"]:
+        wishes.remove("sweep")  # of the drive
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
     if options.keep is not None and wishes[0] != "table":
         raise ClaimError(f"--keep {options.keep} goes with table I")
-    _refuse_unwritable(options, wishes[0])
+    wish = "map" if wishes == ["sweep"] and not _of_table_one(options) else wishes[0]
+    feeder.refuse_left_out(options, wish)
+    if wish in feeder.DONE_BY:
+        feeder.refuse_unwritable(options.output)
+    else:
+        _refuse_unwritable(options, wish)
     with _threads(options.jobs) as executor:
-        return DONE_BY[wishes[0]](options, _setting(options), executor)
+        return (DONE_BY | feeder.DONE_BY)[wish](options, _setting(options), executor)
+
+
+def _of_table_one(options: PartOptions) -> bool:
+    """Whether a sweep is of table I: over e and mu, which all of its rows have in common."""
+    return options.sweep is not None and set(feeder.axes(options.sweep)) == {"e", "mu"}
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
@@ -119,16 +126,6 @@ def _refuse_unwritable(options: PartOptions, wish: str) -> None:
         raise ClaimError(f"{path}: {fault}; name another file")
 
 
-def _number(text: str, name: str) -> float:
-    """A number of physics, such as 0.7, 1e-3 or 2/3."""
-    try:
-        return float(Fraction(text)) if len(text) <= 60 else math.nan
-    except (ValueError, ZeroDivisionError, OverflowError):
-        raise ClaimError(
-            f"{name} = {text[:40]!r} is no number; write it as 0.7, 1e-3 or 2/3"
-        ) from None
-
-
 def _one_of(text: str, name: str, known: Mapping[str, T]) -> T:
     if text not in known:
         raise ClaimError(f"{name} {text[:40]!r}: choose from {', '.join(known)}")
@@ -139,7 +136,7 @@ def _setting(options: PartOptions) -> Scene:
     """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
     a, b = _one_of(options.face, "--face", FACES)
     peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
-    stored = options.sweep is None and (options.e is None or options.mu is None)
+    stored = not _of_table_one(options) and (options.e is None or options.mu is None)
     pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
     frequency, amplitude = _vibration(options.vibration)
     return scene(
@@ -206,34 +203,10 @@ def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
     return as_csv if path.suffix == ".csv" else as_npz
 
 
-def _axis(text: str, name: str) -> list[float]:
-    """The numbers of FROM:TO:COUNT, rounded to ten digits."""
-    pieces = text.split(":")
-    if len(pieces) != 3:
-        raise ClaimError(f"--sweep {name}: {text[:40]!r} is not FROM:TO:COUNT")
-    low, high, count = (
-        _number(pieces[0], name),
-        _number(pieces[1], name),
-        _number(pieces[2], f"the count of {name}"),
-    )
-    if not 1 <= count <= 1000 or count != int(count):
-        raise ClaimError(
-            f"--sweep {name}: a count of {pieces[2][:20]} is not a whole number from 1 to 1000"
-        )
-    return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
-
-
 def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
     if options.e is not None or options.mu is not None:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
-    grid = options.sweep or ""
-    axes = {
-        name.strip(): text for name, _, text in (piece.partition("=") for piece in grid.split(","))
-    }
-    if set(axes) != {"e", "mu"}:
-        raise ClaimError(
-            f"--sweep {grid[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
-        )
+    axes = feeder.axes(options.sweep or "")
     horizon = _number(options.horizon, "horizon")
     points: list[Point] = []
 
@@ -246,8 +219,8 @@ def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> i
     try:
         sweep(
             setting,
-            _axis(axes["e"], "e"),
-            _axis(axes["mu"], "mu"),
+            _axis(axes["e"], "--sweep e"),
+            _axis(axes["mu"], "--sweep mu"),
             ensembles=options.ensembles,
             horizon=horizon,
             seed=options.seed,
