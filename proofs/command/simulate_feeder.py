@@ -23,7 +23,7 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.columns import FORMS, Shown, optional
 from juggleproof.scenes.part.ensemble import CONTACT
 from juggleproof.scenes.part.onsets import AMPLITUDES
-from juggleproof.scenes.part.orientation import (
+from juggleproof.scenes.part.resting import (
     ANY_ANGLE,
     Orientation,
     Starts,
@@ -46,6 +46,8 @@ FORM = "theta=.., and x=..,y=.. (mm), vx=..,vy=.. (m/s), omega=.. (degrees a sec
 class FeederOptions(argparse.Namespace):
     """What these take of the options of `juggleproof simulate part`."""
 
+    e: str | None
+    mu: str | None
     sweep: str | None
     trajectory: bool
     orientation: bool
@@ -126,6 +128,9 @@ def refuse_left_out(options: FeederOptions, wish: str) -> None:
             raise ClaimError(f"--{name} goes with {' or '.join(f'--{one}' for one in wishes)}")
     if wish not in DONE_BY:
         return
+    for name in ("e", "mu"):
+        if getattr(options, name) is not None and name in axes(options.sweep or ""):
+            raise ClaimError(f"--sweep takes {name} itself, not by --{name}")
     if options.check:
         raise ClaimError("--check goes with table I")
     if options.state is not None and (options.parts, options.angles) != (None, None):

@@ -55,8 +55,6 @@ class PartOptions(feeder.FeederOptions):
     still: bool
     figure: Path | None
     animation: Path | None
-    e: str | None
-    mu: str | None
     face: str
     phase: str
     launch: Launch

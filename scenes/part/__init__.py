@@ -7,17 +7,23 @@ with its corners, turns, and comes to rest.
 
 In reading order:
 
-    body       the compiler, and block and table as numbers
-    setting    a scene: what the paper gives and what is inferred
-    flight     free flight and the first contact
-    strike     impacts, and the forces that hold a block on the table
-    rest       lasting contact: on a face, or on a corner
-    motion     the orbit of one block
-    ensemble   many blocks
-    onsets     table I and sweeps
-    layout     how blocks are laid out in a picture
-    picture    figure 2
-    animation  the same in motion, as one HTML file
+    body        the compiler, and block and table as numbers
+    setting     a scene: what the paper gives and what is inferred
+    flight      free flight and the first contact
+    strike      impacts, and the forces that hold a block on the table
+    rest        lasting contact: on a face, or on a corner
+    motion      the orbit of one block
+    columns     results as named columns, in files and notebooks
+    ensemble    many blocks
+    onsets      table I and its sweep
+    layout      how blocks are laid out in a picture
+    picture     figure 2
+    animation   the same in motion, as one HTML file
+    faces       the faces on which a part rests
+    trajectory  the trajectories of several parts
+    resting     how often parts rest on each face
+    sweeps      onsets over two parameters; the least drive that clears faces
+    graphs      graphs of all these
 
 Kernels are compiled by numba, the optional extra `part`; importing this package loads what it needs
 only when a name is first used.
@@ -32,5 +38,7 @@ NAMES = {
     ".setting": "Scene scene standing moving",
     ".ensemble": "Run run fresh_notes",
     ".onsets": "Row Table table_one Point chosen misfit recorded sweep",
+    ".resting": "Orientation Starts between listed orientation wilson",
+    ".trajectory": "Trajectories start_of trajectories",
 }
 __all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

@@ -23,7 +23,7 @@ from juggleproof.scenes.part.onsets import (
     onset_columns,
     row_of,
 )
-from juggleproof.scenes.part.orientation import ANY_ANGLE, Starts, orientation, wilson
+from juggleproof.scenes.part.resting import ANY_ANGLE, Starts, orientation, wilson
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------

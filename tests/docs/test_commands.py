@@ -127,6 +127,7 @@ NEEDS = {
     "simulate part": "numba",
     "--picture": "matplotlib",
     "benchmarks.part": "numba",
+    ".svg": "matplotlib",
     "--format pdf": "jinja2",
 }
 

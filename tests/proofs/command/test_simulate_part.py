@@ -44,7 +44,7 @@ BAD = [
     (["--vibration", "30"], "--vibration '30' is not HERTZ:MILLIMETRES"),
     (["--vibration", "-3:1"], "f_x = -3 is below 0"),
     (["--jobs", "0"], "--jobs 0 is outside 1 .. 1024"),
-    (["--sweep", "e=0:1:2"], "has not e and mu"),
+    (["--sweep", "e=0:1:2"], "a sweep of e: choose 2 of e, mu, frequency"),
     (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
     (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
     (

@@ -13,7 +13,7 @@ import pytest
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import scene, table_one
 from juggleproof.scenes.part.onsets import PAPER, Row
-from juggleproof.scenes.part.orientation import ANY_ANGLE, listed, orientation, wilson
+from juggleproof.scenes.part.resting import ANY_ANGLE, listed, orientation, wilson
 from juggleproof.scenes.part.setting import changed
 from juggleproof.scenes.part.sweeps import Clearing, OnsetMap, clearing, onset_map, parameters
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part.faces import corners, face_of, lowest_corner, resting_angles
-from juggleproof.scenes.part.orientation import (
+from juggleproof.scenes.part.resting import (
     MOVING,
     Orientation,
     between,
