@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.arcs import joined, straight
 from juggleproof.scenes.figures.drawing import (
     Plane,
     Sides,
@@ -22,6 +21,7 @@ from juggleproof.scenes.figures.drawing import (
     svg,
     ticks,
 )
+from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, INK, KEPT, LOSS, R
 
 Array = NDArray[np.float64]

@@ -34,6 +34,8 @@ NEEDS = {
         "matplotlib",
     },
     "table --alpha 0.05 --gamma 3": set[str](),
+    "table --alpha 0.05 --gamma 3 --picture orbit -o F.svg": {"matplotlib"},
+    f"part {PART} --trajectory --state theta=1 -o F.svg": {"numba", "matplotlib"},
     f"part {PART}": {"numba"},
     f"part {PART} --orientation --parts 5": {"numba"},
     f"part {PART} --trajectory --state theta=1 -o F.csv": {"numba"},
