@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 import io
+from base64 import b64encode
 from collections.abc import Sequence
 from html import escape
 from importlib import import_module
@@ -16,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.look import inline_svg
 
 FORMS = (".csv", ".npz", ".parquet")
 SHOWN = 12  # rows of a table in a notebook
@@ -75,8 +75,9 @@ class Shown:
         more = f"<p>and {count - SHOWN} more rows</p>" if count > SHOWN else ""
         try:
             drawn = self.picture()
-            slug = f"{type(self).__name__.lower()}-{id(self):x}"  # several stand in one notebook
-            picture = inline_svg(drawn, slug, title, title) if drawn else ""
+            data = b64encode(drawn).decode() if drawn else ""
+            source = f"data:image/svg+xml;base64,{data}"  # whose ids no other picture has
+            picture = f'<img src="{source}" alt="{escape(title)}">' if drawn else ""
         except SceneError as absent:
             picture = f"<p>{escape(str(absent))}</p>"
         return f"<p>{escape(title)}</p><table>{''.join(rows)}</table>{more}{picture}"
