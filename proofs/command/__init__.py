@@ -13,9 +13,9 @@ bound             `bound` and `bench`
 report            `report`
 formats           what it writes in each format
 simulate_options  what `simulate` takes
-simulate          `simulate juggler`
-orbit_tables      the tables that it prints
-pictures          the pictures that it draws
+simulate          `simulate`: one scene
+juggler           `simulate juggler`, a folder
 simulate_part     `simulate part`
+simulate_feeder   `simulate part` for designers of feeders
 simulate_table    `simulate table`
 """

@@ -189,7 +189,29 @@ def add_part(scenes: Commands) -> None:
     wish.add_argument(
         "--sweep",
         metavar="G",
-        help="table I over a grid: e=FROM:TO:COUNT,mu=FROM:TO:COUNT; or over all: readings",
+        help=(
+            "table I over a grid: e=FROM:TO:COUNT,mu=FROM:TO:COUNT, or over all that it leaves"
+            " open: readings; or the onset at one vibration over any other two of e, mu, frequency"
+            " (Hz), amplitude (mm), phase (degrees), frequency-up, amplitude-up"
+        ),
+    )
+    wish.add_argument(
+        "--trajectory",
+        action="store_true",
+        help="follow the parts of --state or --parts; -o F.svg draws their angles against time",
+    )
+    wish.add_argument(
+        "--orientation",
+        action="store_true",
+        help="how often parts come to rest on each face, with intervals (default: 1000 --parts)",
+    )
+    wish.add_argument(
+        "--clear",
+        metavar="FACES",
+        help=(
+            "faces such as 0,2: with --sweep amplitude=FROM:TO:COUNT, or another parameter, the"
+            " least value from which on no part is left on them (default: 200 --parts)"
+        ),
     )
     wish.add_argument(
         "--still",
@@ -201,6 +223,27 @@ def add_part(scenes: Commands) -> None:
     )
     wish.add_argument(
         "--animation", type=Path, metavar="F", help="F.html: the same in motion, one file"
+    )
+    start = part.add_argument_group("which parts, for --trajectory, --orientation and --clear")
+    start.add_argument(
+        "--state",
+        action="append",
+        metavar="S",
+        help=(
+            "theta=30, and x, y (mm), vx, vy (m/s), omega (degrees a second) where it does not"
+            " stand on the table; may be given several times, for --trajectory"
+        ),
+    )
+    start.add_argument("--parts", type=whole, metavar="N", help="so many parts, drawn by --seed")
+    start.add_argument(
+        "--angles",
+        metavar="A",
+        help="from which starting angles: FROM:TO degrees, or a list (default: 0:360)",
+    )
+    start.add_argument(
+        "--times",
+        metavar="T",
+        help="FROM:TO:COUNT seconds, of --trajectory (default: 2001 over the horizon)",
     )
     how = part.add_argument_group("what the paper leaves open")
     how.add_argument(
@@ -237,7 +280,7 @@ def add_part(scenes: Commands) -> None:
         "--vibration",
         default="30:1",
         metavar="V",
-        help="HERTZ:MILLIMETRES along the table, for --figure and --animation (default: 30:1)",
+        help="HERTZ:MILLIMETRES along the table, where it is not table I's (default: 30:1)",
     )
     other = part.add_argument_group(
         "other parts and tables, for --figure and --animation (not those of the paper)"
@@ -320,5 +363,12 @@ def add_part(scenes: Commands) -> None:
         help="keep ensembles of table I that are done there; the same run goes on from them",
     )
     part.add_argument(
-        "-o", "--output", type=Path, metavar="F", help="F.csv or F.npz: table I; F.json: a sweep"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="F",
+        help=(
+            "F.csv or F.npz: table I; F.json: its sweep; F.csv, F.npz, F.parquet or the picture"
+            " F.svg: all others"
+        ),
     )

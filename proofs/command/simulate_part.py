@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
-from fractions import Fraction
 from itertools import product
 from pathlib import Path
 from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import simulate_feeder as feeder
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.command.simulate_scene import number, others, reading_of, setting_of
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports import part as part_tables
 from juggleproof.proofs.reports.part import keep_results
-from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part.animation import HORIZON, animation
-from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_record
 from juggleproof.scenes.part.ensemble import in_words, no_vibration
 from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
@@ -33,28 +31,20 @@ from juggleproof.scenes.part.onsets import (
     table_one,
 )
 from juggleproof.scenes.part.readings import (
-    AMPLITUDES,
-    FACES,
     Point,
-    Reading,
     Stage,
     Task,
     as_json,
-    chosen,
     finals,
     neighbours,
-    recorded,
     screened,
     stage,
     sweep,
 )
-from juggleproof.scenes.part.setting import Launch, Scene, scene
-from juggleproof.scenes.part.shape import Polygon, polygon
 
-SINES = ("A_x", "f_x", "phase_x", "A_y", "f_y", "phase_y")
-OTHERS = ("shape", "tilt", "along", "away", "drive")
-MOST_BYTES = 100_000_000  # of a file of corners or of a record
-WISHES = ("sweep", "still", "figure", "animation")
+WISHES = ("clear", "trajectory", "orientation", "sweep", "still", "figure", "animation")
+PAPERS = ("table", "sweep", "still")  # of the paper's block and table
+READINGS = "readings"  # a sweep over all that table I leaves open
 SUFFIXES = {
     "figure": (".svg", ".pdf"),
     "animation": (".html",),
@@ -63,34 +53,14 @@ SUFFIXES = {
 }
 
 
-class PartOptions(argparse.Namespace):
+class PartOptions(feeder.FeederOptions):
     """What `juggleproof simulate part` takes."""
 
-    sweep: str | None
     still: bool
     figure: Path | None
     animation: Path | None
-    e: str | None
-    mu: str | None
-    face: str | None
-    amplitudes: str | None
-    phase: str | None
-    launch: Launch
-    vibration: str
-    shape: str | None
-    tilt: str
-    along: str | None
-    away: str | None
-    drive: Path | None
-    ensembles: int
-    horizon: str
-    seed: int
-    tolerance: str
-    rest_speed: str
     jobs: int | None
-    check: bool
     keep: Path | None
-    output: Path | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -103,20 +73,35 @@ def part(options: PartOptions) -> int:
     interrupted.
     """
     needed("numba", "scene", "part")
-    wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
+    wishes = [name for name in WISHES if getattr(options, name) not in (None, False)] or ["table"]
+    if wishes[:2] == ["clear", "sweep"]:
+        wishes.remove("sweep")  # of the drive
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
     if options.keep is not None and wishes[0] != "table":
         raise ClaimError(f"--keep {options.keep} goes with table I")
-    for name in OTHERS:
-        if wishes[0] not in ("figure", "animation") and getattr(options, name) not in (None, "0"):
-            raise ClaimError(
-                f"--{name} goes with --figure or --animation; table I, sweeps and --still are of"
-                " the paper's block and table"
-            )
-    _refuse_unwritable(options, wishes[0])
+    wish = "map" if wishes == ["sweep"] and not _of_table_one(options) else wishes[0]
+    if wish in PAPERS and others(options):
+        raise ClaimError(
+            f"--{others(options)[0]} goes with --figure, --animation, --trajectory, --orientation,"
+            " --clear or a sweep of others than e and mu; table I, its sweeps and --still are of"
+            " the paper's block and table"
+        )
+    feeder.refuse_left_out(options, wish)
+    if wish in feeder.DONE_BY:
+        feeder.refuse_unwritable(options.output)
+    else:
+        _refuse_unwritable(options, wish)
     with _threads(options.jobs) as executor:
-        return DONE_BY[wishes[0]](options, executor)
+        return (DONE_BY | feeder.DONE_BY)[wish](options, executor)
+
+
+def _of_table_one(options: PartOptions) -> bool:
+    """Whether a sweep is of table I: over e and mu, which all of its rows have in common, or over
+    all that it leaves open.
+    """
+    grid = options.sweep
+    return grid is not None and (grid == READINGS or set(feeder.axes(grid)) == {"e", "mu"})
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
@@ -146,149 +131,14 @@ def _refuse_unwritable(options: PartOptions, wish: str) -> None:
         raise ClaimError(f"{path}: {fault}; name another file")
 
 
-def _number(text: str, name: str) -> float:
-    """A number of physics, such as 0.7, 1e-3 or 2/3."""
-    try:
-        return float(Fraction(text)) if len(text) <= 60 else math.nan
-    except (ValueError, ZeroDivisionError, OverflowError):
-        raise ClaimError(
-            f"{name} = {text[:40]!r} is no number; write it as 0.7, 1e-3 or 2/3"
-        ) from None
-
-
-def _known(text: str, name: str, known: Mapping[str, object]) -> str:
-    if text not in known:
-        raise ClaimError(f"{name} {text[:40]!r}: choose from {', '.join(known)}")
-    return text
-
-
-def _reading(options: PartOptions) -> Reading:
-    """The reading of the options; what is not given is as in the most likely one that is stored."""
-    likely = chosen(recorded()).reading
-    along, up = likely.phase_x, likely.phase_y
-    if options.phase is not None:
-        first, both, second = options.phase.partition(",")
-        along, up = _number(first, "phase"), _number(second if both else first, "phase")
-    return Reading(
-        _known(options.face or likely.face, "--face", FACES),
-        _known(options.amplitudes or likely.amplitudes, "--amplitudes", AMPLITUDES),
-        along,
-        up,
-        likely.e if options.e is None else _number(options.e, "e"),
-        likely.mu if options.mu is None else _number(options.mu, "mu"),
-    )
-
-
-def _setting(options: PartOptions, reading: Reading) -> Scene:
-    """The scene of the options under a reading."""
-    frequency, amplitude = _vibration(options.vibration)
-    contact = {
-        "tolerance": _number(options.tolerance, "tolerance"),
-        "rest_speed": _number(options.rest_speed, "rest speed"),
-    }
-    plain = reading.scene(
-        options.launch, A_x=reading.peak * amplitude, f_x=frequency, **contact
-    )
-    if options.shape is not None and options.face is not None:
-        raise ClaimError("--face and --shape do not go together; give one of them")
-    if all(getattr(options, name) in (None, "0") for name in OTHERS):
-        return plain
-    shape = None if options.shape is None else _shape(options.shape)
-    drive = _drive(options, reading)
-    return scene(
-        **({"a": plain.a, "b": plain.b} if shape is None else {}),
-        **({name: getattr(plain, name) for name in SINES} if drive is None else {}),
-        e=reading.e,
-        mu=reading.mu,
-        launch=options.launch,
-        shape=shape,
-        tilt=math.radians(_number(options.tilt, "tilt")),
-        drive=drive,
-        **contact,
-    )
-
-
-def _shape(text: str) -> Polygon:
-    """The polygon of corners in centimetres, as they stand or in a file."""
-    given, name = text, "--shape"
-    if not set(text) <= set("0123456789+-.,/eE \t\n"):
-        given, name = _read(Path(text)), text
-    corners = []
-    for corner in given.split():
-        pieces = corner.split(",")
-        if len(pieces) != 2:
-            raise ClaimError(f"{name}: {corner[:40]!r} is not X,Y; write '0,0 4,0 4,2 0,2'")
-        corners.append([_exact(piece, f"{name}: {corner[:40]!r}") / 100 for piece in pieces])
-    return polygon(corners)
-
-
-def _exact(text: str, name: str) -> Fraction:
-    """A number as it is written."""
-    try:
-        if len(text) <= 60 and abs(float(Fraction(text))) < 1e6:
-            return Fraction(text)
-    except (ValueError, ZeroDivisionError, OverflowError):
-        pass
-    raise ClaimError(f"{name} is no corner; write numbers as 0.7, 1e-3 or 2/3")
-
-
-def _read(path: Path) -> str:
-    """The text of a file."""
-    try:
-        if path.stat().st_size > MOST_BYTES:
-            raise ClaimError(f"{path}: more than {MOST_BYTES // 10**6} MB")
-        return path.read_text(encoding="utf-8")
-    except OSError as fault:
-        raise ClaimError(f"{path}: {(fault.strerror or 'no file').lower()}") from None
-    except UnicodeDecodeError:
-        raise ClaimError(f"{path}: no text") from None
-
-
-def _drive(options: PartOptions, reading: Reading) -> Harmonics | Record | None:
-    """How the table moves where it is no single sine along each axis; a harmonic without a phase
-    starts at 0, the axis that is not given as in the reading.
-    """
-    if options.drive is not None:
-        if options.along is not None or options.away is not None:
-            raise ClaimError("--drive goes without --along and --away; give one of them")
-        try:
-            return read_record(_read(options.drive), 1e-3)
-        except SceneError as fault:
-            raise ClaimError(f"{options.drive}: {fault}") from None
-    if options.along is None and options.away is None:
-        return None
-    along = options.along or f"{options.vibration}:{reading.phase_x}"
-    away = options.away or f"60:0.2:{reading.phase_y}"
-    return harmonics(*(_sines(text, reading.peak) for text in (along, away)))
-
-
-def _sines(text: str, peak: float) -> list[tuple[float, float, float]]:
-    """Harmonics as they are written, in metres, hertz and radians."""
-    found = []
-    for one in text.split(","):
-        pieces = one.split(":")
-        if len(pieces) not in (2, 3):
-            raise ClaimError(f"{one[:40]!r} is not HERTZ:MILLIMETRES[:DEGREES], such as 30:1:90")
-        hertz, size, phase = (_number(piece, "a harmonic") for piece in (*pieces, "0")[:3])
-        found.append((peak * size / 1000, hertz, math.radians(phase)))
-    return found
-
-
-def _vibration(text: str) -> tuple[float, float]:
-    pieces = text.split(":")
-    if len(pieces) != 2:
-        raise ClaimError(f"--vibration {text[:40]!r} is not HERTZ:MILLIMETRES, such as 30:1")
-    return _number(pieces[0], "the frequency"), _number(pieces[1], "the amplitude") / 1000
-
-
 def _table(options: PartOptions, executor: Executor | None) -> int:
-    reading, interrupted = _reading(options), False
-    setting = _setting(options, reading)
+    reading, interrupted = reading_of(options), False
+    setting = setting_of(options, reading)
     try:
         computed = table_one(
             setting,
             ensembles=options.ensembles,
-            horizon=_number(options.horizon, "horizon"),
+            horizon=number(options.horizon, "horizon"),
             seed=options.seed,
             peak=reading.peak,
             executor=executor,
@@ -321,27 +171,10 @@ def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
     return as_csv if path.suffix == ".csv" else as_npz
 
 
-def _axis(text: str, name: str) -> list[float]:
-    """The numbers of FROM:TO:COUNT, rounded to ten digits."""
-    pieces = text.split(":")
-    if len(pieces) != 3:
-        raise ClaimError(f"--sweep {name}: {text[:40]!r} is not FROM:TO:COUNT")
-    low, high, count = (
-        _number(pieces[0], name),
-        _number(pieces[1], name),
-        _number(pieces[2], f"the count of {name}"),
-    )
-    if not 1 <= count <= 1000 or count != int(count):
-        raise ClaimError(
-            f"--sweep {name}: a count of {pieces[2][:20]} is not a whole number from 1 to 1000"
-        )
-    return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
-
-
 def _sweep(options: PartOptions, executor: Executor | None) -> int:
     if options.e is not None or options.mu is not None:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
-    whole = options.sweep == "readings"
+    whole = options.sweep == READINGS
     stages: list[Stage] = []
     wanted, interrupted = [screened(), neighbours()] if whole else [_grid(options)], False
     print(part_tables.POINT_HEADS)
@@ -372,33 +205,22 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
 
 def _grid(options: PartOptions) -> list[Task]:
     """The points of a grid of restitution and friction, all else as the options say."""
-    grid = options.sweep or ""
-    axes = {
-        name.strip(): text for name, _, text in (piece.partition("=") for piece in grid.split(","))
-    }
-    if set(axes) != {"e", "mu"}:
-        raise ClaimError(
-            f"--sweep {grid[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT, or"
-            " readings"
-        )
-    plain, horizon = _reading(options), _number(options.horizon, "horizon")
-    readings = [
-        replace(plain, e=e, mu=mu)
-        for e, mu in product(_axis(axes["e"], "e"), _axis(axes["mu"], "mu"))
-    ]
+    grid = feeder.grid_of(options.sweep or "")
+    plain, horizon = reading_of(options), number(options.horizon, "horizon")
+    readings = [replace(plain, e=e, mu=mu) for e, mu in product(grid["e"], grid["mu"])]
     return [
-        Task(one, _setting(options, one), options.ensembles, options.seed, horizon)
+        Task(one, setting_of(options, one), options.ensembles, options.seed, horizon)
         for one in readings
     ]
 
 
 def _still(options: PartOptions, executor: Executor | None) -> int:
-    print(in_words(no_vibration(_setting(options, _reading(options)), executor)))
+    print(in_words(no_vibration(setting_of(options, reading_of(options)), executor)))
     return 0
 
 
 def _drawn(options: PartOptions, executor: Executor | None) -> int:
-    setting = _setting(options, _reading(options))
+    setting = setting_of(options, reading_of(options))
     if options.figure is not None:
         needed("matplotlib")
         from juggleproof.scenes.part.picture import figure_two

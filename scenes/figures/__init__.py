@@ -1,7 +1,8 @@
 """The figures of the paper, drawn again from what is derived, and three that it lacks; in the
 paper's order.
 
-    arcs     derived expressions as numbers, and arcs of parabolas
+    lines    arcs of parabolas, as numbers
+    arcs     derived expressions as numbers, and the arcs that they draw
     look     the look of figures
     drawing  how figures are saved, and a plane to draw on
     states   the plane of the sampled states

@@ -5,13 +5,12 @@ draw.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import TypeAlias
 
 from sympy import Expr, Symbol
 
+from juggleproof.scenes.figures.lines import Arc, Place, Quadratic, Real, at
 from juggleproof.symbolic import State, collision_margin, f1, f2
 
 # -------------------------------------------------------------------------------------------------
@@ -22,8 +21,6 @@ from juggleproof.symbolic import State, collision_margin, f1, f2
 
 ALPHA = Fraction(1, 4)  # below 1/3, where the theorem holds
 SETTING: Mapping[str, Fraction] = {"alpha": ALPHA, "r": Fraction(1), "g": Fraction(1)}
-Real: TypeAlias = Fraction | float
-Place: TypeAlias = tuple[Real, Real]  # a state (beta, v) or (x, w), or a point
 
 
 def value(expression: Expr, **values: Real) -> Real:
@@ -114,9 +111,6 @@ def orbit(start: Place, steps: int) -> list[Place]:
 # Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by
 # the map f, cut where it jumps.
 
-Point = tuple[float, float]
-Quadratic = tuple[float, float, float]  # coefficients from the constant up
-
 
 def polynomial(expression: Expr, parameter: Symbol, **values: Real) -> Quadratic:
     """The coefficients, from the constant up, of an expression that is at most quadratic in the
@@ -160,52 +154,6 @@ def _zeros(constant: float, slope: float, square: float) -> list[float]:
     return sorted([larger / square, constant / larger if larger else 0.0])
 
 
-@dataclass(frozen=True)
-class Arc:
-    """An arc of a parabola: two quadratics of one parameter (coefficients from the constant up),
-    from its start to its stop.
-    """
-
-    across: Quadratic
-    up: Quadratic
-    start: float
-    stop: float
-
-    def at(self, parameter: float) -> Point:
-        """The point with this parameter."""
-        return _at(self.across, parameter), _at(self.up, parameter)
-
-    def slope(self, parameter: float) -> Point:
-        """The derivative there."""
-        return _slope(self.across, parameter), _slope(self.up, parameter)
-
-    def bezier(self) -> tuple[Point, Point, Point]:
-        """Start, control point and stop of the same arc as a quadratic Bezier curve, exactly.
-
-        >>> Arc((0, 1, 0), (0, 0, 1), 0, 2).bezier()
-        ((0, 0), (1.0, 0.0), (2, 4))
-        """
-        half = (self.stop - self.start) / 2
-        (x, y), (dx, dy) = self.at(self.start), self.slope(self.start)
-        return (x, y), (x + dx * half, y + dy * half), self.at(self.stop)
-
-    def part(self, start: float, stop: float) -> Arc:
-        """The part between two parameters."""
-        return Arc(self.across, self.up, start, stop)
-
-    def reverse(self) -> Arc:
-        """The same arc, run through the other way."""
-        return self.part(self.stop, self.start)
-
-
-def _at(quadratic: Quadratic, s: float) -> float:
-    return quadratic[0] + s * (quadratic[1] + s * quadratic[2])
-
-
-def _slope(quadratic: Quadratic, s: float) -> float:
-    return quadratic[1] + 2 * s * quadratic[2]
-
-
 def curve(
     height: Expr, speed: Expr, parameter: Symbol, start: Real, stop: Real, **values: Real
 ) -> Arc:
@@ -216,17 +164,6 @@ def curve(
         float(start),
         float(stop),
     )
-
-
-def straight(start: Place, stop: Place) -> Arc:
-    """The segment from one point to another."""
-    (a, b), (c, d) = start, stop
-    return Arc((float(a), float(c - a), 0.0), (float(b), float(d - b), 0.0), 0.0, 1.0)
-
-
-def joined(points: Sequence[Place]) -> list[Arc]:
-    """The segments from each point to the next."""
-    return [straight(a, b) for a, b in zip(points, points[1:])]
 
 
 @cache
@@ -253,7 +190,7 @@ def cut_at_the_bounce(arc: Arc) -> Iterator[tuple[Arc, bool]]:
     ]
     ends = [arc.start, *sorted(inside, reverse=arc.stop < arc.start), arc.stop]
     for start, stop in zip(ends, ends[1:]):
-        yield arc.part(start, stop), _at((constant + c, slope, square), (start + stop) / 2) > 0
+        yield arc.part(start, stop), at((constant + c, slope, square), (start + stop) / 2) > 0
 
 
 def images(arcs: Sequence[Arc]) -> list[Arc]:

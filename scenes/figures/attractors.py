@@ -11,8 +11,9 @@ from itertools import accumulate
 
 from matplotlib.figure import Figure
 
-from juggleproof.scenes.figures.arcs import Arc, column, joined, straight
+from juggleproof.scenes.figures.arcs import column
 from juggleproof.scenes.figures.drawing import Plane, blank, styled, ticks
+from juggleproof.scenes.figures.lines import Arc, joined, straight
 from juggleproof.scenes.figures.look import B2, Look, R
 from juggleproof.symbolic import normal_impact_after
 

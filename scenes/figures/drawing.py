@@ -21,7 +21,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, Transform, TransformedBbox
 from numpy.typing import NDArray
 
-from juggleproof.scenes.figures.arcs import Arc, Point
+from juggleproof.scenes.figures.lines import Arc, Point
 from juggleproof.scenes.figures.look import INK, STYLE, Look
 
 # -------------------------------------------------------------------------------------------------

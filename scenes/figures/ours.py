@@ -13,18 +13,9 @@ from textwrap import wrap
 from matplotlib.figure import Figure
 from sympy import Expr, Symbol
 
-from juggleproof.scenes.figures.arcs import (
-    ALPHA,
-    Arc,
-    Place,
-    Real,
-    column,
-    curve,
-    straight,
-    value,
-    zeros,
-)
+from juggleproof.scenes.figures.arcs import ALPHA, column, curve, value, zeros
 from juggleproof.scenes.figures.drawing import Plane, Style, blank, styled, ticks
+from juggleproof.scenes.figures.lines import Arc, Place, Real, straight
 from juggleproof.scenes.figures.look import B1, B2, TRAP
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.symbolic import normal_e_1, root_of

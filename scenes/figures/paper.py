@@ -12,19 +12,17 @@ from sympy import Expr
 from juggleproof.scenes.figures import states
 from juggleproof.scenes.figures.arcs import (
     SETTING,
-    Arc,
-    Real,
     column,
     curve,
     cut_at_the_bounce,
     images,
     margin,
     orbit,
-    straight,
     value,
     zeros,
 )
 from juggleproof.scenes.figures.drawing import Box, Plane, blank, styled, ticks
+from juggleproof.scenes.figures.lines import Arc, Real, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, KEPT, LOSS, PLAIN, R
 from juggleproof.symbolic import (
     E_max,

@@ -10,17 +10,9 @@ from functools import cache
 from matplotlib.figure import Figure
 from sympy import Expr
 
-from juggleproof.scenes.figures.arcs import (
-    SETTING,
-    Arc,
-    Point,
-    column,
-    curve,
-    straight,
-    value,
-    zeros,
-)
+from juggleproof.scenes.figures.arcs import SETTING, column, curve, value, zeros
 from juggleproof.scenes.figures.drawing import Box, Plane, Sides, Style, ticks
+from juggleproof.scenes.figures.lines import Arc, Point, straight
 from juggleproof.scenes.figures.look import Look
 from juggleproof.symbolic import (
     State,

@@ -14,7 +14,6 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.arcs import joined, straight
 from juggleproof.scenes.figures.drawing import (
     Plane,
     Sides,
@@ -25,6 +24,7 @@ from juggleproof.scenes.figures.drawing import (
     svg,
     ticks,
 )
+from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
 from juggleproof.scenes.juggler.given import brief, formulas
@@ -158,8 +158,10 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
         (0, last),
         (-0.02 * top, top),
         (
-            f"Ball and table over {periods} periods at {_setting(scene, units)}",
-            "heights from exact rational states; dots: the samples, when the table is lowest",
+            f"{'Balls' if count > 1 else 'Ball'} and table over {periods} periods at"
+            f" {_setting(scene, units)}",
+            f"{count} ball{'s' * (count > 1)}, {len(times)} heights each, from exact rational"
+            f" states; dots: {periods + 1} samples each, when the table is lowest",
         ),
     )
     plane.frame(ticks(spaced(0, last)), ticks(spaced(0, top)), *labels, 30)
@@ -347,7 +349,10 @@ def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
     step = (found.alphas[-1] - found.alphas[0]) / (len(found.alphas) - 1) / 2
     across = float(found.alphas[0] - step), float(found.alphas[-1] + step)
     starts = scene.starts.count
-    title = f"What orbits of {starts} start{'s' * (starts != 1)} tend to as $\\alpha$ grows"
+    title = (
+        f"What orbits of {starts} start{'s' * (starts != 1)} tend to as $\\alpha$ grows:"
+        f" {len(found.alphas)} $\\alpha$"
+    )
     plane = _plane((520, 400), 130, across, up, (title, how(found)), BOTTOM + SHARES + 12)
     numbers = ticks(spaced(*across))
     plane.frame(dict.fromkeys(numbers, ""), ticks(spaced(*up)), "", LABELS[units][1], 28)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
+from juggleproof.scenes.part.columns import Column, Shown
 from juggleproof.scenes.part.ensemble import Job, Run, fresh_notes, joined, run_jobs, worker
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
@@ -44,6 +46,7 @@ ANGLES = 91  # 0, 1, ... 90 degrees
 JITTER = 1e-6  # degrees, either way: of each start, and of each ensemble's phase
 ENSEMBLES, HORIZON = 24, 12.0
 MOST_ENSEMBLES = 100_000
+MOST_POINTS = 10_000  # of a sweep
 
 
 @dataclass(frozen=True)
@@ -75,11 +78,41 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Shown):
     """The six rows, or those that are done, and the runs that they come from."""
 
     rows: tuple[Row, ...]
     run: Run
+
+    def title(self) -> str:
+        count = len(self.rows[0].chaotic)
+        return f"Table I: from when on all blocks lie; {count} ensembles of {ANGLES} blocks"
+
+    def columns(self) -> Sequence[Column]:
+        """A row a row: vibration, the paper's onset (nan: chaotic), the median, 16 and 84 percent
+        (inf: after the end), and how many ensembles are chaotic and censored.
+        """
+        printed = [math.nan if row.paper is None else row.paper for row in self.rows]
+        return (
+            Column("f_x", "Hz", np.array([row.frequency for row in self.rows])),
+            Column("A_x", "m", np.array([row.amplitude for row in self.rows])),
+            Column("paper", "s", np.array(printed)),
+            *onset_columns(self.rows),
+        )
+
+
+def onset_columns(rows: Sequence[Row]) -> tuple[Column, ...]:
+    """Of each row the median, 16 and 84 percent of the onsets, inf where that is after the end; how
+    many ensembles are chaotic, and how many are censored.
+    """
+    return (
+        *(
+            Column(name, "s", np.array([row.quantile(part) for row in rows]))
+            for name, part in (("median", 0.5), ("low", 0.16), ("high", 0.84))
+        ),
+        Column("chaotic", "", np.array([sum(row.chaotic) for row in rows])),
+        Column("censored", "", np.array([row.censored() for row in rows])),
+    )
 
 
 def jittered(ensembles: int, seed: int) -> Array:

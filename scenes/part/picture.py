@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.arcs import Point, straight
 from juggleproof.scenes.figures.drawing import Plane, blank, pdf, polylines, styled, svg
+from juggleproof.scenes.figures.lines import Point, straight
 from juggleproof.scenes.figures.look import B1, INK, KEPT, Look
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames

@@ -25,6 +25,7 @@ from juggleproof.scenes.part.ensemble import fresh_notes, run_jobs
 from juggleproof.scenes.part.motion import sample_all
 from juggleproof.scenes.part.onsets import (
     JITTER,
+    MOST_POINTS,
     PAPER,
     Row,
     jittered,
@@ -98,7 +99,6 @@ ONSETS: tuple[Rule, ...] = ("last", "first", "stopped")
 FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}
 AMPLITUDES = {"peak": 1.0, "peak-to-peak": 0.5}
 ORDER = (0, 2, 4, 5, 3, 1)  # of the rows: those with an onset part readings soonest
-MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.arcs import joined
 from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, ticks
+from juggleproof.scenes.figures.lines import joined
 from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
 from juggleproof.scenes.table.curves import second_orbit
 from juggleproof.scenes.table.motion import (
@@ -47,7 +47,14 @@ def orbit(table: Table, starts: Sequence[Start], periods: int) -> bytes:
     low = 1.3 * float(heights.min())
     with style():
         title = f"Ball and table over {periods} periods: {_named(table)}"
-        note = "simulated; dots: impacts, squares: launches from rest; height in $gT^2$"
+        impacts, launches = (
+            sum(one == kind for _, marks in paths for one, _ in marks)
+            for kind in ("impact", "launch")
+        )
+        note = (
+            f"simulated, {len(starts)} ball{'s' * (len(starts) > 1)}; dots: {impacts} impacts,"
+            f" squares: {launches} launches from rest; height in $gT^2$"
+        )
         plane = axes((600, 280), 14, (0, float(periods)), (low, top), (title, note))
         plane.frame(ticks(spaced(0, periods)), ticks(spaced(low, top)), r"$t\,/\,T$", "height", 30)
         plane.line(joined([(float(t), float(h)) for t, h in zip(times, heights)]), "table")

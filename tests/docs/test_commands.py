@@ -135,6 +135,7 @@ NEEDS = {
     "simulate part": "numba",
     "--picture": "matplotlib",
     "benchmarks.part": "numba",
+    ".svg": "matplotlib",
     "--format pdf": "jinja2",
 }
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from juggleproof.proofs.command import simulate
+from juggleproof.proofs.command.juggler import command as simulate
 from juggleproof.proofs.command.main import run
 from juggleproof.scenes.juggler import orbit, point, scene
 from juggleproof.scenes.juggler.bounded import CHUNK
@@ -204,7 +204,7 @@ def test_an_interrupted_picture_is_not_written_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("matplotlib")
-    from juggleproof.proofs.command import pictures
+    from juggleproof.proofs.command.juggler import pictures
 
     def report(done: int, of: int) -> None:
         os.kill(os.getpid(), signal.SIGINT)

@@ -50,8 +50,8 @@ BAD = [
     (["--jobs", "0"], "--jobs 0 is outside 1 .. 1024"),
     (["--phase", "90,"], "phase = '' is no number"),
     (["--phase", "0,north"], "phase = 'north' is no number"),
-    (["--sweep", "e=0:1:2"], "has not e and mu"),
     (["--sweep", "e=0:1:2,mu=0:0:1"], "horizon = 0.05 s is below 0.1 s"),
+    (["--sweep", "e=0:1:2"], "a sweep of e: choose 2 of e, mu, frequency"),
     (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
     (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
     (

@@ -10,7 +10,8 @@ import pytest
 from sympy import Rational
 
 from juggleproof import symbolic
-from juggleproof.scenes.figures.arcs import Arc, cut_at_the_bounce, images, margin
+from juggleproof.scenes.figures.arcs import cut_at_the_bounce, images, margin
+from juggleproof.scenes.figures.lines import Arc
 from juggleproof.scenes.figures.paper import STEPS, boundary_image, torn_ends
 from juggleproof.symbolic.algebra import alpha, beta, g, r, v
 from tests.scenes.figures.drawn import points
