@@ -254,6 +254,7 @@ def frames(
         raise SceneError(
             f"times from {at[0]:.6g} to {at[-1]:.6g} s are not within 0 .. {LONGEST:g}"
         )
+    refuse_long(setting, float(at[-1]))
     states = standing(setting, angles)
     if len(states) * len(at) > MOST_STATES:
         raise SceneError(

@@ -181,8 +181,8 @@ SCENES: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("name", SCENES)
 def test_block_at_rest_falls_to_the_face_below_it_holds(name: str) -> None:
-    """On a still table, with friction that holds; from a fifth of a degree beside a face it comes to lie
-    there.
+    """On a still table, with friction that holds; from a fifth of a degree beside a face it comes
+    to lie there.
     """
     block = scene(e=0.0, mu=0.7, A_y=0.0, **SCENES[name])
     holding = stable_faces(block.polygon(), block.tilt)
