@@ -278,7 +278,7 @@ def ensemble(
 
 def upright(theta: Array) -> int:
     """How many of these angles are within 45 degrees of upright or of upside down."""
-    return int((np.floor(theta / body.QUARTER + 0.5) % 2 == 0).sum())
+    return int((np.floor(theta / (math.pi / 2) + 0.5) % 2 == 0).sum())
 
 
 # -------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from math import ceil, floor, isinf, sqrt
+from math import ceil, floor, isinf, pi, sqrt
 from operator import ne
 from statistics import median
 
@@ -68,7 +68,7 @@ def figure_two(reading: Reading, ensembles: int = ENSEMBLES) -> Frame:
     states = frames(shaken, jittered(ensembles, SEED).ravel(), [EARLY, LATE])
     early, late = (
         [[floor(turns + 0.5) % 2 == 0 for turns in one] for one in at]
-        for at in (states[:, :, body.THETA] / body.QUARTER).reshape(2, ensembles, ANGLES).tolist()
+        for at in (states[:, :, body.THETA] / (pi / 2)).reshape(2, ensembles, ANGLES).tolist()
     )
     return Frame(
         upright=[sum(one) for one in early],

@@ -295,6 +295,7 @@ def frames_of(
         raise SceneError(
             f"times from {at[0]:.6g} to {at[-1]:.6g} s are not within 0 .. {LONGEST:g}"
         )
+    refuse_long(setting, float(at[-1]))
     if len(states) * len(at) > MOST_STATES:
         raise SceneError(
             f"{len(states)} blocks at {len(at)} times are more than {MOST_STATES} states;"

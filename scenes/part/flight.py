@@ -26,6 +26,8 @@ from juggleproof.scenes.part.body import (
     DONE,
     DRAG,
     DRIVE,
+    EDGE_X,
+    EDGE_Y,
     EDGES,
     LEAST_GAP,
     LEAST_TURN,
@@ -52,7 +54,6 @@ from juggleproof.scenes.part.body import (
     compiled,
     corner_x,
     corner_y,
-    edge_rise,
     last_corner,
     lowest,
     next_corner,
@@ -164,6 +165,28 @@ def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
     return max(late, MOMENT)
 
 
+Two = tuple[int, float, float, float, float, float, float]
+
+
+@compiled
+def lowest_two(p: Floats, low: int, omega: float) -> Two:
+    """The corner that is the lowest after this one as the block turns; the places of both from the
+    centre at theta = 0, and the direction of the edge between them.
+    """
+    second = last_corner(p, low) if omega > 0 else next_corner(p, low)
+    at, other = EDGES + 4 * low, EDGES + 4 * second
+    edge = other if omega > 0 else at
+    return (
+        second,
+        p[at],
+        p[at + CORNER_Y],
+        p[other],
+        p[other + CORNER_Y],
+        p[edge + EDGE_X],
+        p[edge + EDGE_Y],
+    )
+
+
 Landing = tuple[int, float, float, float, float, float]
 
 
@@ -196,32 +219,35 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
         u, v = cos(W * t + p[PHASE_Y]), sin(W * t + p[PHASE_Y])
     least, s, advance = notes[LEAST_GAP], 0.0, 0.0
     ended, steps = TOO_MANY_STEPS, 0
-    low = int(z[CORNER])
+    low = lowest(p, int(z[CORNER]), c, d, omega)
+    second, low_x, low_y, next_x, next_y, edge_x, edge_y = lowest_two(p, low, omega)
+    lean = edge_x * d + edge_y * c  # the sine of the angle of the edge that comes down
     while True:
         if sine:
             level, speed, lift, jolt = high * v, fast * u, -fast * W * v, -fast * W * W * u
         else:
             level, speed = table_height(p, t + s), table_rise(p, t + s)
             lift, jolt = table_lift(p, t + s), shaken(p, t + s, 1, 3)
-        low = lowest(p, low, c, d, omega)
+        if omega != 0 and omega * lean >= 0:  # it came down: its other end is the lowest corner
+            low = second
+            second, low_x, low_y, next_x, next_y, edge_x, edge_y = lowest_two(p, low, omega)
+            lean = edge_x * d + edge_y * c
         if ended == DONE or steps == MOST_STEPS:
             break
         centre, falling = y + (rise - half_g * s) * s - level, rise - p[G] * s - speed
         pushed, jerked = -lift - p[G], -jolt
-        i = low
+        i, across, along = low, low_x, low_y
         advance = min(reach - s, furthest)
         if not sine:
             advance = min(advance, until_knot(p, t + s))
         back = 1e300
         for nearness in range(2):
             if nearness == 1:  # the next as the block turns, if it turns so far
-                edge = last_corner(p, low) if omega > 0 else low
-                if abs(omega) * min(advance, back) < abs(edge_rise(p, edge, c, d)):
+                if abs(omega) * min(advance, back) < abs(lean):
                     break
-                i = edge if omega > 0 else next_corner(p, low)
-            at = EDGES + 4 * i
-            up = p[at] * d + p[at + CORNER_Y] * c
-            turning = omega * (p[at] * c - p[at + CORNER_Y] * d)
+                i, across, along = second, next_x, next_y
+            up = across * d + along * c
+            turning = omega * (across * c - along * d)
             gap, rate = centre + up, falling + turning
             push, jerk = pushed - spin * up, jerked - spin * turning
             if rate < 0 and (steps > 0 or gap > tolerance):
@@ -259,11 +285,11 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
             c, d = turned(c, d, around)
             if sine:
                 u, v = turned(u, v, on)
+        lean = edge_x * d + edge_y * c
     z[TIME], z[THETA] = until if s >= reach else t + s, theta + omega * s
     z[X], z[V_X] = z[X] + (z[V_X] + p[DRAG] / 2 * s) * s, z[V_X] + p[DRAG] * s
     z[Y], z[V_Y], z[CORNER] = y + (rise - half_g * s) * s, rise - p[G] * s, low
-    at = EDGES + 4 * low
     notes[STEPS] += steps
-    notes[LEAST_GAP] = min(least, z[Y] + p[at] * d + p[at + CORNER_Y] * c - level)
+    notes[LEAST_GAP] = min(least, z[Y] + low_x * d + low_y * c - level)
     notes[SINKS] += notes[LEAST_GAP] < -tolerance
     return ended, c, d, level, speed, lift

@@ -127,7 +127,7 @@ class Reading:
         0.0001
         """
         a, b = FACES[self.face]
-        return scene(
+        plain = scene(
             a=a,
             b=b,
             e=self.e,
@@ -137,8 +137,8 @@ class Reading:
             f_y=60.0,
             phase_y=math.radians(self.phase_y),
             launch=launch,
-            **others,
         )
+        return changed(plain, **others)
 
 
 @dataclass(frozen=True)

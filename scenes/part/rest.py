@@ -81,11 +81,19 @@ def side(p: Floats, theta: float) -> int:
     the next.
     """
     count, at = int(p[SIDES]), int(p[AT_SIDES])
-    around = floor(theta / TURN + 0.5)
+    around = floor(theta * (1 / TURN) + 0.5)
     rest, k = theta - around * TURN, 0
     while k < count and p[at + k] <= rest:
         k += 1
     return int(around) * count + k
+
+
+@compiled
+def side_angle(p: Floats, number: int) -> float:
+    """The angle at which a side ends and the next begins."""
+    count = int(p[SIDES])
+    around = number // count
+    return around * TURN + p[int(p[AT_SIDES]) + number - around * count]
 
 
 @compiled
@@ -98,18 +106,26 @@ def is_lying(p: Floats, number: int) -> bool:
 @compiled
 def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, theta1: float) -> None:
     """Notes the sides that a block was on from t0 to t1, turning evenly."""
-    before, after = side(p, theta0), side(p, theta1)
+    count, at = int(p[SIDES]), int(p[AT_SIDES])
+    around = floor(theta0 * (1 / TURN) + 0.5)
+    rest, k = theta0 - around * TURN, 0
+    while k < count and p[at + k] <= rest:
+        k += 1
+    start = p[at + k - 1] if k > 0 else p[at + count - 1] - TURN
+    end = p[at + k] if k < count else p[at] + TURN
+    if start <= theta1 - around * TURN < end:  # still on that side
+        here = p[at + count + (k if k < count else 0)] != 0
+        notes[LAST_LYING if here else LAST_UPRIGHT] = t1
+        return
+    before, after = int(around) * count + k, side(p, theta1)
     lying = is_lying(p, after)
     if before != after:
-        count, at = int(p[SIDES]), int(p[AT_SIDES])
         step = 1 if after > before else -1
         for k in range(before, after, step):
             lay = is_lying(p, k)
             if lay == is_lying(p, k + step):
                 continue
-            edge = k if step == 1 else k - 1  # the side below the angle that is passed
-            around = edge // count
-            angle = around * TURN + p[at + edge - around * count]
+            angle = side_angle(p, k if step == 1 else k - 1)
             last = min(max(t0 + (t1 - t0) * (angle - theta0) / (theta1 - theta0), t0), t1)
             if last >= notes[SINCE]:
                 notes[RISES if lay else FALLS] += 1

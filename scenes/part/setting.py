@@ -380,7 +380,8 @@ def centre_heights(setting: Scene, theta: Array) -> Array:
     [0.02]
     """
     c, s = np.cos(theta), np.sin(theta)
-    return np.max([-x * s - y * c for x, y in setting.polygon().corners], axis=0)
+    heights: Array = np.max([-x * s - y * c for x, y in setting.polygon().corners], axis=0)
+    return heights
 
 
 def faces_below(setting: Scene, theta: Array) -> NDArray[np.int64]:

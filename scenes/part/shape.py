@@ -306,9 +306,7 @@ def balances(shape: Polygon, tilt: float = 0.0) -> list[tuple[float, int]]:
             angles.append(angle + 2 * math.pi if angle < -math.pi else angle)
     angles.sort()
     below = [
-        min(
-            holding, key=lambda edge, angle=angle: (angle / (2 * math.pi) - found.turns[edge]) % 1.0
-        )
+        min(((angle / (2 * math.pi) - found.turns[edge]) % 1.0, edge) for edge in holding)
         for angle in angles
     ]
-    return list(zip(angles, below))
+    return [(angle, edge) for angle, (_, edge) in zip(angles, below)]
