@@ -38,7 +38,6 @@ AREA = (
 COMMANDS = (  # with the most CPU seconds and megabytes that they may take
     ("juggleproof certify sine --alpha 0.05 --gamma 3.10 --jobs 1 --store DIR", "1", ""),
     ("python -I -S certificates/sine", "2", "50"),
-    ("python -I -S certificates/sine certificates/sine/wide", "", "50"),
 )
 Row = tuple[str, str, str, str, str]
 HEAD: Row = ("", "search s", "check s", "cells", "bytes")
