@@ -1,5 +1,5 @@
-"""The part on the vibrating table (section 2.1, figure 2, table I): a rectangle that falls, strikes
-with its corners, turns, and comes to rest.
+"""The part on the vibrating table (section 2.1, figure 2, table I): a rectangle, or another convex
+polygon, that falls, strikes with its corners, turns, and comes to rest.
 
     from juggleproof.scenes.part import run, scene, standing, table_one
 
@@ -8,6 +8,8 @@ with its corners, turns, and comes to rest.
 In reading order:
 
     body       the compiler, and block and table as numbers
+    shape      convex polygons by their corners, from exact numbers
+    drive      harmonics and records that the table follows
     setting    a scene: what the paper gives and what is inferred
     flight     free flight and the first contact
     strike     impacts, and the forces that hold a block on the table
