@@ -121,9 +121,8 @@ def test_figure_of_a_shape_on_a_tilted_table_of_harmonics_is_drawn_holds(tmp_pat
     shape = ["--shape", str(tmp_path / "corners.txt"), "--tilt", "3", "--away", "60:0.2,120:0.05"]
     path = tmp_path / "f.svg"
     assert run(["simulate", "part", "--figure", str(path), *shape]) == 0
-    groups = re.findall(
-        r'id="fig-2-(?:lying|upright)-0".*?d="([^"]*)"', path.read_text(), re.DOTALL
-    )
+    path_data = path.read_text()
+    groups = re.findall(r'id="fig-2-(?:lying|upright)-0".*?d="([^"]*)"', path_data, re.DOTALL)
     drawn = "".join(groups)
     assert (drawn.count("M"), drawn.count("L")) == (91, 3 * 91)  # triangles
 
