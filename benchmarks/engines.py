@@ -152,7 +152,7 @@ def damping(e: float) -> float:
     """The damping ratio of a spring that pushes only, and sends back with restitution e.
 
     >>> round(damping(0.5), 3)
-    0.242
+    0.255
     """
 
     def restitution(ratio: float) -> float:
