@@ -9,7 +9,7 @@ import operator
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from pathlib import Path
@@ -56,7 +56,7 @@ class Map:
     space: str
     pieces: tuple[Piece, ...]
     point: tuple[str, ...] = ()
-    lines: tuple[int, ...] = ()
+    lines: tuple[int, ...] = field(default=(), compare=False)
 
     def rule(self, name: str = "map") -> MapRule:
         """The map as a statement of the checker."""

@@ -383,10 +383,11 @@ def test_line_of_the_proof_that_is_not_certified_says_so_holds() -> None:
     assert [one.text() for one in cited] == [
         f"{lost.name.partition('/')[2]}: not certified, unknown"
     ]
-    assert "Not every line is certified" in spaced(
-        next(one for one in found.all("section") if one.attributes["id"] == "the-theorem")
-    )
+    section = next(one for one in found.all("section") if one.attributes["id"] == "the-theorem")
+    assert "Not every line is certified" in spaced(section)
     assert "Not every line is certified" not in spaced(by_id("the-theorem"))
+    assert "theorem_from_physics" in spaced(by_id("the-theorem"))
+    assert "theorem_from_physics" not in spaced(section)
 
 
 def test_what_moves_is_still_where_no_motion_is_wanted_holds() -> None:
