@@ -283,7 +283,7 @@ def add_part(scenes: Commands) -> None:
         help="HERTZ:MILLIMETRES along the table, where it is not table I's (default: 30:1)",
     )
     other = part.add_argument_group(
-        "other parts and tables, for --figure and --animation (not those of the paper)"
+        "other parts and tables, not those of the paper: all but table I, its sweeps and --still"
     )
     other.add_argument(
         "--shape",
