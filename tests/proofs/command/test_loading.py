@@ -23,7 +23,7 @@ LIBRARIES = {
     "pyarrow",
     "scipy",
 }
-SHORT = "--horizon 0.01 --ensembles 1"
+SHORT = "--horizon 0.1 --ensembles 1"
 PART = f"--e 0.7 --mu 0.08 {SHORT}"
 NEEDS = {
     "juggler --alpha 3/10 --state x=1,w=1": {"sympy", "mpmath", "flint"},
