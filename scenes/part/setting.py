@@ -208,7 +208,7 @@ def scene(
     >>> scene(e=0.7, mu=0.08).b
     0.02
     >>> scene(e=0.7, mu=0.08, shape=[(0, 0), (0.03, 0), (0, 0.03)]).lying()
-    (0, 2)
+    (1,)
     """
     if shape is not None:
         if a is not None or b is not None:

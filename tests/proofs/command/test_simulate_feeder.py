@@ -20,7 +20,8 @@ from juggleproof.scenes.part import scene
 from juggleproof.scenes.part.resting import between, orientation
 
 pytest.importorskip("numba")
-SMALL = ["simulate", "part", "--e", "0.7", "--mu", "0.08", "--horizon", "0.2", "--ensembles", "1"]
+READING = ["--e", "0.7", "--mu", "0.08", "--amplitudes", "peak", "--phase", "0"]
+SMALL = ["simulate", "part", *READING, "--horizon", "0.2", "--ensembles", "1"]
 TRAJECTORY = ["--trajectory", "--state", "theta=20", "--state", "theta=50,y=40,omega=90"]
 MAP = ["--sweep", "frequency=15:60:2,amplitude=1:2:3"]
 CLEAR = ["--clear", "0,2", "--sweep", "amplitude=0.5:1:2", "--parts", "20"]

@@ -49,7 +49,9 @@ def test_a_condition_with_a_root_is_found_holds() -> None:
     assert narrowed(system, fixed, parameters) == ["q - 1 > 0"]
     found = search_stability(of_rule(rule(*RATIONAL)))
     assert found.verdict == "stable"
-    assert found.sentence.endswith("at least where q - 1 > 0")
+    assert "at least where q - 1 > 0; where q - 1 = 0, it does not attract (2, 1/2)" in (
+        found.sentence
+    )
 
 
 def test_rejects_a_domain_in_which_the_point_is_not_stable() -> None:

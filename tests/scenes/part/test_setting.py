@@ -24,7 +24,6 @@ from juggleproof.scenes.part import (
     run,
     scene,
     standing,
-    sweep,
     table_one,
 )
 from juggleproof.scenes.part.ensemble import Job, advanced
@@ -105,9 +104,6 @@ def test_rejects_a_run_that_is_not_one() -> None:
         lambda: table_one(BLOCK, ensembles=1, horizon=0)
     ) and "outside" in refused(lambda: table_one(BLOCK, horizon=-2))
     assert "ensembles = 0" in refused(lambda: table_one(BLOCK, ensembles=0))
-    assert "sweep of 0 by 1" in refused(
-        lambda: sweep(BLOCK, [], [0.1], ensembles=1, horizon=1, seed=1)
-    )
 
 
 def test_run_that_cannot_go_on_is_reported_in_one_line_holds() -> None:
