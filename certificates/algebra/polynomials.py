@@ -11,7 +11,7 @@ from functools import lru_cache
 from math import lcm, prod
 
 import numpy as np
-from flint import Ordering, fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_ctx
+from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpoly, fmpz_mpoly_ctx
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
@@ -93,8 +93,32 @@ class Ring:
             return []
         key = str(poly)  # the same polynomial comes back in most states of a search
         if key not in self.factored:
-            self.factored[key] = [(factor, int(e)) for factor, e in poly.factor()[1]]
+            self.factored[key] = factorization(poly)[1]
         return self.factored[key]
+
+
+def factorization(poly: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+    """The constant and the irreducible factors over the integers, each with its exponent.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> factorization(2**40 * (2**40 * x + y) * (2**40 * x - y))[1]
+    [(1099511627776*x - y, 1), (1099511627776*x + y, 1)]
+    """
+    try:
+        constant, factors = poly.factor()
+    except OverflowError:  # python-flint sorts integer factors by coefficients of 32 bits only
+        ring = poly.context()
+        rational = fmpq_mpoly_ctx.get(ring.names(), ring.ordering())
+        _, found = rational.from_dict(poly.to_dict()).factor()
+        factors = []
+        for factor, power in found:
+            whole = factor * lcm(*(int(c.q) for c in factor.coeffs()))
+            terms = {monomial: int(c.p) for monomial, c in whole.to_dict().items()}
+            factors.append((ring.from_dict(terms), power))
+        constant = poly.leading_coefficient()
+        for factor, power in factors:
+            constant //= factor.leading_coefficient() ** power
+    return int(constant), [(factor, int(power)) for factor, power in factors]
 
 
 class Packing:

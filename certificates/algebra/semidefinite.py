@@ -325,23 +325,13 @@ class LinearEquations:
 
     def solve(self, budget: Budget, trace: float, last: float) -> list[Floats] | None:
         """Gram matrices in floats, one for each block, each times its scale, of the shape (n, n)
-        for a basis of n; None where `feasible` has none.  `trace` and `last` are its own.
+        for a basis of n; None where `feasible` has none, or numbers are too large for floats.
+        `trace` and `last` are its own.
         """
-        blocks = [
-            np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
-        ]
-        for (k, i, j), column in zip(self.entries, self.terms):
-            scale, half = self.scales[k], 1 if i == j else 2
-            for row, c in column.items():
-                value = c * scale.denominator / scale.numerator / half
-                blocks[k][row, i, j] += value
-                if i != j:
-                    blocks[k][row, j, i] += value
-        free = np.zeros((self.rows, len(self.terms) - self.count))
-        for at, column in enumerate(self.terms[self.count :]):
-            size = max(map(abs, column.values()))
-            for row, c in column.items():
-                free[row, at] = c / size
+        try:
+            blocks, free, tops = self._in_floats()
+        except OverflowError:
+            return None
         # a small row is to hold as well as a large one
         sizes = np.max(
             [
@@ -362,9 +352,29 @@ class LinearEquations:
                 (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, grams)),
                 np.zeros(self.rows),
             )
-            tops = [max(map(abs, column.values())) for column in self.terms[self.count :]]
             self.multipliers = (np.linalg.lstsq(free, rest, rcond=None)[0] / tops).tolist()
         return grams
+
+    def _in_floats(self) -> tuple[list[Floats], Floats, list[float]]:
+        """The blocks' columns, those of the equations' multipliers, each divided by its largest
+        entry, and these entries; OverflowError where one is too large.
+        """
+        blocks = [
+            np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
+        ]
+        for (k, i, j), column in zip(self.entries, self.terms):
+            scale, half = self.scales[k], 1 if i == j else 2
+            for row, c in column.items():
+                value = c * scale.denominator / scale.numerator / half
+                blocks[k][row, i, j] += value
+                if i != j:
+                    blocks[k][row, j, i] += value
+        free = np.zeros((self.rows, len(self.terms) - self.count))
+        tops = [max(map(abs, column.values())) for column in self.terms[self.count :]]
+        for at, (column, top) in enumerate(zip(self.terms[self.count :], tops)):
+            for row, c in column.items():
+                free[row, at] = c / top
+        return blocks, free, list(map(float, tops))
 
     @cached_property
     def scales(self) -> list[Fraction]:

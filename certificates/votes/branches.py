@@ -14,7 +14,13 @@ from math import prod
 from flint import Ordering, fmpz_mpoly
 
 from juggleproof.certificates.algebra.intervals import Box
-from juggleproof.certificates.algebra.polynomials import Ring, constant_of, pseudo_divide, value_at
+from juggleproof.certificates.algebra.polynomials import (
+    Ring,
+    constant_of,
+    factorization,
+    pseudo_divide,
+    value_at,
+)
 from juggleproof.certificates.search.psatz.facts import Reduction, Signed, Step
 from juggleproof.certificates.votes.questions import Atom, Formula, atom, branches, truth
 from juggleproof.certificates.votes.spans import (
@@ -68,7 +74,7 @@ def solve_equations(
 def _positive_factors(poly: fmpz_mpoly, box: Sequence[Interval]) -> Iterator[fmpz_mpoly]:
     """The factors of leads of the equation, or their negatives, that are positive on the box."""
     for i, degree in enumerate(poly.degrees()):
-        for factor, _ in poly.derivative(i).factor()[1] if degree == 1 else ():
+        for factor, _ in factorization(poly.derivative(i))[1] if degree == 1 else ():
             for signed in (factor, -factor):
                 if upper_end(-signed, box) < ZERO:
                     yield signed
@@ -155,12 +161,6 @@ def _contradict(facts: Sequence[Atom]) -> bool:
         if fact.relation == "=" and (fact.poly in strict or minus in strict):
             return True
     return False
-
-
-def factorization(poly: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
-    """The constant and the irreducible factors over the integers, each with its exponent."""
-    constant, factors = poly.factor()
-    return int(constant), sorted(((f, int(k)) for f, k in factors), key=lambda pair: str(pair[0]))
 
 
 # -------------------------------------------------------------------------------------------------

@@ -278,7 +278,6 @@ def add_part(scenes: Commands) -> None:
     )
     how.add_argument(
         "--vibration",
-        default="30:1",
         metavar="V",
         help="HERTZ:MILLIMETRES along the table, where it is not table I's (default: 30:1)",
     )

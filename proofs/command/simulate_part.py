@@ -28,6 +28,7 @@ from juggleproof.scenes.part.onsets import (
     Table,
     as_csv,
     as_npz,
+    ensembles_in_words,
     table_one,
 )
 from juggleproof.scenes.part.readings import (
@@ -160,9 +161,8 @@ def _table(options: PartOptions, executor: Executor | None) -> int:
     if options.output is not None:
         with written_aside(options.output) as file:
             _writer(options.output)(computed, file)
-        print(
-            f"{options.output}: {len(computed.rows)} rows of {options.ensembles} ensembles written"
-        )
+        each = ensembles_in_words(options.ensembles)
+        print(f"{options.output}: {len(computed.rows)} rows of {each} written")
     broken = options.check and part_tables.violations(computed.run, setting)
     return 130 if interrupted else int(broken)
 

@@ -14,11 +14,11 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_record
 from juggleproof.scenes.part.readings import AMPLITUDES, FACES, Reading, chosen, recorded
-from juggleproof.scenes.part.setting import Launch, Scene, scene
+from juggleproof.scenes.part.setting import Launch, Scene
 from juggleproof.scenes.part.shape import Polygon, polygon
 
-SINES = ("A_x", "f_x", "phase_x", "A_y", "f_y", "phase_y")
-OTHERS = ("shape", "tilt", "along", "away", "drive")
+OTHERS = ("vibration", "shape", "tilt", "along", "away", "drive")
+VIBRATION = "30:1"  # of the paper's figure 2
 MOST_BYTES = 100_000_000  # of a file of corners or of a record
 
 
@@ -31,7 +31,7 @@ class SceneOptions(argparse.Namespace):
     amplitudes: str | None
     phase: str | None
     launch: Launch
-    vibration: str
+    vibration: str | None
     shape: str | None
     tilt: str
     along: str | None
@@ -75,34 +75,24 @@ def reading_of(options: SceneOptions) -> Reading:
 
 
 def others(options: SceneOptions) -> list[str]:
-    """The options of a part or a table that is not the paper's."""
+    """The options of a part, a table or a vibration that is not table I's."""
     return [name for name in OTHERS if getattr(options, name) not in (None, "0")]
 
 
 def setting_of(options: SceneOptions, reading: Reading) -> Scene:
     """The scene of the options under a reading."""
-    frequency, amplitude = _vibration(options.vibration)
-    contact = {
-        "tolerance": number(options.tolerance, "tolerance"),
-        "rest_speed": number(options.rest_speed, "rest speed"),
-    }
-    plain = reading.scene(options.launch, A_x=reading.peak * amplitude, f_x=frequency, **contact)
     if options.shape is not None and options.face is not None:
         raise ClaimError("--face and --shape do not go together; give one of them")
-    if not others(options):
-        return plain
-    shape = None if options.shape is None else _shape(options.shape)
+    frequency, amplitude = _vibration(options.vibration or VIBRATION)
     drive = _drive(options, reading)
-    return scene(
-        **({"a": plain.a, "b": plain.b} if shape is None else {}),
-        **({name: getattr(plain, name) for name in SINES} if drive is None else {}),
-        e=reading.e,
-        mu=reading.mu,
-        launch=options.launch,
-        shape=shape,
-        tilt=math.radians(number(options.tilt, "tilt")),
+    return reading.scene(
+        options.launch,
+        shape=None if options.shape is None else _shape(options.shape),
         drive=drive,
-        **contact,
+        **({"A_x": reading.peak * amplitude, "f_x": frequency} if drive is None else {}),
+        tilt=math.radians(number(options.tilt, "tilt")),
+        tolerance=number(options.tolerance, "tolerance"),
+        rest_speed=number(options.rest_speed, "rest speed"),
     )
 
 
@@ -141,6 +131,9 @@ def _drive(options: SceneOptions, reading: Reading) -> Harmonics | Record | None
     """How the table moves where it is no single sine along each axis; a harmonic without a phase
     starts at 0, the axis that is not given as in the reading.
     """
+    for name in ("along", "drive"):
+        if options.vibration is not None and getattr(options, name) is not None:
+            raise ClaimError(f"--vibration and --{name} do not go together; give one of them")
     if options.drive is not None:
         if options.along is not None or options.away is not None:
             raise ClaimError("--drive goes without --along and --away; give one of them")
@@ -150,7 +143,7 @@ def _drive(options: SceneOptions, reading: Reading) -> Harmonics | Record | None
             raise ClaimError(f"{options.drive}: {fault}") from None
     if options.along is None and options.away is None:
         return None
-    along = options.along or f"{options.vibration}:{reading.phase_x}"
+    along = options.along or f"{options.vibration or VIBRATION}:{reading.phase_x}"
     away = options.away or f"60:0.2:{reading.phase_y}"
     return harmonics(*(_sines(text, reading.peak) for text in (along, away)))
 

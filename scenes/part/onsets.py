@@ -49,6 +49,15 @@ MOST_ENSEMBLES = 100_000
 MOST_POINTS = 10_000  # of a sweep
 
 
+def ensembles_in_words(count: int) -> str:
+    """How many ensembles.
+
+    >>> ensembles_in_words(1)
+    '1 ensemble'
+    """
+    return f"{count} ensemble{'' if count == 1 else 's'}"
+
+
 @dataclass(frozen=True)
 class Row:
     """One row: vibration along the table, the paper's onset, and for each ensemble its onset (inf:
@@ -85,8 +94,8 @@ class Table(Shown):
     run: Run
 
     def title(self) -> str:
-        count = len(self.rows[0].chaotic)
-        return f"Table I: from when on all blocks lie; {count} ensembles of {ANGLES} blocks"
+        count = ensembles_in_words(len(self.rows[0].chaotic))
+        return f"Table I: from when on all blocks lie; {count} of {ANGLES} blocks"
 
     def columns(self) -> Sequence[Column]:
         """A row a row: vibration, the paper's onset (nan: chaotic), the median, 16 and 84 percent

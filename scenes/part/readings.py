@@ -21,6 +21,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
+from juggleproof.scenes.part.drive import Harmonics, Record
 from juggleproof.scenes.part.ensemble import fresh_notes, run_jobs
 from juggleproof.scenes.part.motion import sample_all
 from juggleproof.scenes.part.onsets import (
@@ -41,6 +42,7 @@ from juggleproof.scenes.part.setting import (
     scene,
     standing,
 )
+from juggleproof.scenes.part.shape import Polygon
 
 # -------------------------------------------------------------------------------------------------
 # Likelihood.
@@ -119,26 +121,27 @@ class Reading:
         """How much of a printed amplitude is the amplitude."""
         return AMPLITUDES[self.amplitudes]
 
-    def scene(self, launch: Launch = "rest", **others: float) -> Scene:
+    def scene(
+        self,
+        launch: Launch = "rest",
+        shape: Polygon | None = None,
+        drive: Harmonics | Record | None = None,
+        **numbers: float,
+    ) -> Scene:
         """The scene with the vertical vibration of table I, and none along the table but for what
-        is given; SceneError for numbers that make none.
+        is given; a shape in place of the face, a drive in place of both vibrations.  SceneError for
+        numbers that make none.
 
         >>> Reading("1x2", "peak-to-peak", 0, 0, 0.7, 0.08).scene().A_y
         0.0001
         """
-        a, b = FACES[self.face]
-        plain = scene(
-            a=a,
-            b=b,
-            e=self.e,
-            mu=self.mu,
-            phase_x=math.radians(self.phase_x),
-            A_y=self.peak * 2e-4,
-            f_y=60.0,
-            phase_y=math.radians(self.phase_y),
-            launch=launch,
-        )
-        return changed(plain, **others)
+        given = {"e": self.e, "mu": self.mu}
+        if shape is None:
+            given["a"], given["b"] = FACES[self.face]
+        if drive is None:
+            given |= {"phase_x": math.radians(self.phase_x), "phase_y": math.radians(self.phase_y)}
+            given |= {"A_y": self.peak * 2e-4, "f_y": 60.0}
+        return scene(launch=launch, shape=shape, drive=drive, **{**given, **numbers})
 
 
 @dataclass(frozen=True)

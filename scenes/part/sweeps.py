@@ -18,6 +18,7 @@ from juggleproof.scenes.part.onsets import (
     ANGLES,
     MOST_POINTS,
     Row,
+    ensembles_in_words,
     jittered,
     jittered_phases,
     onset_columns,
@@ -133,10 +134,11 @@ class OnsetMap(Shown):
 
     def title(self) -> str:
         settled, chaotic, other = self.counts()
-        ensembles, horizon = len(self.rows[0].chaotic), self.rows[0].horizon
+        ensembles = ensembles_in_words(len(self.rows[0].chaotic))
+        horizon = self.rows[0].horizon
         return (
             f"From when on all {ANGLES} blocks lie over {' and '.join(self.grid)}: {len(self.rows)}"
-            f" points of {ensembles} ensembles, {horizon:g} s each: {settled} settle, {chaotic} are"
+            f" points of {ensembles}, {horizon:g} s each: {settled} settle, {chaotic} are"
             f" chaotic, {other} have not settled"
         )
 
@@ -160,7 +162,8 @@ class OnsetMap(Shown):
             (_named(name, unit), values)
             for (name, values), unit in zip(self.grid.items(), self.units)
         )
-        count, horizon = len(self.rows[0].chaotic), self.rows[0].horizon
+        ensembles = ensembles_in_words(len(self.rows[0].chaotic))
+        horizon = self.rows[0].horizon
         figure = drawing.onset_map(
             first,
             second,
@@ -168,7 +171,7 @@ class OnsetMap(Shown):
             np.array([row.is_chaotic() for row in self.rows]).reshape(shape),
             (
                 f"From when on all {ANGLES} blocks lie",
-                f"{len(self.rows)} points, the median of {count} ensembles of {horizon:g} s each;"
+                f"{len(self.rows)} points, the median of {ensembles} of {horizon:g} s each;"
                 f" {_fixed(self.setting, self.grid)}",
             ),
         )

@@ -487,9 +487,10 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
                 continue
             left = budget.left
             try:
-                program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
-                solution = program.solution(budget)
-            except TooLarge:
+                with np.errstate(over="raise"):
+                    program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
+                    solution = program.solution(budget)
+            except (TooLarge, OverflowError, FloatingPointError):  # of terms, or of coefficients
                 budget.spend(TOO_LARGE)
             if len(_solved) >= MOST_SOLVED:
                 _solved.clear()

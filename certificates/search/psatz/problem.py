@@ -397,6 +397,7 @@ def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int
 # A point found here proves nothing; it only ends the search for a proof that cannot exist.
 
 SAMPLES, ROUNDS, KEPT, MARGIN = 160, 5, 8, 1e-6
+FLOAT_BITS = 900  # of the coefficients of a fact, which are divided by a power of two beyond
 Array = NDArray[np.float64]
 
 
@@ -411,11 +412,13 @@ class Values:
         monomials: dict[tuple[int, ...], int] = {}
         entries: list[tuple[int, int, float]] = []
         for row, fact in enumerate(problem.facts):
-            for monomial, coefficient in zip(fact.poly.monoms(), fact.poly.coeffs()):
+            coefficients = [int(coefficient) for coefficient in fact.poly.coeffs()]
+            longer = max(0, max(map(int.bit_length, coefficients), default=0) - FLOAT_BITS)
+            for monomial, coefficient in zip(fact.poly.monoms(), coefficients):
                 column = monomials.setdefault(
                     tuple(int(monomial[v]) for v in self.used), len(monomials)
                 )
-                entries.append((row, column, float(int(coefficient))))
+                entries.append((row, column, float(coefficient >> longer)))
         self.powers = np.array(list(monomials), dtype=np.int64).reshape(
             len(monomials), len(self.used)
         )

@@ -83,3 +83,13 @@ show (z^2 + z - 2)^9 + (z^2 + z - 2)^4 + 3 > z^2 + z
     node = search_closing(state, {"h/lemma": known["h/lemma"]}, Budget(BUDGET), 1, hints)
     assert node is not None and node[:3] == ("use", "h/lemma", {"y": "z^2 + z - 2"})
     assert state.is_closed_by(node, {"h/lemma": known["h/lemma"]})
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("digits", [160, 320])
+def test_coefficients_too_large_for_floats_end_as_unknown(digits: int) -> None:
+    large = 10**digits
+    text = f"forall x y z\ngiven {large}*x + y > {3 * large + 1}*z^2\ngiven {large}*z > y^3 + x"
+    text += f"\ngiven x*y*z > 1\nshow x > 0 and {large}*x*y^2 > 1 - {large}*z*x"
+    (statement,) = checker.read_statements(f"statement a/large\n{text}").values()
+    assert "certified" not in search_certificate(statement, {}, Budget(300_000))

@@ -18,10 +18,9 @@ from juggleproof.certificates.algebra.intervals import (
     surely,
 )
 from juggleproof.certificates.algebra.numbers import root_number, sign_at
-from juggleproof.certificates.algebra.polynomials import value_at, with_value
+from juggleproof.certificates.algebra.polynomials import factorization, value_at, with_value
 from juggleproof.certificates.votes.branches import (
     Region,
-    factorization,
     reduce_factors,
     regions,
     solve_equations,
@@ -310,8 +309,9 @@ def test_a_polynomial_keeps_its_value_without_the_solved_variables() -> None:
     assert value_at(reduced[0], point) / reduced[1] == value_at(poly, point)
 
 
-def test_factorizations_multiply_back() -> None:
-    poly, random = polynomial("6*(x^2 - y^2)^2*(x + 1)"), Random(5)
+@pytest.mark.parametrize("size", [1, 2**31, 2**80 + 1])
+def test_factorizations_multiply_back(size: int) -> None:
+    poly, random = polynomial(f"6*({size}^2*x^2 - y^2)^2*({size}*x + 3)*(6*x + 9)"), Random(5)
     constant, factors = factorization(poly)
     for _ in range(10):
         point = [F(random.randint(-5, 5)) for _ in range(2)]
