@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from juggleproof.benchmarks.generated import DOCS, Generated
+from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.benchmarks.part import THIRD_ROW
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.scenes.part import body, fresh_notes, scene, standing
@@ -326,8 +326,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.engines")
     parser.add_argument("--accept", action="store_true")
     accept = parser.parse_args(arguments).accept
-    lines = [*rows(IMPACTS, jittered(1, SEED)[0], (EARLY, LATE))]
-    text = "\n".join(f"| {' | '.join(one)} |" for one in [HEADS, ("---",) * len(HEADS), *lines])
+    text = in_columns(HEADS, *rows(IMPACTS, jittered(1, SEED)[0], (EARLY, LATE)))
     absent = [name for name in ENGINES if name not in present()]
     if accept and not absent:
         TABLE.write(text)

@@ -9,13 +9,12 @@ The certificates are read; `python -I -S certificates/sine certificates/sine/wid
 
 from __future__ import annotations
 
-import argparse
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import ceil, floor
 
-from juggleproof.benchmarks.generated import DOCS, Generated
+from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.certificates.sine.cells import Attraction
 from juggleproof.certificates.sine.checker import Rectangle, outcome
 from juggleproof.certificates.sine.flights import ONE, PI2, Interval
@@ -84,20 +83,8 @@ def between(ends: Interval) -> str:
 
 def table() -> str:
     """The table as the page has it."""
-    head, *body = rows()
-    lines = [head, ("---",) * len(head), *body]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
-def main() -> None:
-    """Prints the table, or writes it into the page."""
-    parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.feeder")
-    parser.add_argument("--accept", action="store_true")
-    if parser.parse_args().accept:
-        TABLE.write(table())
-    else:
-        print(table())
+    return in_columns(*rows())
 
 
 if __name__ == "__main__":
-    main()
+    TABLE.main(table)

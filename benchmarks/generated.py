@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,6 +38,15 @@ class Generated:
         begin, end = self.marks
         return write_file(self.page, f"{head}{begin}\n{text}\n{end}{rest}".encode())
 
+    def main(self, text: Callable[[], str]) -> None:
+        """The command: prints the text, or with --accept writes it into the page."""
+        parser = argparse.ArgumentParser(prog=f"python -m juggleproof.benchmarks.{self.name}")
+        parser.add_argument("--accept", action="store_true")
+        if parser.parse_args().accept:
+            self.write(text())
+        else:
+            print(text())
+
     def _around(self) -> tuple[str, str, str]:
         text, (begin, end) = self.page.read_text(encoding="utf-8"), self.marks
         if any(text.count(mark) != 1 for mark in self.marks):
@@ -45,3 +56,14 @@ class Generated:
         head, _, rest = text.partition(begin)
         old, _, rest = rest.partition(end)
         return head, old, rest
+
+
+def in_columns(head: Sequence[str], *rows: Sequence[str]) -> str:
+    """A table as pages have it.
+
+    >>> print(in_columns(("a", "b"), ("1", "2")))
+    | a | b |
+    | --- | --- |
+    | 1 | 2 |
+    """
+    return "\n".join(f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows))

@@ -10,13 +10,12 @@ area is added up in floats, as the curves are.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import floor
 from typing import NamedTuple
 
-from juggleproof.benchmarks.generated import DOCS, Generated
+from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.certificates.sine.checker import Box
 from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.proofs.command.sine import WIDE
@@ -79,19 +78,8 @@ def percent(one: Area) -> str:
 
 def table() -> str:
     """The table as the page has it."""
-    head, *body = rows()
-    return "\n".join(f"| {' | '.join(line)} |" for line in [head, ("---", "---"), *body])
-
-
-def main() -> None:
-    """Prints the table, or writes it into the page."""
-    parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.wedge")
-    parser.add_argument("--accept", action="store_true")
-    if parser.parse_args().accept:
-        TABLE.write(table())
-    else:
-        print(table())
+    return in_columns(*rows())
 
 
 if __name__ == "__main__":
-    main()
+    TABLE.main(table)

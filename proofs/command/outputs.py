@@ -38,6 +38,12 @@ def fault_of(path: Path) -> str:
         return f"cannot be written ({getattr(error, 'strerror', None) or error})"
 
 
+def fault_of_folder(folder: Path) -> str:
+    """Why no file can be written in the folder, which is made where it is missing."""
+    there = (one for one in (folder.absolute(), *folder.absolute().parents) if one.exists())
+    return fault_of(next(there) / "file")
+
+
 OUTPUTS = ("json", "junit", "markdown", "timings")
 
 

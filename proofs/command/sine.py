@@ -27,7 +27,7 @@ from juggleproof.certificates.sine.checker import (
 from juggleproof.certificates.sine.cover import EVERY, Covered, cover
 from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval, Refused
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.command.outputs import fault_of, now_and_then
+from juggleproof.proofs.command.outputs import fault_of, fault_of_folder, now_and_then
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
 from juggleproof.scenes import table
@@ -89,6 +89,8 @@ def certify(options: SineOptions) -> int:
             raise ClaimError("--picture: not with --basin; leave it out")
     rectangles = [rectangle_of(options)] if asked(options) else wide_rectangles()
     folder, tell = options.store or STORE, now_and_then()
+    if fault := fault_of_folder(folder):
+        raise ClaimError(f"--store {folder}: {fault}; name another folder")
     found = []
     with _executor(options) as executor:
         several = cover(

@@ -294,6 +294,7 @@ def test_frequency_and_amplitude_give_the_drive(
             ["--alpha", "0.05", "--gamma", "2.9", "--basin", "--picture", "a.svg"],
             "not with --basin",
         ),
+        (["--alpha", "0.05", "--gamma", "3.1", "--store", "/dev/null/a"], "--store /dev/null/a: "),
         (["mine.py", "--basin"], "--basin: for `certify sine` only"),
         (["mine.py", "--alpha", "0.05"], "--alpha: for `certify sine` only"),
     ],

@@ -130,6 +130,12 @@ def test_figure_of_a_shape_on_a_tilted_table_of_harmonics_is_drawn_holds(tmp_pat
     assert (drawn.count("M"), drawn.count("L")) == (91, 3 * 91)  # triangles
 
 
+def test_friction_is_bounded_by_the_shape_not_by_the_papers_block_holds(tmp_path: Path) -> None:
+    hexagon = [*SMALL, "--figure", str(tmp_path / "f.svg"), "--shape", "0,0 2,0 3,2 2,4 0,4 -1,2"]
+    assert run([*hexagon, "--mu", "1.4"]) == 0
+    assert run([*hexagon, "--mu", "1.47"]) == 2
+
+
 def test_table_is_told_with_what_it_assumes_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
