@@ -17,12 +17,13 @@ import os
 import pickle
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from functools import cache
 from multiprocessing import get_context
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.checker import rules
+from juggleproof.certificates.checker import orbits, rules
 from juggleproof.certificates.store import DEFAULT, Store
 from tests.proofs.paper.independent import contradiction
 from tests.proofs.paper.statement_mutants import changes
@@ -129,6 +130,44 @@ def close_once(state: rules.State, node: Any, known: dict[str, rules.Statement])
     return None
 
 
+plain_premises, plain_prove = orbits.premises_of, orbits.prove
+premises: dict[str, dict[str, rules.Statement]] = {}
+proved: dict[tuple[str, int], Any] = {}
+
+
+def premises_once(
+    statement: rules.Statement, known: dict[str, rules.Statement], work: checker.Work
+) -> dict[str, rules.Statement]:
+    """The checker's `premises_of`, which depends on nothing but the statement and what is known."""
+    if statement.name not in premises:
+        premises[statement.name] = plain_premises(statement, known, work)
+    return premises[statement.name]
+
+
+def prove_once(
+    premise: rules.Statement, proof: Any, known: dict[str, rules.Statement], work: checker.Work
+) -> None:
+    """The checker's `prove`: a proof that a change elsewhere leaves as it is proves its premise
+    again.
+    """
+    key = (premise.name, id(proof))
+    if key not in proved:
+        plain_prove(premise, proof, known, work=work)
+        proved[key] = proof  # kept, so that its id is not given to another
+
+
+@contextmanager
+def nothing_twice() -> Iterator[None]:
+    """While one statement's certificate is changed, what no change has touched is checked once."""
+    for kept in (closed, premises, proved):
+        kept.clear()
+    rules.close, orbits.premises_of, orbits.prove = close_once, premises_once, prove_once
+    try:
+        yield
+    finally:
+        rules.close, orbits.premises_of, orbits.prove = plain_close, plain_premises, plain_prove
+
+
 @cache
 def certified_before(name: str) -> dict[str, rules.Statement]:
     """What the checker knows when it comes to a stored statement."""
@@ -169,9 +208,7 @@ def claimed(certificate: Any) -> str:
 
 def tampered_certificate(name: str) -> Tally:
     good, text = STORE.certificate(name, STORE.texts[name]), STORE.texts[name]
-    closed.clear()
-    rules.close = close_once
-    try:
+    with nothing_twice():
         before, wrong, tried, rejected = outcome(STATEMENTS[name], good), [], 0, 0
         if before not in ("certified", "refuted"):
             wrong.append(f"{name}: its own certificate is {before}")
@@ -189,8 +226,6 @@ def tampered_certificate(name: str) -> Tally:
                     point := contradiction(text, after, bad, STORE.texts, certified_before(name))
                 ) is not None:
                     wrong.append(f"{name}: accepted with {path} changed, and false at {point}")
-    finally:
-        rules.close = plain_close
     return tried, rejected, wrong
 
 
