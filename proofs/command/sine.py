@@ -92,7 +92,7 @@ def certify(options: SineOptions) -> int:
     if fault := fault_of_folder(folder):
         raise ClaimError(f"--store {folder}: {fault}; name another folder")
     found = []
-    with _executor(options) as executor:
+    with _executor(options, rectangles) as executor:
         several = cover(
             rectangles,
             folder,
@@ -292,8 +292,10 @@ def why_refuted(one: Counterexample) -> str:
 
 
 @contextmanager
-def _executor(options: SineOptions) -> Iterator[Executor | None]:
-    """The executor that is asked for: a Dask cluster, processes of our own, or none for one job."""
+def _executor(options: SineOptions, rectangles: Sequence[Rectangle]) -> Iterator[Executor | None]:
+    """The executor that is asked for: a Dask cluster, processes of our own, or none for one job,
+    which a point is.
+    """
     if options.executor:
         try:
             distributed = import_module("distributed")
@@ -309,7 +311,8 @@ def _executor(options: SineOptions) -> Iterator[Executor | None]:
             yield client.get_executor()
         return
     jobs = options.jobs or os.cpu_count() or 1
-    if jobs == 1:
+    point = all(low == high for one in rectangles for low, high in (one.alpha, one.values))
+    if jobs == 1 or point:
         yield None
         return
     with own_pool(jobs) as pool:
