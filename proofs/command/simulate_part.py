@@ -37,7 +37,7 @@ from juggleproof.scenes.part.readings import (
     Task,
     as_json,
     finals,
-    nearer,
+    neighbours,
     screened,
     stage,
     sweep,
@@ -176,11 +176,10 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
     whole = options.sweep == READINGS
     stages: list[Stage] = []
-    tasks, interrupted = screened() if whole else _grid(options), False
-    following = [nearer, finals] if whole else []
+    wanted, interrupted = [screened(), neighbours()] if whole else [_grid(options)], False
     print(part_tables.POINT_HEADS)
-    while tasks and not interrupted:
-        points = list[Point]()
+    while wanted and not interrupted:
+        tasks, points = wanted.pop(0), list[Point]()
 
         def report(_done: int, _of: int, points: list[Point] = points) -> None:
             if points[-1].likelihoods:
@@ -193,7 +192,8 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
             print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
         if points:
             stages.append(stage(tasks, points))
-        tasks = following.pop(0)(points) if following else []
+        if whole and len(stages) == 2:
+            wanted.append(finals([one.points for one in stages]))
     if stages and stages[-1].points:
         print(part_tables.likeliest(stages))
     if options.output is not None and stages:
