@@ -1,8 +1,8 @@
 """The third reader has the checker's outcome on every stored certificate, on the tables of rules
 and on changes of them.  What concerns the limits on work it is not asked.
 
-`make test` takes a fixed share of the changes; with JUGGLEPROOF_MUTANTS=all (as CI sets it) a larger
-one.
+`make test` takes a fixed share of the changes; with JUGGLEPROOF_MUTANTS=all (as CI sets it) a
+larger one.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 must be true, what is false is refuted.
 
 `make test` takes a fixed sample of the statements; with JUGGLEPROOF_MUTANTS=all (as CI sets it)
-every certified statement is mutated twice. The independent judge shares nothing with the checker: 10,000
-rational points, and Z3 on the negation.
+every certified statement is mutated twice. The independent judge shares nothing with the checker:
+10,000 rational points, and Z3 on the negation.
 """
 
 from __future__ import annotations
