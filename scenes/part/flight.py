@@ -54,6 +54,7 @@ from juggleproof.scenes.part.body import (
     compiled,
     corner_x,
     corner_y,
+    inlined,
     last_corner,
     lowest,
     next_corner,
@@ -75,7 +76,7 @@ AFRESH = 32  # steps after which sines are computed afresh, not turned on
 MOST_GUESSES, TIME_RESOLUTION = 100, 1e-14
 
 
-@compiled
+@inlined
 def safe_step(value: float, rate: float, fall: float) -> float:
     """How long value + rate s - fall s^2/2 stays at least 0, from value >= 0 on; fall > 0.
 
@@ -88,7 +89,7 @@ def safe_step(value: float, rate: float, fall: float) -> float:
     return 2 * value / (root - rate)
 
 
-@compiled
+@inlined
 def sure_step(
     value: float,
     rate: float,
@@ -114,7 +115,7 @@ def sure_step(
     return min(step, safe_step(value, rate, steepest)) if steepest > 0 else step
 
 
-@compiled
+@inlined
 def lands_after(
     gap: float, rate: float, push: float, jerk: float, bend: float, close: float
 ) -> float:
@@ -168,7 +169,7 @@ def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
 Two = tuple[int, float, float, float, float, float, float]
 
 
-@compiled
+@inlined
 def lowest_two(p: Floats, low: int, omega: float) -> Two:
     """The corner that is the lowest after this one as the block turns; the places of both from the
     centre at theta = 0, and the direction of the edge between them.
@@ -201,7 +202,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     return land(p, z, until, notes)[0]
 
 
-@compiled
+@inlined
 def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
     """The same; with cosine and sine of theta, and the height of the table, its speed and its
     acceleration upwards, where the flight ends.  CORNER is the lowest corner there.

@@ -17,6 +17,7 @@ from juggleproof.scenes.part.body import (
     TOO_MANY_EVENTS,
     Floats,
     compiled,
+    making_arrays,
 )
 from juggleproof.scenes.part.flight import land
 from juggleproof.scenes.part.rest import lie, note_turn, pivot
@@ -67,7 +68,7 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     return DONE
 
 
-@compiled
+@making_arrays
 def follow_all(
     p: Floats, states: NDArray[np.float64], until: float, notes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -87,7 +88,7 @@ def follow_all(
 # soon makes another orbit of that.
 
 
-@compiled
+@making_arrays
 def sample(
     p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, samples: NDArray[np.float64]
 ) -> int:
@@ -120,7 +121,7 @@ def sample(
     return DONE
 
 
-@compiled
+@making_arrays
 def sample_all(
     p: Floats,
     states: NDArray[np.float64],

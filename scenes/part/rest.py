@@ -51,6 +51,7 @@ from juggleproof.scenes.part.body import (
     corner_y,
     face_angle,
     first_angle,
+    inlined,
     next_corner,
     shaken,
     table_glide,
@@ -103,7 +104,7 @@ def is_lying(p: Floats, number: int) -> bool:
     return p[int(p[AT_SIDES]) + count + number % count] != 0
 
 
-@compiled
+@inlined
 def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, theta1: float) -> None:
     """Notes the sides that a block was on from t0 to t1, turning evenly."""
     count, at = int(p[SIDES]), int(p[AT_SIDES])

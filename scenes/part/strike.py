@@ -47,6 +47,7 @@ from juggleproof.scenes.part.body import (
     face_angle,
     first_angle,
     flat_angle,
+    inlined,
     last_corner,
     lowest,
     next_corner,
@@ -76,7 +77,7 @@ from juggleproof.scenes.part.body import (
 JAMMING = -1
 
 
-@compiled
+@inlined
 def mode_of(
     S0: float, C0: float, B1: float, B2: float, B3: float, e: float, mu: float, sigma: int
 ) -> int:
@@ -97,7 +98,7 @@ def mode_of(
     return STICKING_IN_RESTITUTION if holds else REVERSED_IN_RESTITUTION
 
 
-@compiled
+@inlined
 def first_slide(S0: float, B1: float, B3: float, mu: float) -> int:
     """The direction in which the corner slides at first, 1 or -1; where S0 = 0, the one in which
     friction fails to hold it.
@@ -107,7 +108,7 @@ def first_slide(S0: float, B1: float, B3: float, mu: float) -> int:
     return -1
 
 
-@compiled
+@inlined
 def impulse(
     mode: int,
     S0: float,
@@ -199,7 +200,7 @@ def energy(p: Floats, across: float, up: float, omega: float) -> float:
     return (across * across + up * up + p[GYRATION] * omega * omega) / 2
 
 
-@compiled
+@inlined
 def rest_speed(p: Floats, omega: float) -> float:
     """Below which speed (m/s) a corner stays: the scene's, but where the block turns fast at least
     so much that hops are not lost in rounding (see `Scene.least_rest_speed`).
@@ -208,7 +209,7 @@ def rest_speed(p: Floats, omega: float) -> float:
     return max(p[REST_SPEED], turning * max(ROUNDED_HOP, 4 * abs(omega) * MOMENT))
 
 
-@compiled
+@inlined
 def strike_at(
     p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats
 ) -> int:
@@ -249,7 +250,7 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
     return strike_all(p, z, c, s, table_height(p, t), table_rise(p, t), table_lift(p, t), notes)
 
 
-@compiled
+@inlined
 def strike_all(
     p: Floats,
     z: Floats,

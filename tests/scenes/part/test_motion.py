@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import re
 
+import hypothesis
 import numpy as np
 import pytest
+from hypothesis import strategies as st
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, fresh_notes, moving, run, scene, standing
@@ -204,6 +206,43 @@ def test_corners_of_a_long_block_do_not_sink_holds(given: dict[str, float]) -> N
     angles = LYING - 10.0 ** np.arange(-7.0, -1.0)
     impacts = check(block, standing(block, [*angles, 1e-5]), 1.0)[:, body.IMPACTS]
     assert impacts.max() > 1000
+
+
+@hypothesis.given(
+    aspect=st.floats(1, 300),
+    length=st.floats(0.01, 2),
+    lost=st.sampled_from([1e-6, 1e-4, 1e-3, 0.05]),
+    mu=st.sampled_from([0.0, 0.1, 1.2]),
+    tilted=st.floats(-8, -1),
+    quiet=st.floats(-6, -3),
+    tolerance=st.floats(-13, -9),
+    A_y=st.sampled_from([0.0, 1e-5, 2e-4]),
+)
+@hypothesis.settings(max_examples=30)
+def test_no_corner_of_a_bouncy_block_of_aspect_1_to_300_sinks_holds(
+    aspect: float,
+    length: float,
+    lost: float,
+    mu: float,
+    tilted: float,
+    quiet: float,
+    tolerance: float,
+    A_y: float,
+) -> None:
+    try:
+        block = scene(
+            a=length / aspect,
+            b=length,
+            e=1 - lost,
+            mu=mu,
+            A_y=A_y,
+            rest_speed=10**quiet,
+            tolerance=10**tolerance,
+        )
+        states = standing(block, [LYING - 10**tilted, 10**tilted])
+    except SceneError:  # a tolerance that floats of this size cannot keep
+        hypothesis.reject()
+    check(block, states, 0.05)
 
 
 def test_corner_that_is_too_deep_is_counted_holds() -> None:
