@@ -1,7 +1,7 @@
 """The tests beside this file, and the stored certificates, notice every mutant of the checker but
 those that say the same.
 
-`make test` tries a fixed share; with JUGGLEPROOF_MUTANTS=all (as CI sets it) a third is tried, and
+`make test` tries a fixed share; with JUGGLEPROOF_MUTANTS=many (as CI sets it) a tenth is tried, and
 those that nothing notices are exactly the ones listed.  All of them are tried by
 `python -m tests.certificates.checker.mutate`.
 """
@@ -14,8 +14,8 @@ from pathlib import Path
 
 from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all
 
-ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
-SHARE = 3 if ALL else 350  # one mutant in so many
+MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
+SHARE = 10 if MANY else 350  # one mutant in so many
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "adding-a-rule.md"
 KEYS = [one.key for one in MUTANTS]
 
@@ -37,11 +37,11 @@ def test_every_equivalent_mutant_is_a_mutant_with_a_reason_holds() -> None:
 def test_every_mutant_is_noticed_unless_it_is_equivalent_holds() -> None:
     known = equivalent()
     chosen = [
-        k for k, key in enumerate(KEYS) if (ALL or key not in known) and digest(key) % SHARE == 0
+        k for k, key in enumerate(KEYS) if (MANY or key not in known) and digest(key) % SHARE == 0
     ]
-    found = dict(judge_all(chosen, follow=ALL))
+    found = dict(judge_all(chosen, follow=MANY))
     assert {key for key, one in found.items() if not one} == set(known) & set(found)
-    assert len(found) > (500 if ALL else 2)
+    assert len(found) > (100 if MANY else 2)
 
 
 def test_the_score_counts_the_mutants_holds() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from tests.proofs.coq.development import Coq, order, rejects
 
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 4
+SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 4
 PHYSICS = ("Executions.v", "Bouncing.v", "Existence.v", "FromPhysics.v")
 
 DEFINITIONS = {

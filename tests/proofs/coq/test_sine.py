@@ -8,7 +8,7 @@ import pytest
 
 from tests.proofs.coq.development import Coq, order, rejects, rest_on_the_reals, source, theorems
 
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 6
+SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 6
 SINE = tuple(file for file in order() if file.startswith("Sine"))
 
 # (file, what it says, what it does not prove)

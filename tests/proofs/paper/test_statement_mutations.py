@@ -1,8 +1,8 @@
 """A statement with one coefficient, sign, exponent or relation changed: what is still certified
 must be true, what is false is refuted.
 
-`make test` takes a fixed sample of the statements; with JUGGLEPROOF_MUTANTS=all (as CI sets it)
-every certified statement is mutated twice. The independent judge shares nothing with the checker:
+`make test` takes a fixed sample of the statements; with JUGGLEPROOF_MUTANTS=many (as CI sets it)
+one certified statement in two is mutated twice. The independent judge shares nothing with the checker:
 10,000 rational points, and Z3 on the negation.
 """
 
@@ -24,9 +24,9 @@ from juggleproof.certificates.work import Budget, Exhausted
 from tests.proofs.paper.independent import Independent, iterates_contradiction
 from tests.proofs.paper.statement_mutants import mutants
 
-ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
-SHARE = 1 if ALL else 40  # one certified statement in so many
-MUTANTS_EACH = 2 if ALL else 4
+MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
+SHARE = 2 if MANY else 40  # one certified statement in so many
+MUTANTS_EACH = 2 if MANY else 4
 BUDGET = 1_000_000
 MUTATED = ("given", "with", "show")
 
@@ -101,7 +101,7 @@ def results() -> list[tuple[str, str, str, str]]:
 
 
 def test_there_are_mutants_holds() -> None:
-    assert len(results()) >= (1000 if ALL else 40)
+    assert len(results()) >= (500 if MANY else 40)
 
 
 def test_certified_mutants_are_true_holds() -> None:

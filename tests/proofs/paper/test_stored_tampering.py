@@ -1,8 +1,8 @@
 """Stored certificates and statements, tampered with: a certificate never changes its verdict, and
 what is still accepted is true.
 
-`make test` takes a fixed sample of the statements and of the changes; with JUGGLEPROOF_MUTANTS=all
-(as CI sets it) every line of every stored statement is changed, and every field of every stored
+`make test` takes a fixed sample of the statements and of the changes; with JUGGLEPROOF_MUTANTS=many
+(as CI sets it) every line of one stored statement in four is changed, and every field of its
 certificate, or 100 of its fields where it has more.  A field is a key or a leaf of the JSON; of a
 sum of more than LONG products, each product has one field changed, in turn.  Statements that differ
 in nothing but their name, certificate and all, count once.
@@ -28,9 +28,9 @@ from juggleproof.certificates.store import DEFAULT, Store
 from tests.proofs.paper.independent import contradiction
 from tests.proofs.paper.statement_mutants import changes
 
-ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
+MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
 SHARE, FIELDS, LINES = (
-    (1, 100, 2) if ALL else (18, 12, 1)
+    (4, 100, 2) if MANY else (18, 12, 1)
 )  # one statement in so many; fields of it; changes of each line
 LONG = 30
 KEY = "the key itself"
@@ -252,7 +252,7 @@ def tampered_statements(text: str) -> Iterator[str]:
         )
         for mark in marks[:LINES]:
             yield "\n".join([*rows[:place], f"{keyword} {mark}", *rows[place + 1 :]])
-        if ALL or digest(row) % 3 == 0:
+        if MANY or digest(row) % 3 == 0:
             yield "\n".join([*rows[:place], *rows[place + 1 :]])
 
 
@@ -289,10 +289,10 @@ def over_all(work: Any) -> Tally:
 def test_tampered_certificate_never_changes_the_outcome_holds() -> None:
     tried, rejected, wrong = over_all(tampered_certificate)
     assert not wrong, wrong[0]
-    assert tried > (50_000 if ALL else 400) and rejected > 0.9 * tried
+    assert tried > (8_000 if MANY else 400) and rejected > 0.9 * tried
 
 
 def test_tampered_statement_that_its_certificate_still_proves_is_true_holds() -> None:
     tried, rejected, wrong = over_all(tampered_statement)
     assert not wrong, wrong[0]
-    assert tried > (8_000 if ALL else 200) and rejected > tried / 2
+    assert tried > (1_500 if MANY else 200) and rejected > tried / 2
