@@ -1,7 +1,7 @@
 """Every token of every print of the paper's claims matters.
 
-`make test` tries a share of the changes of each token, with JUGGLEPROOF_MUTANTS=many (as CI sets it)
-all of them.
+`make test` tries a share of the changes of each token, with JUGGLEPROOF_MUTANTS=many (as CI sets
+it) all of them.
 """
 
 from __future__ import annotations

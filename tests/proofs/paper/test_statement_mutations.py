@@ -2,8 +2,8 @@
 must be true, what is false is refuted.
 
 `make test` takes a fixed sample of the statements; with JUGGLEPROOF_MUTANTS=many (as CI sets it)
-one certified statement in two is mutated twice. The independent judge shares nothing with the checker:
-10,000 rational points, and Z3 on the negation.
+one certified statement in two is mutated twice. The independent judge shares nothing with the
+checker: 10,000 rational points, and Z3 on the negation.
 """
 
 from __future__ import annotations
