@@ -164,6 +164,8 @@ def _set(element: Element) -> None:
     if element.tag == "mover":  # nothing but accents is put above
         element.set("accent", "true")
         element[1].text = (element[1].text or "").translate({ord("―"): "‾", ord("¯"): "‾"})
+        if element[1].text == "‾":
+            element[1].attrib.pop("stretchy", None)  # MathML Core stretches it unless told not to
     for row in [[child] for child in element] if element.tag in CHILDREN else [element]:
         _set_prefixes(row)
 
