@@ -154,10 +154,9 @@ def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> ClaimHin
 
 
 # -------------------------------------------------------------------------------------------------
-# What an impulse at a corner does, how much friction jams it, and which corners a rectangle has:
-# the numbers B1, B2 and B3.
+# What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and B3.
 
-x_c, y_c, J, h, k, mu, q, t = reals("x_c y_c J h k mu q t")
+x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")
 d_x, d_y, omega_after = reals("d_x d_y omega_after")  # the motion after the impulse
 COEFFICIENTS: dict[str, Term] = {
@@ -214,59 +213,6 @@ def an_impulse_changes_the_velocity_of_a_corner_by_three_numbers() -> list[State
             vocabulary=NAMES,
         ),
         always((B1 > 0) & (B1 * B2 - B3**2 > 0), given=[J > 0], label="definite", vocabulary=NAMES),
-    ]
-
-
-@claim("part-jamming", "part", "a corner", parameters=())
-def a_corner_jams_from_this_friction_on() -> list[Statement]:
-    """A corner at (x, -z) from the centre, x and z > 0, jams exactly where mu*x*z > J + x^2; with
-    J = q*(x^2 + z^2) it does not where mu < 2*sqrt(q*(1 + q)), which is sharp, nor where mu*t <
-    q + (1 + q)*t^2 and t lies between x/z and sqrt(q/(1 + q)).
-
-    Every corner has such a q.  The last bound is sharp too: a corner with x/z = t jams beyond.  To
-    the left of the centre all is the mirror image, and with B_3 = 0 no friction jams.
-    """
-    below = [J > 0, x_c > 0, y_c < 0]
-    turned = [q > 0, equal(J, q * (x_c**2 + y_c**2))]
-    free = (B2 + mu * B3 > 0) & (B2 - mu * B3 > 0)
-    at_the_end = [*below, *turned, t > 0, mu >= 0, mu * t < q + (1 + q) * t**2]
-    return [
-        always(
-            iff(B2 + mu * B3 < 0, -mu * x_c * y_c > J + x_c**2),
-            given=below,
-            label="jams",
-            vocabulary=NAMES,
-        ),
-        always(
-            free,
-            given=[J > 0, *turned, mu >= 0, mu**2 < 4 * q * (1 + q)],
-            label="free",
-            vocabulary=NAMES,
-        ),
-        always(
-            equal(B2 + mu * B3, 0),
-            given=[
-                *below,
-                *turned,
-                equal((1 + q) * x_c**2, q * y_c**2),
-                mu >= 0,
-                equal(mu**2, 4 * q * (1 + q)),
-            ],
-            label="sharp",
-            vocabulary=NAMES,
-        ),
-        always(
-            free,
-            given=[*at_the_end, x_c >= -t * y_c, (1 + q) * t**2 >= q],
-            label="beside",
-            vocabulary=NAMES,
-        ),
-        always(
-            free,
-            given=[*at_the_end, x_c <= -t * y_c, (1 + q) * t**2 <= q],
-            label="below",
-            vocabulary=NAMES,
-        ),
     ]
 
 
