@@ -1,5 +1,5 @@
-"""The tests beside this file, and the stored certificates, notice every mutant of the checker but
-those that say the same.
+"""The tests beside this file, and the short stored certificates, notice every mutant of the checker
+but those that say the same.
 
 `make test` tries a fixed share; with JUGGLEPROOF_MUTANTS=many (as CI sets it) one in a hundred is
 tried, and those that nothing notices are exactly the ones listed.  All of them are tried by

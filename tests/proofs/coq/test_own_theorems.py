@@ -1,7 +1,7 @@
 """Theorems on the orbits of one's own maps, and statements of one's own stores, as files that coqc
 accepts by themselves; what is forged or changed it refuses.  `make test` compiles a theorem of each
-kind and tries a share of its changes; with JUGGLEPROOF_MUTANTS=many (as CI sets it) all of
-them, and a larger one.
+kind and tries a share of its changes; with JUGGLEPROOF_MUTANTS=many (as CI sets it) it
+compiles all theorems and tries a larger share.
 """
 
 from __future__ import annotations
