@@ -22,6 +22,7 @@ from juggleproof.proofs.claims import VERDICTS
 from juggleproof.proofs.register import load_register
 from tests.action.runner import ACTION, ROOT, SCRIPTS, Runner
 from tests.proofs.reports.runs import FALSE, HOLDS, file_with
+from tests.share import MANY
 
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = r"[\w.\-]+/[\w.\-/]+@(v\d+|[0-9a-f]{40})"
@@ -35,7 +36,6 @@ FORBIDDEN = (
     "GITHUB_TOKEN",
     "actions/cache",
 )
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
 EXPRESSIONS = r"inputs\.[\w\-]+|steps\.(certify|tex)\.outputs\.\w+|runner\.temp"
 
 

@@ -5,7 +5,6 @@ compiles one of them; with JUGGLEPROOF_MUTANTS=many (as CI sets it) an attractio
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 import sys
@@ -17,10 +16,10 @@ from juggleproof.benchmarks import stability
 from juggleproof.proofs import judging
 from tests.proofs.command import running
 from tests.proofs.coq.development import coqc
+from tests.share import MANY
 
 OUTCOMES = stability.outcomes(stability.TABLE.text())
 EXAMPLES = stability.examples()
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
 COMPILED = ("lozi", "skew-tent") if MANY else ("skew-tent",)
 
 

@@ -18,12 +18,12 @@ from juggleproof.proofs.command.main import run
 from tests.docs.pages import PAGES, ROOT, code, text_of
 from tests.proofs.reports.browser import chromium, requests, resize, scheme
 from tests.scenes.figures.drawn import figure
+from tests.share import MANY
 
 # -------------------------------------------------------------------------------------------------
 # The site: built without a warning, with formulas as MathML; it loads nothing from elsewhere and
 # fits a phone.
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
 BUILT = [f"{page.stem}.html" for page in PAGES if page.parent != ROOT]
 
 

@@ -9,13 +9,12 @@ tried, and those that nothing notices are exactly the ones listed.  All of them 
 from __future__ import annotations
 
 import hashlib
-import os
 from pathlib import Path
 
 from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all
+from tests.share import MANY, share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE = 100 if MANY else 350  # one mutant in so many
+SHARE = share(350, 100, 1)  # one mutant in so many
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "adding-a-rule.md"
 KEYS = [one.key for one in MUTANTS]
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 import json
-import os
 import sys
 from collections.abc import Iterator
 from functools import cache
@@ -50,10 +49,11 @@ from tests.certificates.reader.settling import (
 )
 from tests.certificates.reader.statements import Statement, read_statements
 from tests.certificates.reader.syntax import Rejected, Tree
+from tests.share import share
 
 HERE = Path(__file__).parent
 LIMITS = {"a number too long", "a denominator too long", *AT_LIMITS}
-SHARE = 10 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 20
+SHARE = share(20, 10, 1)
 
 
 def test_every_stored_certificate_has_the_checkers_outcome_holds() -> None:

@@ -4,8 +4,6 @@ say.
 
 from __future__ import annotations
 
-import os
-
 import pytest
 from flint import arb, ctx
 
@@ -15,9 +13,9 @@ from tests.certificates.sine import bounds, states
 from tests.certificates.sine.bounds import broken_bounds, missed_zeros, roundings
 from tests.certificates.sine.impacts import PRECISION
 from tests.certificates.sine.states import CODE, STEPS, box, escapes
+from tests.share import share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE = 2_500 if MANY else 60  # of impacts, for each grid
+SHARE = share(60, 2_500, 10_000)  # of impacts, for each grid
 GRIDS = range(len(states.GRIDS))
 BOUNDED = range(len(bounds.GRIDS))
 
@@ -30,11 +28,11 @@ def test_first_impacts_are_in_the_enclosure_holds(grid: int) -> None:
 
 @pytest.mark.parametrize("grid", BOUNDED)
 def test_bounds_hold_at_all_corners_of_cells_and_boxes(grid: int) -> None:
-    assert not broken_bounds(CODE, bounds.GRIDS[grid], 100 if MANY else 15, seed=grid)
+    assert not broken_bounds(CODE, bounds.GRIDS[grid], share(15, 100, 400), seed=grid)
 
 
 def test_walks_find_the_first_zero_of_a_known_height_holds() -> None:
-    count = 4000 if MANY else 200
+    count = share(200, 4000, 4000)
     looked, missed = missed_zeros(CODE, count, seed=3)
     assert looked > count / 2 and not missed
 

@@ -1,19 +1,18 @@
 """Every mutant of the second checker is noticed by what the tests beside this file look at.
 
-A share is tried, and with JUGGLEPROOF_MUTANTS=many one in four.
+A share is tried; with JUGGLEPROOF_MUTANTS=many one in four, with JUGGLEPROOF_MUTANTS=all each.
 """
 
 from __future__ import annotations
 
 import hashlib
-import os
 
 import pytest
 
 from tests.certificates.sine.mutants import Mutant, mutated, noticed, read
+from tests.share import share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE = 4 if MANY else 128  # one mutant in so many
+SHARE = share(128, 4, 1)  # one mutant in so many
 MUTANTS = read()
 
 

@@ -5,7 +5,6 @@ checker does, a rule that checks less is not proved, and all rest on the axioms 
 from __future__ import annotations
 
 import json
-import os
 import re
 
 import pytest
@@ -15,11 +14,12 @@ from tests.certificates.checker.harness import Case, judge
 from tests.certificates.checker.rules import TABLES
 from tests.proofs.coq.development import SOURCES, Coq, rejects, rest_on_the_reals, source, theorems
 from tests.proofs.coq.model import HEAD, NotWritten, accepted
+from tests.share import share
 
 # The tables of what is not among Coq's functions.
 ELSEWHERE = {"iterates"}
 # One change in so many; with JUGGLEPROOF_MUTANTS=many (as CI sets it) each.
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 6
+SHARE = share(6, 1, 1)
 FILES = (
     *("Polynomials", "Formulas", "Bernstein", "States", "Coefficients", "Boxes"),
     *("Instances", "Leaves", "Values", "Settling", "Ranges"),

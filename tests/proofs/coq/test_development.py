@@ -4,7 +4,6 @@ is written from.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,9 +13,10 @@ import pytest
 from juggleproof.proofs.theorem import coq
 from juggleproof.proofs.theorem.coq import STATEMENTS, Attraction, Piece, current, statements
 from tests.proofs.coq.development import SOURCES, Coq, order, rest_on_the_reals, theorems
+from tests.share import share
 
 # One change in so many; with JUGGLEPROOF_MUTANTS=many (as CI sets it) each.
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 3
+SHARE = share(3, 1, 1)
 
 
 def test_every_source_is_compiled_holds() -> None:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import copy
 import json
-import os
 import re
 from collections.abc import Callable
 from fractions import Fraction
@@ -24,9 +23,9 @@ from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.bounds import LOWER, enclose_minimum
 from juggleproof.proofs.command.main import run
 from tests.proofs.coq.development import Answer, Coq, compiled, coqc
+from tests.share import share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE, OF_STORE = (1, 1) if MANY else (3, 8)
+SHARE, OF_STORE = share((3, 8), (1, 1), (1, 1))
 OPENED = HEADER.replace("From Store ", "From Juggleproof ")
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import copy
 import hashlib
-import os
 import re
 from functools import cache
 from pathlib import Path
@@ -28,9 +27,9 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import REALS, Answer, Coq, axioms, compiled
 from tests.proofs.coq.maps import WORDS
+from tests.share import MANY, share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE = 2 if MANY else 4
+SHARE = share(4, 2, 1)
 MAPS = Path(__file__).with_name("maps.py")
 SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-
 import pytest
 
 from tests.proofs.coq.development import Coq, order, rejects
+from tests.share import share
 
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 4
+SHARE = share(4, 1, 1)
 PHYSICS = ("Executions.v", "Bouncing.v", "Existence.v", "FromPhysics.v")
 
 DEFINITIONS = {

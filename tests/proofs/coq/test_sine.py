@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-
 import pytest
 
 from tests.proofs.coq.development import Coq, order, rejects, rest_on_the_reals, source, theorems
+from tests.share import share
 
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 6
+SHARE = share(6, 1, 1)
 SINE = tuple(file for file in order() if file.startswith("Sine"))
 
 # (file, what it says, what it does not prove)

@@ -8,7 +8,6 @@ date.
 
 from __future__ import annotations
 
-import os
 from functools import cache
 
 from tests.proofs.paper.hypothesis_table import (
@@ -39,8 +38,8 @@ from tests.proofs.paper.search_needs import (
     is_refuted,
     search_need,
 )
+from tests.share import MANY
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
 SQUARE = "statement demo/square\nforall x y\ngiven x > 1 and y > 0\ngiven y != 2\nshow x^2/y > x/y"
 
 

@@ -6,7 +6,6 @@ it) all of them.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Iterator
 from functools import cache
@@ -22,6 +21,7 @@ from juggleproof.proofs.claims import Claim, assertions, named_statements
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.edits import mutations
 from juggleproof.proofs.reading.meaning import read
+from tests.share import share
 
 # -------------------------------------------------------------------------------------------------
 # The judged content of a claim: its statements as formulas over polynomials, apart from how they
@@ -79,7 +79,7 @@ def normal(formula: Any) -> Any:
 # Every token of every print matters: a change is refused, changes what is judged, or is reviewed as
 # meaning the same.
 
-SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "many" else 3
+SHARE = share(3, 1, 1)
 Change = tuple[str, str]  # what is changed, after its column, and the changed print
 REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 

@@ -23,10 +23,10 @@ from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
 from tests.proofs.paper.independent import Independent, iterates_contradiction
 from tests.proofs.paper.statement_mutants import mutants
+from tests.share import MANY, share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE = 2 if MANY else 40  # one certified statement in so many
-MUTANTS_EACH = 2 if MANY else 4
+SHARE = share(40, 2, 1)  # one certified statement in so many
+MUTANTS_EACH = share(4, 2, 4)
 BUDGET = 1_000_000
 MUTATED = ("given", "with", "show")
 

@@ -27,11 +27,10 @@ from juggleproof.certificates.checker import orbits, rules
 from juggleproof.certificates.store import DEFAULT, Store
 from tests.proofs.paper.independent import contradiction
 from tests.proofs.paper.statement_mutants import changes
+from tests.share import MANY, share
 
-MANY = os.environ.get("JUGGLEPROOF_MUTANTS") == "many"
-SHARE, FIELDS, LINES = (
-    (4, 100, 2) if MANY else (18, 12, 1)
-)  # one statement in so many; fields of it; changes of each line
+# one statement in so many; fields of its certificate; changes of each of its lines
+SHARE, FIELDS, LINES = share((18, 12, 1), (4, 100, 2), (1, 1_000_000, 4))
 LONG = 30
 KEY = "the key itself"
 STORE = Store(DEFAULT)
