@@ -37,7 +37,7 @@ from juggleproof.scenes.part.readings import (
     Task,
     as_json,
     finals,
-    neighbours,
+    nearer,
     screened,
     stage,
     sweep,
@@ -176,10 +176,11 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
     whole = options.sweep == READINGS
     stages: list[Stage] = []
-    wanted, interrupted = [screened(), neighbours()] if whole else [_grid(options)], False
+    tasks, interrupted = screened() if whole else _grid(options), False
+    following = [nearer, finals] if whole else []
     print(part_tables.POINT_HEADS)
-    while wanted and not interrupted:
-        tasks, points = wanted.pop(0), list[Point]()
+    while tasks and not interrupted:
+        points = list[Point]()
 
         def report(_done: int, _of: int, points: list[Point] = points) -> None:
             if points[-1].likelihoods:
@@ -192,8 +193,7 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
             print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
         if points:
             stages.append(stage(tasks, points))
-        if whole and len(stages) == 2:
-            wanted.append(finals([one.points for one in stages]))
+        tasks = following.pop(0)(points) if following else []
     if stages and stages[-1].points:
         print(part_tables.likeliest(stages))
     if options.output is not None and stages:

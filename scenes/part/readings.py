@@ -268,27 +268,23 @@ def sweep(
 # The search.
 #
 # One ensemble of 6 s a reading screens the grid, and gives up what is sure to be unlikely, mostly
-# after two rows; two ensembles look nearer at the phases about one of two stated readings, known to
-# fit.  The likeliest of both, and the stated, are then followed for 24 ensembles of 12 s.  Each
-# stage has a seed of its own.
+# after two rows; four look nearer at the likeliest and at the phases about a reading known to fit.
+# The likeliest of these, and the stated, are then followed for 24 ensembles of 12 s.  Each stage
+# has a seed of its own.
 
 RECORD = Path(__file__).with_name("sweep.json")
 PHASES = (-90, 0, 90)
-# of restitution and friction
-GRIDS = (
-    ((0.8, 0.875), (0.02, 0.06, 0.2, 0.5, 0.92, 1.3)),
-    ((0.7,), (0.02, 0.06, 0.2, 0.5, 0.92)),
-    ((0.925,), (0.06, 0.5, 1.3)),
-)
+RESTITUTIONS = (0, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.875, 0.9, 0.925, 0.95)
+FRICTIONS = (0.02, 0.06, 0.1, 0.2, 0.35, 0.5, 0.7, 0.92, 1.3)
 STATED = (
     Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92),
     Reading("2x4", "peak", 0, 0, 0.7, 0.06),
 )
 NEAR = ((0.875, 0.92), (0.875, 0.7), (0.85, 0.92))  # restitution and friction
-SCREEN = (1, 0, 6.0, -5.0)  # ensembles, seed, horizon in seconds, and when to give up
-NEARER = (2, 3, 6.0, -6.0)
+SCREEN = (1, 0, 6.0, -7.0)  # ensembles, seed, horizon in seconds, and when to give up
+NEARER = (4, 3, 6.0, -7.0)
 FINAL = (24, 2, 12.0)
-FINALISTS = 2  # of each stage before
+KEPT, FINALISTS = 60, 4  # of the stage before
 SCATTER = 1.0  # of the logarithm of a likelihood by 24 ensembles: less is not told apart
 
 
@@ -315,34 +311,39 @@ def stage(tasks: Sequence[Task], points: Sequence[Point]) -> Stage:
 
 
 def screened() -> list[Task]:
-    """All that is screened: both faces, amplitudes and the phases on each axis, over the grids."""
-    return [
-        Task(Reading(*kind, e, mu), Reading(*kind, e, mu).scene(), *SCREEN)
-        for es, mus in GRIDS
-        for e, mu in product(es, mus)
-        for kind in product(("2x4", "1x2"), ("peak-to-peak", "peak"), PHASES, PHASES)
-    ]
-
-
-def neighbours() -> list[Task]:
-    """All that is looked at nearer: the phases, at restitution and friction about the first stated
-    reading.
+    """All that is screened: restitutions, frictions, both faces, amplitudes and the phases on each
+    axis.
     """
-    return [
-        Task(reading, reading.scene(), *NEARER)
+    readings = (
+        Reading(*kind, e, mu)
+        for e, mu in product(RESTITUTIONS, FRICTIONS)
+        for kind in product(("2x4", "1x2"), ("peak-to-peak", "peak"), PHASES, PHASES)
+    )
+    return [Task(one, one.scene(), *SCREEN) for one in readings]
+
+
+def nearer(screened: Sequence[Point]) -> list[Task]:
+    """All that is looked at nearer: the likeliest of the screen, and the phases at restitution and
+    friction about the first stated reading.
+    """
+    about = (
+        replace(STATED[0], phase_x=along, phase_y=up, e=e, mu=mu)
         for (e, mu), along, up in product(NEAR, PHASES, PHASES)
-        for reading in (replace(STATED[0], phase_x=along, phase_y=up, e=e, mu=mu),)
-    ]
+    )
+    readings = dict.fromkeys((*about, *likeliest(screened, KEPT)))
+    return [Task(one, one.scene(), *NEARER) for one in readings]
 
 
-def finals(stages: Sequence[Sequence[Point]]) -> list[Task]:
-    """The stated readings, and the likeliest of each stage, as they are followed then."""
-    best = [
-        one.reading
-        for points in stages
-        for one in sorted(points, key=lambda one: -one.likelihood)[:FINALISTS]
-    ]
-    return [Task(one, one.scene(), *FINAL) for one in dict.fromkeys((*STATED, *best))]
+def finals(looked_at: Sequence[Point]) -> list[Task]:
+    """The stated readings, and the likeliest of those looked at nearer, as they are followed."""
+    readings = dict.fromkeys((*STATED, *likeliest(looked_at, FINALISTS)))
+    return [Task(one, one.scene(), *FINAL) for one in readings]
+
+
+def likeliest(points: Sequence[Point], count: int) -> list[Reading]:
+    """The readings of at most so many points that were not given up, the likeliest first."""
+    kept = sorted((one for one in points if one.likelihoods), key=lambda one: -one.likelihood)
+    return [one.reading for one in kept[:count]]
 
 
 def as_json(stages: Sequence[Stage]) -> str:

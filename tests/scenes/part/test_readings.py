@@ -30,7 +30,7 @@ from juggleproof.scenes.part.readings import (
     finals,
     likelihood,
     most_likely,
-    neighbours,
+    nearer,
     point,
     read,
     recorded,
@@ -159,7 +159,7 @@ def test_rejects_a_sweep_that_makes_none(tasks: list[Task], reason: str) -> None
 def test_the_stored_search_tried_all_that_is_screened_holds() -> None:
     tasks = screened()
     first, near, last = recorded()
-    for done, tried in ((first, tasks), (near, neighbours())):
+    for done, tried in ((first, tasks), (near, nearer(first.points))):
         assert len({task.reading for task in tried}) == len(tried) == done.tried
         assert (done.ensembles, done.seed, done.horizon) == tried[0][2:5]
         assert {one.reading for one in done.points} <= {task.reading for task in tried}
@@ -167,7 +167,7 @@ def test_the_stored_search_tried_all_that_is_screened_holds() -> None:
     assert LIKELY in {task.reading for task in tasks} - {one.reading for one in first.points}
     kinds = {(one.face, one.amplitudes, one.phase_x, one.phase_y) for one, *_ in tasks}
     assert len(kinds) == 2 * 2 * 3 * 3
-    followed = finals([first.points, near.points])
+    followed = finals(near.points)
     assert [task.reading for task in followed] == [one.reading for one in last.points]
     assert (last.ensembles, last.seed, last.horizon) == followed[0][2:5]
     assert last.impacts == sum(one.impacts for one in last.points)
@@ -207,5 +207,5 @@ def test_likeliest_are_those_within_scatter_holds() -> None:
     found = Stage(24, 2, 12.0, 3, 3, (at(0.5, -3.0), at(0.7, -1.0), at(0.8, -1.9)))
     assert chosen([found]).reading.e == 0.7
     assert [one.reading.e for one in as_good([found])] == [0.7, 0.8]
-    assert [task.reading.e for task in finals([found.points])] == [0.875, 0.7, 0.7, 0.8]
+    assert [task.reading.e for task in finals(found.points)] == [0.875, 0.7, 0.7, 0.8, 0.5]
     assert len(PAPER) == 6
