@@ -284,7 +284,7 @@ NEAR = ((0.875, 0.92), (0.875, 0.7), (0.85, 0.92))  # restitution and friction
 SCREEN = (1, 0, 6.0, -7.0)  # ensembles, seed, horizon in seconds, and when to give up
 NEARER = (4, 3, 6.0, -7.0)
 FINAL = (24, 2, 12.0)
-KEPT, FINALISTS = 60, 4  # of the stage before
+KEPT, FINALISTS = 60, 8  # of the stage before
 SCATTER = 1.0  # of the logarithm of a likelihood by 24 ensembles: less is not told apart
 
 
