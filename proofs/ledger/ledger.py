@@ -83,6 +83,7 @@ UNPRINTED = {
     "restitution-unequal": "an orbit of unequal flights, no e_K, that attracts a box",
     "restitution-unequal-ends": "the restitutions for which that orbit exists",
     "part-products": "the lemma of the claims about a corner's impact",
+    "part-jamming": "how much friction the simulation may have for a part of any shape",
     "part-rectangle": "how much friction the simulation of the part may have",
     **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
     "part-at-rest": "the impact of a corner that does not slide at first",

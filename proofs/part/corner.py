@@ -154,9 +154,10 @@ def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> ClaimHin
 
 
 # -------------------------------------------------------------------------------------------------
-# What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and B3.
+# What an impulse at a corner does, how much friction jams it, and which corners a rectangle has:
+# the numbers B1, B2 and B3.
 
-x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
+x_c, y_c, J, h, k, mu, t = reals("x_c y_c J h k mu t")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")
 d_x, d_y, omega_after = reals("d_x d_y omega_after")  # the motion after the impulse
 COEFFICIENTS: dict[str, Term] = {
@@ -213,6 +214,35 @@ def an_impulse_changes_the_velocity_of_a_corner_by_three_numbers() -> list[State
             vocabulary=NAMES,
         ),
         always((B1 > 0) & (B1 * B2 - B3**2 > 0), given=[J > 0], label="definite", vocabulary=NAMES),
+    ]
+
+
+@claim("part-jamming", "part", "a corner", parameters=())
+def a_corner_jams_from_this_friction_on() -> list[Statement]:
+    """A corner at (x, -z) from the centre, x and z > 0, jams exactly where mu*x*z > J + x^2; with
+    q = J/(x^2 + z^2) it does not where mu < 2*sqrt(q*(1 + q)), which is sharp, nor where mu*t <
+    q + (1 + q)*t^2 and t lies between x/z and sqrt(q/(1 + q)).
+
+    The last bound is sharp too, as x/z = t jams beyond it.  To the left of the centre all is the
+    mirror image, and with B_3 = 0 no friction jams.
+    """
+    square = x_c**2 + y_c**2  # of the distance; the statements are multiplied by it or its square
+    free = (B2 + mu * B3 > 0) & (B2 - mu * B3 > 0)
+    at_the_end = [J > 0, y_c < 0, mu >= 0, mu * t * square < J + (J + square) * t**2]
+    at_most = 4 * J * (J + square)
+    statements = {
+        "jams": (iff(B2 + mu * B3 < 0, -mu * x_c * y_c > J + x_c**2), [J > 0]),
+        "free": (free, [J > 0, mu**2 * square**2 < at_most]),
+        "sharp": (
+            iff(B2 + mu * B3 < 0, mu**2 * square**2 > at_most),
+            [J > 0, x_c > 0, y_c < 0, mu >= 0, equal((J + square) * x_c**2, J * y_c**2)],
+        ),
+        "beside": (free, [*at_the_end, t > 0, x_c >= -t * y_c, (J + square) * t**2 >= J]),
+        "below": (free, [*at_the_end, x_c > 0, x_c <= -t * y_c, (J + square) * t**2 <= J]),
+    }
+    return [
+        always(shown, given=given, label=label, vocabulary=NAMES)
+        for label, (shown, given) in statements.items()
     ]
 
 

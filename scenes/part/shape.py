@@ -234,9 +234,9 @@ def jamming(shape: Polygon) -> Fraction:
     A place (x, y) of the polygon, from its centre, jams where B_2 - mu |B_3| <= 0: with k^2 the
     gyration, q = k^2/(x^2 + y^2) and t = |x/y| that is mu >= q/t + (1 + q) t.  This is convex in
     t, with its minimum 2 sqrt(q (1 + q)) at t = sqrt(q/(1 + q)), or at the end of the range that is
-    next to it: a corner meets the table from the angle at which one of its edges lies on it to that
-    of the other.  With q = 1/3, of a rectangle, it is 4/3 (claim part-rectangle).  Where two
-    corners strike as one, the impulse acts midway between them.
+    next to it (claim part-jamming): a corner meets the table from the angle at which one of its
+    edges lies on it to that of the other.  With q = 1/3, of a rectangle, it is 4/3 (claim
+    part-rectangle).  Where two corners strike as one, the impulse acts midway between them.
 
     >>> jamming(polygon([(0, 0), (3, 0), (0, 3)])) == Fraction(24, 25)
     True

@@ -50,12 +50,17 @@ def compiled(file: str, text: str) -> dict[str, Any]:
     return vars(other)
 
 
-def mutated(mutant: Mutant) -> Code:
-    """The second checker with a mutant in it; the one that is imported stays as it is."""
+def text_of(mutant: Mutant) -> str:
+    """The text of its file with the mutant in it."""
     times = TEXTS[mutant.file].count(mutant.old)
     if times != 1:
         raise ValueError(f"{mutant.name}: {mutant.old!r} stands {times} times")
-    texts = TEXTS | {mutant.file: TEXTS[mutant.file].replace(mutant.old, mutant.new)}
+    return TEXTS[mutant.file].replace(mutant.old, mutant.new)
+
+
+def mutated(mutant: Mutant) -> Code:
+    """The second checker with a mutant in it; the one that is imported stays as it is."""
+    texts = TEXTS | {mutant.file: text_of(mutant)}
     made: list[dict[str, Any]] = []
     for name in FILES:  # each takes from the mutants of those before it what it imports from them
         made.append(compiled(name, texts[name]))
