@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
-from collections.abc import Sequence
 from fractions import Fraction
 from itertools import takewhile
 from pathlib import Path
@@ -12,30 +10,18 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.sine.cells import UNRANKED, Attraction, Level, read_levels
-from juggleproof.certificates.sine.checker import check_line
-from juggleproof.certificates.sine.cover import BASIN
-from juggleproof.certificates.sine.flights import MAX_STEPS, Interval
-from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of
-from juggleproof.proofs.command.sine import WIDE, interval
-from juggleproof.proofs.command.sine import in_floats as floats
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import components, draw, exact
-from juggleproof.scenes.table.curves import birth, g_of
 from juggleproof.scenes.table.motion import Table, events
 
 LARGE = 10**9
 MOST_EVENTS = 200  # shown
-GRID = 256, 16  # of the certificate beside a basin
-SEEN = 2  # how often cells are cut that are drawn
+CERTIFICATES = "juggleproof.proofs.command.sine"  # loaded where they are drawn
 ALPHAS, GAMMAS = "0:0.3", "1.8:4.2"  # of the map of attractors
 TOP = 21 / 16  # closing speeds of a basin without one
-CLOSE = Fraction(1, 10**6)  # half the width in g of the certificate
 
 
 class TableOptions(argparse.Namespace):
@@ -119,7 +105,7 @@ def _picture(options: TableOptions, under: Table, starts: list[tuple[float, floa
         write_file(output, pictures.orbit(under, starts, options.periods))
     else:
         _only_for_a_sine(options, under.wave)
-        certified = certified_for(under)
+        certified = needed(CERTIFICATES, "picture").certified_for(under.alpha, under.gamma)
         top = TOP if certified is None else float(certified[0])
         ranks = None if certified is None else certified[1:]
         write_file(output, pictures.basin(under, top, ranks))
@@ -130,12 +116,13 @@ def _picture(options: TableOptions, under: Table, starts: list[tuple[float, floa
 def _map(options: TableOptions, wave: tuple[float, ...]) -> int:
     _only_for_a_sine(options, wave)
     output = _drawn_to(options)
-    alpha = interval(options.alpha or ALPHAS, "--alpha")
-    gamma = interval(options.gamma or GAMMAS, "--gamma")
+    sine = needed(CERTIFICATES, "picture")
+    alpha = sine.interval(options.alpha or ALPHAS, "--alpha")
+    gamma = sine.interval(options.gamma or GAMMAS, "--gamma")
     for ends, option in (alpha, "--alpha"), (gamma, "--gamma"):
         in_floats(ends[1], option)
     pictures = needed("juggleproof.scenes.table.cover", "picture")
-    drawn = pictures.attractor_map(floats(alpha), floats(gamma), wide_boxes())
+    drawn = pictures.attractor_map(*map(sine.in_floats, (alpha, gamma)), sine.wide_boxes())
     write_file(output, drawn)
     print(f"wrote {output}")
     return 0
@@ -153,42 +140,3 @@ def _drawn_to(options: TableOptions) -> Path:
 def _only_for_a_sine(options: TableOptions, wave: tuple[float, ...]) -> None:
     if wave != (1.0,):
         raise ClaimError(f"--picture {options.picture}: is for --wave sine")
-
-
-def wide_boxes() -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    """The boxes of the wide cover, whose certificates `python -I -S certificates/sine` reads, to be
-    shown.
-    """
-    return sorted((floats(one.alpha), floats(one.g)) for one in boxes_in(WIDE))
-
-
-def certified_for(under: Table) -> tuple[Fraction, np.ndarray, Fraction] | None:
-    """(top, ranks, share) of a certificate for the parameters: closing speeds below top; ranks of
-    cells; the share of states with one.  None where no certificate is found, which says nothing.
-    """
-    if not under.gamma > birth(under.alpha) or not math.isfinite(under.gamma):
-        return None
-    alpha, g = Fraction(str(under.alpha)), g_of(under.alpha, under.gamma)
-    middle = Fraction(round(g * 10**9), 10**9)
-    between: Interval = (middle - CLOSE, middle + CLOSE)
-    for basin in (0, BASIN):
-        found = find_certificate((alpha, alpha), between, *GRID, basin).certificate
-        proved = found and check_line(line_of(found))[0]
-        if found and isinstance(proved, Attraction):  # only what the checker takes is certified
-            top = Fraction(found.grid.rows, found.grid.per_unit)
-            return top, ranks_of(read_levels(found, Work(MAX_STEPS))), proved.share_below(top)
-    return None
-
-
-def ranks_of(levels: Sequence[Level]) -> np.ndarray:
-    """The ranks of cells cut as often as can be seen, shape (rows, columns), the greatest of its
-    parts for a cell that is cut more often; -1 where there is none.
-    """
-    shown = min(SEEN, len(levels) - 1)
-    grid = levels[shown].grid
-    ranks = np.zeros((grid.rows, grid.columns), dtype=np.int64)
-    for number, level in enumerate(levels[: shown + 1]):
-        wide = 2 ** (shown - number)
-        for i, column in level.ranks.items():
-            ranks[:, i * wide : (i + 1) * wide] = np.repeat(list(column), wide)[:, None]
-    return np.where(ranks < UNRANKED, ranks, -1)

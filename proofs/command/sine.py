@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
@@ -11,26 +12,33 @@ from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
+
 from juggleproof.certificates import sine
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import own_pool
+from juggleproof.certificates.sine.cells import UNRANKED, Attraction, Level, read_levels
 from juggleproof.certificates.sine.checker import (
     STATEMENTS,
     Box,
     Counterexample,
     Rectangle,
+    check_line,
     check_saddle,
     g_at,
     read_statement,
 )
-from juggleproof.certificates.sine.cover import EVERY, Covered, cover
+from juggleproof.certificates.sine.cover import BASIN, EVERY, Covered, cover
 from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval, Refused
+from juggleproof.certificates.sine.search import find_certificate, line_of
+from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, fault_of_folder, now_and_then
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
 from juggleproof.scenes import table
+from juggleproof.scenes.table.curves import birth, g_of
 
 NAME = "sine"
 STORE = Path("sine.certificates")
@@ -39,6 +47,9 @@ GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
 FASTEST = 4  # closing speed of a basin
 SIMULATED = 60, 80  # impacts: so many speeds and phases
+GRID = 256, 16  # of the certificate of a point that is drawn
+SEEN = 2  # how often cells are cut that are drawn
+CLOSE = Fraction(1, 10**6)  # half the width in g of that certificate
 
 
 class SineOptions(argparse.Namespace):
@@ -317,3 +328,47 @@ def _executor(options: SineOptions, rectangles: Sequence[Rectangle]) -> Iterator
         return
     with own_pool(jobs) as pool:
         yield pool
+
+
+# -------------------------------------------------------------------------------------------------
+# What pictures of the simulation show of certificates.
+
+
+def wide_boxes() -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """The boxes of the wide cover, whose certificates `python -I -S certificates/sine` reads, to be
+    shown.
+    """
+    return sorted((in_floats(one.alpha), in_floats(one.g)) for one in boxes_in(WIDE))
+
+
+def certified_for(restitution: float, drive: float) -> tuple[Fraction, np.ndarray, Fraction] | None:
+    """(top, ranks, share) of a certificate for alpha and Gamma, to be drawn: closing speeds below
+    top; ranks of cells; the share of states with one.  None where no certificate is found, which
+    says nothing.
+    """
+    if not drive > birth(restitution) or not math.isfinite(drive):
+        return None
+    alpha = Fraction(str(restitution))
+    middle = Fraction(round(g_of(restitution, drive) * 10**9), 10**9)
+    between: Interval = (middle - CLOSE, middle + CLOSE)
+    for basin in (0, BASIN):
+        found = find_certificate((alpha, alpha), between, *GRID, basin).certificate
+        proved = found and check_line(line_of(found))[0]
+        if found and isinstance(proved, Attraction):  # only what the checker takes is certified
+            top = Fraction(found.grid.rows, found.grid.per_unit)
+            return top, ranks_of(read_levels(found, Work(MAX_STEPS))), proved.share_below(top)
+    return None
+
+
+def ranks_of(levels: Sequence[Level]) -> np.ndarray:
+    """The ranks of cells cut as often as can be seen, shape (rows, columns), the greatest of its
+    parts for a cell that is cut more often; -1 where there is none.
+    """
+    shown = min(SEEN, len(levels) - 1)
+    grid = levels[shown].grid
+    ranks = np.zeros((grid.rows, grid.columns), dtype=np.int64)
+    for number, level in enumerate(levels[: shown + 1]):
+        wide = 2 ** (shown - number)
+        for i, column in level.ranks.items():
+            ranks[:, i * wide : (i + 1) * wide] = np.repeat(list(column), wide)[:, None]
+    return np.where(ranks < UNRANKED, ranks, -1)

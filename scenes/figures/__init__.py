@@ -5,6 +5,7 @@ paper's order.
     arcs     derived expressions as numbers, and the arcs that they draw
     look     the look of figures
     drawing  how figures are saved, and a plane to draw on
+    plane    what the pictures of simulations have in common: title, key of colours, white behind
     states   the plane of the sampled states
     paper    the figures of the paper
     ours     two that it lacks

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from math import atan2, ceil, cos, degrees, floor, hypot, log10, pi, sin
-from typing import Any, ParamSpec, TypeAlias
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 from matplotlib import rc_context
@@ -28,6 +28,7 @@ from juggleproof.scenes.figures.look import INK, STYLE, Look
 # How figures are saved: bytes that are the same from run to run.
 
 P = ParamSpec("P")
+Drawn = TypeVar("Drawn")
 Style: TypeAlias = Any  # what a keyword of matplotlib takes
 
 
@@ -38,11 +39,11 @@ def style(**settings: Style) -> Iterator[None]:
         yield
 
 
-def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+def styled(draw: Callable[P, Drawn]) -> Callable[P, Drawn]:
     """The same function, drawing in this style."""
 
     @wraps(draw)
-    def drawn(*args: P.args, **kwargs: P.kwargs) -> Figure:
+    def drawn(*args: P.args, **kwargs: P.kwargs) -> Drawn:
         with style():
             return draw(*args, **kwargs)
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import inf
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -16,17 +15,15 @@ from matplotlib.figure import Figure
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.drawing import (
     Plane,
-    Sides,
-    blank,
     raster,
     spaced,
     style,
-    svg,
     ticks,
 )
 from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
+from juggleproof.scenes.figures.plane import BOTTOM, axes, key, on_white
 from juggleproof.scenes.juggler.given import brief, formulas
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits
 from juggleproof.scenes.juggler.orbits import heights
@@ -42,52 +39,6 @@ LABELS = {"normal": (HEIGHT, CLOSING), "physical": (r"$\bar\beta$", r"$\dot{\bar
 OF_FLIGHT = tuple(look.colour for look in (B1, B2, R, BAND, LOSS, KEPT))
 BEYOND, UNEQUAL = GAIN.colour, ("#7A4FA3", "#8C6239", "#B8B8FF")
 OTHERS, NOT_KNOWN = "#9A9A9A", "#000000"
-TOP, LEFT, BOTTOM, LINE = 40.0, 44.0, 40.0, 15.0  # in points
-
-
-def _plane(
-    size: tuple[float, float],
-    room: float,
-    across: Sides,
-    up: Sides,
-    title: tuple[str, str],
-    bottom: float = BOTTOM,
-) -> Plane:
-    """A plane in a new figure of this size in points, so much of it left free at the right and at
-    the bottom; a title of two lines.
-    """
-    for low, high in (across, up):
-        if not 1e-9 * max(abs(low), abs(high)) < high - low < inf:
-            raise SceneError(
-                f"from {low:g} to {high:g} cannot be drawn; give ends that are further apart, or"
-                " nearer to 0"
-            )
-    width, height = size
-    box = (
-        LEFT / width,
-        bottom / height,
-        (width - LEFT - room) / width,
-        (height - bottom - TOP) / height,
-    )
-    plane = Plane(blank(width / 72, height / 72), box, across, up)
-    for line, size_of_letters in enumerate((11, 8)):
-        plane.words(
-            (LEFT, height - 9 - LINE * line),
-            title[line],
-            ha="left",
-            fontsize=size_of_letters,
-        )
-    return plane
-
-
-def _legend(plane: Plane, entries: Sequence[tuple[str, str]]) -> None:
-    """Colours and what they mean, at the right."""
-    right, top = plane.left + plane.width, plane.bottom + plane.height
-    own = Plane(plane.figure, (0, 0, 1, 1), (0, 1), (0, 1))
-    for line, (colour, text) in enumerate(entries):
-        y = top - LINE * (line + 0.5)
-        own.dots([((right + 14) / own.width, y / own.height)], f"key-{line}", 8, "s", colour=colour)
-        own.words((right + 24, y), text, ha="left", va="center_baseline", fontsize=9)
 
 
 def name(word: Word) -> str:
@@ -122,8 +73,7 @@ def _on_white(draw: Callable[[], Figure], slug: str) -> bytes:
             figure = draw()
         except OverflowError:
             raise SceneError("numbers beyond 10^308 cannot be drawn; give smaller ones") from None
-    figure.set_facecolor("white")
-    return svg(figure, slug)
+    return on_white(figure, slug)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -152,7 +102,7 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
         unit, labels = (float(height / scene.r), float(height)), (r"$t$", r"$\beta,\ \rho$")
     last = float(periods) * unit[0]
     top = 1.05 * unit[1] * max(0.25, *(float(one.ball) for path in paths for one in path))
-    plane = _plane(
+    plane = axes(
         (520, 270),
         110,
         (0, last),
@@ -182,7 +132,7 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
         if slug != "table":
             plane.dots(points[::A_PERIOD], f"{slug}-samples", 3, colour=colour)
     keys = ["table", *(f"ball {index + 1}" if count > 1 else "ball" for index in range(count))]
-    _legend(plane, [(colour, key) for (_, colour, _), key in zip(curves, keys)])
+    key(plane, [(colour, key) for (_, colour, _), key in zip(curves, keys)])
     return plane.figure
 
 
@@ -221,7 +171,7 @@ def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
     across, up = ((a - step, b + step) for a, b, step in zip(low, high, half))
     counts = found.counts()
     colours, keys = palette(found.words, counts)
-    plane = _plane(
+    plane = axes(
         (520, 400),
         130,
         across,
@@ -241,7 +191,7 @@ def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
             if across[0] <= place[0] <= across[1] and up[0] <= place[1] <= up[1]:
                 plane.dots([place], f"e-{word[0]}", 6, "+")
                 plane.text(place, _shown(word), (4, 3), ha="left", va="bottom", fontsize=11)
-    _legend(plane, keys)
+    key(plane, keys)
     return plane.figure
 
 
@@ -353,7 +303,7 @@ def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
         f"What orbits of {starts} start{'s' * (starts != 1)} tend to as $\\alpha$ grows:"
         f" {len(found.alphas)} $\\alpha$"
     )
-    plane = _plane((520, 400), 130, across, up, (title, how(found)), BOTTOM + SHARES + 12)
+    plane = axes((520, 400), 130, across, up, (title, how(found)), BOTTOM + SHARES + 12)
     numbers = ticks(spaced(*across))
     plane.frame(dict.fromkeys(numbers, ""), ticks(spaced(*up)), "", LABELS[units][1], 28)
     third = float(exists_for((2,))[0].low.low)
@@ -370,7 +320,7 @@ def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
     looks = np.array([_opaque(colour) for colour, _ in keys], np.uint8)
     raster(below, looks[np.sort(ranks[found.which], axis=1).T])
     below.frame(numbers, {0: "0", 1: "1"}, r"$\alpha$", "share", 28)
-    _legend(plane, [(colour, key.rpartition("  ")[0]) for colour, key in keys])
+    key(plane, [(colour, key.rpartition("  ")[0]) for colour, key in keys])
     return plane.figure
 
 

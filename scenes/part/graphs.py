@@ -7,69 +7,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import (
-    Plane,
-    Sides,
-    blank,
-    raster,
-    spaced,
-    styled,
-    svg,
-    ticks,
-)
+from juggleproof.scenes.figures.drawing import Sides, raster, spaced, styled, ticks
 from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, INK, KEPT, LOSS, R
+from juggleproof.scenes.figures.plane import Title, axes, key, on_white
 
 Array = NDArray[np.float64]
-Title = tuple[str, str]  # what is shown, and in smaller letters how it was found
 COLOURS = tuple(look.colour for look in (B1, B2, R, BAND, LOSS, KEPT))
 SOON, LATE = np.array([222.0, 235.0, 247.0]), np.array([8.0, 48.0, 107.0])
 CHAOTIC, UNSETTLED = B2.colour, "#D8D8D8"
-LEFT, BOTTOM, TOP, LINE = 52.0, 44.0, 44.0, 15.0  # points
 SHADES = 5  # of a key
-
-
-def _plane(
-    size: tuple[float, float], right: float, across: Sides, up: Sides, title: Title
-) -> Plane:
-    """A plane in a new figure of this size in points, so much of it left free at the right."""
-    width, height = size
-    box = (
-        LEFT / width,
-        BOTTOM / height,
-        1 - (LEFT + right) / width,
-        1 - (BOTTOM + TOP) / height,
-    )
-    plane = Plane(blank(width / 72, height / 72), box, across, up)
-    plane.words((LEFT, height - 10), title[0], ha="left", fontsize=11)
-    plane.words((LEFT, height - 26), title[1], ha="left", fontsize=8)
-    return plane
-
-
-def _legend(plane: Plane, entries: Sequence[tuple[str, str]]) -> None:
-    """Colours and what they mean, at the right."""
-    right, top = plane.left + plane.width, plane.bottom + plane.height
-    own = Plane(plane.figure, (0, 0, 1, 1), (0, 1), (0, 1))
-    for line, (colour, text) in enumerate(entries):
-        y = top - LINE * (line + 0.5)
-        own.dots([((right + 12) / own.width, y / own.height)], f"key-{line}", 8, "s", colour=colour)
-        own.words((right + 20, y), text, ha="left", va="center_baseline", fontsize=8.5)
-
-
-def as_svg(figure: Figure, slug: str) -> bytes:
-    """The figure as SVG, on white, so that it can be read on a dark page."""
-    figure.set_facecolor("white")
-    return svg(figure, slug)
 
 
 @styled
 def angles(
     times: Array, paths: Sequence[Array], names: Sequence[str], rests: Sequence[float], title: Title
-) -> Figure:
+) -> bytes:
     """The angles of parts, in degrees, against time, in seconds; dashed, the angles at which one
     rests, of each turn that is seen.  Up to six parts are told apart by colour.
     """
@@ -79,7 +35,7 @@ def angles(
     if not across[0] < across[1]:
         raise SceneError("one time makes no picture; give two at least")
     few = len(paths) <= len(COLOURS)
-    plane = _plane((560, 300), 130 if few else 14, across, up, title)
+    plane = axes((560, 300), 130 if few else 14, across, up, title)
     quarters = half <= 720
     marks = [90.0 * k for k in range(int(np.ceil(up[0] / 90)), int(np.floor(up[1] / 90)) + 1)]
     plane.frame(
@@ -106,8 +62,44 @@ def angles(
             linewidth=1.1 if few else 0.4,
         )
     if few:
-        _legend(plane, [(COLOURS[k], name[:22]) for k, name in enumerate(names)])
-    return plane.figure
+        key(plane, [(COLOURS[k], name[:22]) for k, name in enumerate(names)])
+    return on_white(plane.figure, "angles")
+
+
+Onsets = tuple[str, Array, int, float | None]  # which row, onsets in s, how many chaotic, the print
+
+
+@styled
+def onsets_by_row(rows: Sequence[Onsets], horizon: float, title: Title) -> bytes:
+    """The onset of each ensemble, a dot, inf for none; below, how many are chaotic, and the others
+    that have none; the onset that the paper prints as a bar, or its "chaotic" in words.
+    """
+    across, up = (-0.5, len(rows) - 0.5), (0.0, horizon)
+    plane = axes((640, 320), 130, across, up, title, bottom=76)
+    plane.frame({}, ticks(spaced(*up)), "", "onset [s]", 32)
+    printed = [(k, print_) for k, (_, _, _, print_) in enumerate(rows) if print_ is not None]
+    plane.line(
+        [straight((k - 0.35, onset), (k + 0.35, onset)) for k, onset in printed],
+        "printed",
+        edgecolor=B2.colour,
+        linewidth=2,
+    )
+    for k, (name, onsets, chaotic, print_) in enumerate(rows):
+        settled = np.sort(onsets[np.isfinite(onsets)])
+        beside = (np.arange(len(settled)) + 0.5) / max(len(settled), 1) - 0.5  # in their order
+        places = [(k + 0.5 * float(x), float(onset)) for x, onset in zip(beside, settled)]
+        if places:
+            plane.dots(places, f"row-{k}", 3, colour=B1.colour)
+        late = len(onsets) - len(settled) - chaotic
+        below = (name, f"chaotic: {chaotic}", f"later: {late}")
+        for line, text in enumerate(below):
+            plane.text((k, 0), text, (0, -12 - 13 * line), ha="center", va="top", fontsize=8.5)
+        if print_ is None:
+            plane.text(
+                (k, horizon), "printed: chaotic", (0, -5), va="top", fontsize=8.5, color=B2.colour
+            )
+    key(plane, [(B1.colour, "an ensemble"), (B2.colour, "printed in the paper")])
+    return on_white(plane.figure, "table-one")
 
 
 Axis = tuple[str, Sequence[float]]  # a name with its unit, and evenly spaced values that grow
@@ -116,12 +108,12 @@ Axis = tuple[str, Sequence[float]]  # a name with its unit, and evenly spaced va
 @styled
 def onset_map(
     across: Axis, up: Axis, onsets: Array, chaotic: NDArray[np.bool_], title: Title
-) -> Figure:
+) -> bytes:
     """Onsets in seconds, shape (across, up), inf where there is none, as a coloured cell each;
     those that are chaotic in a colour of their own.
     """
     sides = _sides(across[1]), _sides(up[1])
-    plane = _plane((560, 360), 150, sides[0], sides[1], title)
+    plane = axes((560, 360), 150, sides[0], sides[1], title)
     settled = np.isfinite(onsets) & ~chaotic
     found = onsets[settled]
     least, most = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
@@ -145,8 +137,8 @@ def onset_map(
         CHAOTIC: f"chaotic: {int(chaotic.sum())}",
         UNSETTLED: f"not settled: {int((~settled & ~chaotic).sum())}",
     }
-    _legend(plane, [*shades, *counts.items()])
-    return plane.figure
+    key(plane, [*shades, *counts.items()])
+    return on_white(plane.figure, "onsets")
 
 
 def _sides(values: Sequence[float]) -> Sides:
@@ -167,19 +159,20 @@ def _hex(colour: Array) -> str:
 
 @styled
 def shares(
+    slug: str,
     places: Sequence[float],
     found: Sequence[tuple[float, float, float]],
     label: str,
     title: Title,
     names: Mapping[float, str] | None = None,
     mark: tuple[float, str] | None = None,
-) -> Figure:
+) -> bytes:
     """Shares, with the low and the high end of their intervals, over places, which have names or
     are numbers; and a mark at one of them.
     """
     step = min(np.diff(places), default=1.0)
     across = (places[0] - step, places[-1] + step)
-    plane = _plane((560, 280), 20, across, (0, 1), title)
+    plane = axes((560, 280), 20, across, (0, 1), title)
     plane.frame(names or ticks(spaced(*across)), ticks(spaced(0, 1)), label, "share of parts", 32)
     if mark is not None:
         plane.line(
@@ -192,4 +185,4 @@ def shares(
         edgecolor=B1.colour,
     )
     plane.dots([(x, share) for x, (share, _, _) in zip(places, found)], "shares", colour=B1.colour)
-    return plane.figure
+    return on_white(plane.figure, slug)

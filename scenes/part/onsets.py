@@ -16,7 +16,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.columns import Column, Shown
+from juggleproof.scenes.part.columns import Column, Shown, graphs
 from juggleproof.scenes.part.ensemble import Job, Run, fresh_notes, joined, run_jobs, worker
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
@@ -108,6 +108,21 @@ class Table(Shown):
             Column("paper", "s", np.array(printed)),
             *onset_columns(self.rows),
         )
+
+    def picture(self) -> bytes:
+        """The onset of each ensemble beside the paper's."""
+        given = [
+            (
+                f"{row.frequency:g} Hz, {1e3 * row.amplitude:g} mm",
+                row.onsets,
+                sum(row.chaotic),
+                row.paper,
+            )
+            for row in self.rows
+        ]
+        note = f"simulated, each for {self.rows[0].horizon:g} s"
+        drawn: bytes = graphs().onsets_by_row(given, self.rows[0].horizon, (self.title(), note))
+        return drawn
 
 
 def onset_columns(rows: Sequence[Row]) -> tuple[Column, ...]:

@@ -174,7 +174,8 @@ class Orientation(Shown):
         drawing, count = graphs(), len(self.counts)
         note = f"{self.parts()} parts that start {self.starts.in_words()}"
         none = f"; {self.moving} rest on none" if self.moving else ""
-        figure = drawing.shares(
+        drawn: bytes = drawing.shares(
+            "orientation",
             range(count),
             [self.share(face) for face in range(count)],
             "face on which parts rest",
@@ -184,7 +185,7 @@ class Orientation(Shown):
             ),
             {k: f"{k}: {1e3 * side:g} mm" for k, side in enumerate(self.columns()[1].values)},
         )
-        return bytes(drawing.as_svg(figure, "orientation"))
+        return drawn
 
 
 def orientation(

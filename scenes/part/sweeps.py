@@ -164,7 +164,7 @@ class OnsetMap(Shown):
         )
         ensembles = ensembles_in_words(len(self.rows[0].chaotic))
         horizon = self.rows[0].horizon
-        figure = drawing.onset_map(
+        drawn: bytes = drawing.onset_map(
             first,
             second,
             np.array([row.quantile(0.5) for row in self.rows]).reshape(shape),
@@ -175,7 +175,7 @@ class OnsetMap(Shown):
                 f" {_fixed(self.setting, self.grid)}",
             ),
         )
-        return bytes(drawing.as_svg(figure, "onsets"))
+        return drawn
 
 
 def onset_map(
@@ -331,7 +331,8 @@ class Clearing(Shown):
 
     def picture(self) -> bytes:
         drawing, least = graphs(), self.least()
-        figure = drawing.shares(
+        drawn: bytes = drawing.shares(
+            "clearing",
             self.values,
             self.shares(),
             _named(self.name, self.unit),
@@ -344,7 +345,7 @@ class Clearing(Shown):
             None,
             None if least is None else (least, f"clear from {least:g} on"),
         )
-        return bytes(drawing.as_svg(figure, "clearing"))
+        return drawn
 
 
 def clearing(

@@ -47,7 +47,7 @@ class Trajectories(Shown):
         drawing, count = graphs(), len(self.names)
         shape = self.setting.polygon()
         block = geometry(shape)
-        figure = drawing.angles(
+        drawn: bytes = drawing.angles(
             self.times,
             [np.degrees(self.states[:, k, body.THETA]) for k in range(count)],
             self.names,
@@ -57,7 +57,7 @@ class Trajectories(Shown):
                 f"{vibration(self.setting)}; {len(self.times)} times",
             ),
         )
-        return bytes(drawing.as_svg(figure, "angles"))
+        return drawn
 
 
 def trajectories(

@@ -4,7 +4,6 @@ curves      where the bounce of one period is born, begins to clear the table, l
             and where a second orbit takes motions away
 motion      flights, impacts, rest and launch, simulated
 attractors  what balls come to over restitution and drive, simulated
-plane       what the pictures have in common
 cover       which boxes of parameters are certified, between the curves, over what balls come to
 pictures    ball and table over time; how long states take to the bounce
 

@@ -14,6 +14,7 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, ticks
 from juggleproof.scenes.figures.lines import joined
 from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
+from juggleproof.scenes.figures.plane import LETTERS, axes, on_white
 from juggleproof.scenes.table.curves import second_orbit
 from juggleproof.scenes.table.motion import (
     MOST,
@@ -23,7 +24,6 @@ from juggleproof.scenes.table.motion import (
     events,
     flights_by_state,
 )
-from juggleproof.scenes.table.plane import LETTERS, axes, on_white
 
 BALLS = tuple(look.colour for look in (B1, KEPT, R, BAND))
 A_PERIOD = 64  # points of a curve in one period

@@ -47,6 +47,7 @@ import sys
 from juggleproof.proofs.command.main import run
 code = run(sys.argv[1:])
 print(*(name for name in sys.modules if name.startswith("juggleproof.scenes.")))
+print("juggleproof.certificates.sine" in sys.modules)
 print(code, *{name.partition(".")[0] for name in sys.modules})
 """
 
@@ -63,8 +64,9 @@ def test_a_scene_loads_nothing_that_it_does_not_need_holds(command: str, tmp_pat
         text=True,
         check=True,
     )
-    *_, scenes, loaded = done.stdout.splitlines()
+    *_, scenes, certificates, loaded = done.stdout.splitlines()
     code, *libraries = loaded.split()
     assert code == "0" and LIBRARIES & {*libraries} == needed
     other = {"juggler", "part", "table"} - {command.split()[0]}
+    assert certificates == "False"
     assert not [one for one in scenes.split() if one.split(".")[2] in other]

@@ -14,6 +14,7 @@ import pytest
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, moving, run, scene, standing, table_one
+from juggleproof.scenes.part.onsets import Row, Table
 from juggleproof.scenes.part.trajectory import Trajectories, start_of, trajectories
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
@@ -142,3 +143,26 @@ def test_rejects_starts_and_times_that_are_none() -> None:
         start_of(BLOCK, theta=0, y=5)
     with pytest.raises(SceneError, match="times: one row of finite numbers that do not fall"):
         trajectories(BLOCK, {"one": start_of(BLOCK, theta=0)}, [1.0, 0.0])
+
+
+def test_a_picture_of_table_one_counts_what_has_no_onset_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pytest.importorskip("matplotlib")
+    from juggleproof.scenes.figures.drawing import Plane
+
+    dots: dict[str, int] = {}
+    words: list[str] = []
+    monkeypatch.setattr(
+        Plane, "dots", lambda self, at, name, *_, **__: dots.update({name: len(at)})
+    )
+    monkeypatch.setattr(Plane, "words", lambda self, at, label, *_, **__: words.append(label))
+    onsets = np.array([3.0, 5.0, np.inf, np.inf, np.inf])
+    some = Row(15.0, 2e-3, 4.0, onsets, (False, False, True, False, False), 12.0)
+    none = Row(15.0, 4e-3, None, np.full(5, np.inf), (True,) * 5, 12.0)
+    table = Table((some, none), run(BLOCK, standing(BLOCK, [0.1]), 0.2))
+    assert table.picture().startswith(b"<?xml") and table.picture() == table.picture()
+    assert dots["row-0"] == 2 and "row-1" not in dots
+    below = ["15 Hz, 2 mm", "chaotic: 1", "later: 2", "15 Hz, 4 mm", "chaotic: 5", "later: 0"]
+    assert [word for word in words if word in below][:6] == below
+    assert "printed: chaotic" in words and any("5 ensembles" in word for word in words)

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from juggleproof.proofs.command import simulate_table
+from juggleproof.proofs.command import sine
 from juggleproof.proofs.command.main import run
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.table.motion import (
@@ -119,19 +119,19 @@ def test_the_command_tells_events_and_draws_the_same_twice(
 def test_ranks_that_the_checker_does_not_take_are_not_shown(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    shown = simulate_table.certified_for(Table(0.05, 3.1))
+    shown = sine.certified_for(0.05, 3.1)
     assert shown is not None and shown[0] == Fraction(21, 16) and shown[2] == 1
     assert shown[1].shape == (21, 256) and shown[1].min() == 0
-    monkeypatch.setattr(simulate_table, "check_line", lambda line: (None, "refused"))
-    assert simulate_table.certified_for(Table(0.05, 3.1)) is None
-    assert simulate_table.certified_for(Table(0.05, 2.5)) is None  # below the birth
+    monkeypatch.setattr(sine, "check_line", lambda line: (None, "refused"))
+    assert sine.certified_for(0.05, 3.1) is None
+    assert sine.certified_for(0.05, 2.5) is None  # below the birth
 
 
 def test_ranks_of_a_basin_are_shown_in_cells_that_are_cut_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(simulate_table, "BASIN", 5_500)
-    shown = simulate_table.certified_for(Table(0.3, 1.8785))
+    monkeypatch.setattr(sine, "BASIN", 5_500)
+    shown = sine.certified_for(0.3, 1.8785)
     assert shown is not None
     top, ranks, share = shown
     assert top == Fraction(17, 16) and ranks.shape == (34, 512) and ranks.min() == -1
