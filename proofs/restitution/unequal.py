@@ -8,23 +8,25 @@ room to spare; at either end of its range one impact has none.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from sympy import Expr, Integer, Symbol, factor_list, fraction, together
+from sympy import Expr, factor_list, fraction, together
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
     Statement,
+    Term,
     conjunction,
     equal,
     reals,
     term,
 )
 from juggleproof.proofs.paper.derivations import Origin, made_by
-from juggleproof.proofs.paper.names import alpha, always, claim, equals
+from juggleproof.proofs.paper.names import alpha, always, claim, equals, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import is_impact
 from juggleproof.proofs.theorem.definition import (
@@ -39,7 +41,7 @@ from juggleproof.proofs.theorem.definition import (
     tidy,
 )
 from juggleproof.proofs.theorem.orbits import strikes
-from juggleproof.symbolic.algebra import lowest_terms
+from juggleproof.symbolic.algebra import State, lowest_terms
 
 FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods
 PERIODS, COUNT = sum(FLIGHTS), len(FLIGHTS)
@@ -100,42 +102,43 @@ def divides() -> Formula:
     return found
 
 
-def moved(count: int) -> Expr:
-    """How much the height after so many flights changes at most, where the start is moved by 1 in
-    the weighted norm.
+def cleared(margin: Callable[[State], Expr], count: int) -> Formula:
+    """The formula margin > 0 of the impact after so many flights, times its denominator, which has
+    one sign.
     """
-    return (PERIODS + sum(FLIGHTS[:count])) * symbolic.alpha**count
+    flights = FLIGHTS[count:] + FLIGHTS[:count]
+    above, below = fraction(lowest_terms(margin(symbolic.normal_periodic_impact(flights))))
+    sign = 1 if below.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
+    found: Formula = made_by(Origin("normal_periodic_impact", (flights,)), positive(sign * above))
+    return found
 
 
-def exceeds(margin: Expr) -> Formula:
-    """The formula margin > 0 without denominators, which are those of the start but for powers."""
-    above, below = fraction(lowest_terms(margin))
-    return positive(above * (1 if below.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1))
+def change(count: int) -> Vector:
+    """What (z1, z2) beside the start adds to the impact after so many flights."""
+    return derived_along("normal_change_beside", FLIGHTS[:count])
 
 
-def with_room(size: Expr) -> list[Formula]:
-    """Where the start is moved by no more than the size in the weighted norm the impact after
-    `BORN` flights is above the table, and that after `DIES` a collision.
-    """
-    born, dies = (
-        symbolic.normal_periodic_impact(FLIGHTS[count:] + FLIGHTS[:count]) for count in (BORN, DIES)
-    )
-    return [
-        opposite(exceeds(moved(BORN) * size - born[0])),
-        exceeds(dies[1] - dies[0] - (moved(DIES) + symbolic.alpha**DIES) * size),
-    ]
+def changed(count: int) -> Vector:
+    """The impact after so many flights, which is (x, w) on the orbit, from beside the start."""
+    return Vector(tuple(here + term(more) for here, more in zip((x, w), change(count).entries)))
+
+
+def moved(count: int, times: int = 0) -> Term:
+    """How much x after so many flights, and w so many times, change at most beside the start."""
+    return (PERIODS + sum(FLIGHTS[:count]) + times) * alpha**count * rho
 
 
 DOMAIN = divides()
-ROOM = with_room(Symbol("rho"))
-TAKEN = DOMAIN & conjunction(with_room(Integer(0)))
+EXISTS = opposite(cleared(lambda born: -born[0], BORN)) & cleared(
+    lambda dies: dies[1] - dies[0], DIES
+)
 BESIDE = replace(
     NORMAL,
     parameters=(alpha, rho),
     positive=(rho > 0,),
     state=(z1, z2),
     space=SMALL,
-    pieces=((equal(term(0), 0), derived_along("normal_return_beside", FLIGHTS)),),
+    pieces=((equal(term(0), 0), change(COUNT)),),
     fixed=Vector((0, 0)),
     place=Vector((z1, z2)),
 )
@@ -148,7 +151,8 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
     """Where it exists an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and repeats
     itself, and is not that of an e_K; every impact within 26 rho in x and rho in w of its first has
     these flights too, and comes 2 alpha^12 times nearer to it, weighted, with every 12, for each
-    rho from 0 to 1/2000 for which the impacts after 8 and after 9 flights have the room stated.
+    rho from 0 to 1/2000 that its impacts after 8 and after 9 flights have room for: (x, w) of the
+    one has 43 alpha^8 rho <= x, of the other 47 alpha^9 rho < w - x.
     """
     return [
         the_map("f", NORMAL, DOMAIN),
@@ -176,16 +180,22 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
             in_range=WIDER,
             label="half-of-two",
         ),
+        always(above(changed(BORN)), given=[moved(BORN) <= x, SMALL], label="stays-above"),
         always(
-            above(beside(BORN)) & strikes(beside(DIES)),
-            given=[*ROOM, SMALL],
-            in_range=WIDER,
-            label="other-half",
+            strikes(changed(DIES)),
+            given=[moved(DIES, times=1) < w - x, SMALL],
+            label="still-strikes",
         ),
         the_map("map", BESIDE, (alpha > 0) & WIDER[1]),
         contracts("contracts", "restitution-unequal/map", BESIDE, RANGE, CLOSER),
         # last, as the range that is told is that of the last map rule
-        escapes("comes-back", "restitution-unequal/f", replace(NORMAL, other=START), TAKEN, WORD),
+        escapes(
+            "comes-back",
+            "restitution-unequal/f",
+            replace(NORMAL, other=START),
+            DOMAIN & EXISTS,
+            WORD,
+        ),
     ]
 
 
