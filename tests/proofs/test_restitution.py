@@ -45,7 +45,8 @@ FALSE = {
     "too-far": ("restitution-e-K-begins/near-its-flight-flies", "<= 1/4", "<= 2"),
     "an-early-impact": ("restitution-e-K-begins/near-its-end-flies", "1 - 1/4", "1 - 4"),
     "too-large": ("restitution-unequal/impact-7", "1/2000", "1/100"),
-    "no-room": ("restitution-unequal/other-half", "43*alpha^8*rho", "1*alpha^8*rho"),
+    "no-room": ("restitution-unequal/stays-above", "43*alpha^8*rho", "42*alpha^8*rho"),
+    "nor-there": ("restitution-unequal/still-strikes", "47*alpha^9*rho", "46*alpha^9*rho"),
     "on-the-table": ("restitution-unequal-room/both", "alpha > 73/100", "alpha > 72/100"),
     "too-late": ("restitution-unequal-ends/both", "alpha < 31/40", "alpha < 32/40"),
 }

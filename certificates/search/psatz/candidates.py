@@ -12,8 +12,8 @@ from juggleproof.certificates.algebra.polynomials import Ring, total_degree
 
 MOST = 6  # of the candidates of one kind
 MOST_PAIRS = 500  # of facts with a resultant
-# Of a resultant that is factored, and of the products that it is made of: 5,324 and 57,354 at most in
-# searches for the paper's claims.
+# Of a resultant that is factored, and of the products that it is made of: 5,324 and 57,354 at most
+# in searches for the paper's claims.
 MOST_DIGITS, MOST_PRODUCTS = 50_000, 1_000_000
 
 
