@@ -148,7 +148,7 @@ WORD = " ".join("1" + " 2" * (periods - 1) for periods in FLIGHTS)
 
 @claim("restitution-unequal", "restitution", "12 unequal flights")
 def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
-    """Where it exists an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and repeats
+    """Where it exists, an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and repeats
     itself, and is not that of an e_K; every impact within 26 rho in x and rho in w of its first has
     these flights too, and comes 2 alpha^12 times nearer to it, weighted, with every 12, for each
     rho from 0 to 1/2000 that its impacts after 8 and after 9 flights have room for: (x, w) of the
@@ -156,6 +156,13 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
     """
     return [
         the_map("f", NORMAL, DOMAIN),
+        escapes(
+            "comes-back",
+            "restitution-unequal/f",
+            replace(NORMAL, other=START),
+            DOMAIN & EXISTS,
+            WORD,
+        ),
         always(
             equals(
                 START, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))
@@ -188,14 +195,6 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
         ),
         the_map("map", BESIDE, (alpha > 0) & WIDER[1]),
         contracts("contracts", "restitution-unequal/map", BESIDE, RANGE, CLOSER),
-        # last, as the range that is told is that of the last map rule
-        escapes(
-            "comes-back",
-            "restitution-unequal/f",
-            replace(NORMAL, other=START),
-            DOMAIN & EXISTS,
-            WORD,
-        ),
     ]
 
 
