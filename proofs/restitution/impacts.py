@@ -121,7 +121,7 @@ def an_impact_that_leads_to_an_impact_flies_between() -> list[Statement]:
     to a state of H, the K - 1 periods between are flight: T_K is f^K there.
 
     After an impact and n periods of flight, states that were d apart are (n + 2) alpha d apart at
-    most: where impacts tend to an impact, with flights as long, so do all states of the periods.
+    most, in x as in w.
     """
     return [
         always(
@@ -176,7 +176,7 @@ def fixed_points_attract_nothing_where_they_begin() -> list[Statement]:
     but those 0, .., K periods of flight before it.
 
     A state within 1/4 of one of the orbit's, and led by f to within 1/4 of the next, is an impact
-    just where that one is: what tends to the orbit has flights of K in the end.
+    just where that one is.
     """
     return [
         always(

@@ -110,7 +110,8 @@ def resultants(
         if min(p.degrees()[v], q.degrees()[v]) == 1
     ]
     for p, q, v in pairs if len(pairs) <= MOST_PAIRS else ():
-        if products(*sorted((p, q), key=lambda poly: poly.degrees()[v]), v) <= MOST_PRODUCTS:
+        linear, other = sorted((p, q), key=lambda poly: poly.degrees()[v])
+        if products(linear, other, v) <= MOST_PRODUCTS:
             resultant = p.resultant(q, v)
             for factor, _ in ring.factors(resultant) if digits(resultant) <= MOST_DIGITS else ():
                 pool.add(factor)
