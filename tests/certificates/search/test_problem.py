@@ -28,7 +28,7 @@ from juggleproof.certificates.search.psatz.lifting import (
     shortest_divisor,
     without_common_facts,
 )
-from juggleproof.certificates.search.psatz.linear_program import Program, solve
+from juggleproof.certificates.search.psatz.linear_program import Program, presolve, solve
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
@@ -258,3 +258,11 @@ def test_rejects_resultants_whose_work_no_count_bounds() -> None:
 
     assert resultants(ring, pair(3), -1) and not resultants(ring, pair(20), -1)
     assert not resultants(ring, [pair(3)[0], x**100 + y], -1)
+
+
+def test_columns_that_fall_one_after_another_are_counted_work_holds() -> None:
+    chain = np.eye(100) - np.eye(100, k=-1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    strict, budget = np.arange(100) == 99, Budget(2000)
+    assert presolve(chain, 100, strict, budget) is None and budget.left == 1000
+    with pytest.raises(Exhausted):
+        presolve(chain, 100, strict, Budget(900))
