@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
+from fractions import Fraction
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import AlgebraicNumber, exact, simplest_between
 from juggleproof.certificates.language import NO_ROLES, End, Roles, bounds_of, interval_text
+from juggleproof.certificates.search.ranges import line_on
+
+BITS, NEAR = 32, Fraction(1, 10**6)  # of an irrational end: its enclosure, and what is told for it
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
@@ -32,8 +37,13 @@ def range_of_rule(
     'at least 0 < a < 1/3'
 
     The parameter is the first of the roles, else the first that the map is over.  The text
-    is empty where the domain does not name it, and the domain itself where its conditions on it are
-    not linear, or where it asks more of the other parameters than the map's domain.
+    is empty where the domain does not name it, and the domain itself where it is no interval, or
+    asks more of the other parameters than the map's domain. An irrational end is told by a rational
+    number near to it inside, after `at least`.
+
+    >>> text = "statement t/map\\nover a\\ndomain a > 0 and 2*a^2 < 1"
+    >>> range_of_rule("t/map", {"t/map": text})
+    'at least 0 < a <= 1393/1970'
     """
     domain, refutes = rule_domain(name, texts)
     is_sharp = refutes and is_conclusion
@@ -42,6 +52,8 @@ def range_of_rule(
     if parameter not in checker.names_in(domain):
         return ""
     ends = bounds_of(domain, parameter)
+    if not ends and not is_sharp and checker.names_in(domain) == {parameter}:
+        ends = _ends_inside(domain, parameter)
     more = _conditions(domain) - _conditions(rows.get("domain", domain))
     others = {*rows.get("over", "").split()} - {parameter}
     if not ends or any(others & checker.names_in(one) for one in more):
@@ -51,6 +63,31 @@ def range_of_rule(
     at_one_point = low is not None and high is not None and low[0] == high[0]
     sure = is_sharp or at_one_point or (low, high) == whole and bool(roles.parameter)
     return ("" if sure else "at least ") + interval_text(parameter, low, high)
+
+
+def _ends_inside(domain: str, parameter: str) -> tuple[End | None, End | None] | None:
+    """The ends of the interval that a domain of one parameter is, with rational numbers inside in
+    place of irrational ones; None where it is none, or is tiny.
+    """
+    line = line_on(checker.parse(domain), parameter, checker.parse("0 = 0"))
+    intervals = line.simplified().intervals(True) if line else []
+    if len(intervals) != 1:
+        return None
+    (found,) = intervals
+    low = _inside(found.low, found.low_closed, NEAR) if found.low else None
+    high = _inside(found.high, found.high_closed, -NEAR) if found.high else None
+    if low and high and Fraction(low[0]) >= Fraction(high[0]):
+        return None
+    return low, high
+
+
+def _inside(end: AlgebraicNumber, closed: bool, near: Fraction) -> End:
+    """The end, or where it is irrational the simplest number that is so near to it."""
+    if end.is_rational:
+        return str(end.as_fraction()), "<=" if closed else "<"
+    low, high = end.enclosure(BITS)
+    beyond = (high, high + near) if near > 0 else (low + near, low)
+    return str(simplest_between(*map(exact, beyond))), "<="
 
 
 def _map_of(name: str, texts: Mapping[str, str]) -> Mapping[str, str]:

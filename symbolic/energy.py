@@ -247,6 +247,7 @@ def normal_f2() -> State:
     return _conjugate(f2())
 
 
+@cache
 def normal_flight_power(periods: Expr = K) -> State:
     """A number K of periods without impact, in normal form: (x, w) -> (x - K w - K (K - 1), w + 2
     K).
@@ -350,10 +351,11 @@ def normal_impact_after(flights: tuple[int, ...]) -> State:
     >>> normal_impact_after((1, 2)).T
     Matrix([[-3*alpha**2*w + alpha**2*x + 4*alpha - 2, alpha**2*w - 2*alpha + 4]])
     """
-    here = state(x, w)
-    for periods in flights:
-        for step in (normal_f1(), normal_flight_power(Integer(periods - 1))):
-            here = state(*(entry.expand() for entry in step.xreplace({x: here[0], w: here[1]})))
+    if not flights:
+        return state(x, w)
+    here = normal_impact_after(flights[:-1])
+    for step in (normal_f1(), normal_flight_power(Integer(flights[-1] - 1))):
+        here = state(*(entry.expand() for entry in step.xreplace({x: here[0], w: here[1]})))
     return here
 
 
@@ -368,6 +370,17 @@ def normal_periodic_impact(flights: tuple[int, ...]) -> State:
 
 
 @cache
+def normal_change_beside(flights: tuple[int, ...]) -> State:
+    """What (z1, z2) beside an impact adds to the impact after these flights, in normal form.
+
+    >>> normal_change_beside((1, 2)).T
+    Matrix([[alpha**2*z1 - 3*alpha**2*z2, alpha**2*z2]])
+    """
+    change = normal_impact_after(flights).jacobian([x, w]) * state(z1, z2)
+    return state(*(entry.expand() for entry in change))
+
+
+@cache
 def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
     """The impact after the first of the flights, so many, from (z1, z2) beside the impact that all
     of them bring back, in normal form.
@@ -375,20 +388,7 @@ def normal_impact_beside(flights: tuple[int, ...], count: int) -> State:
     >>> lowest_terms(normal_impact_beside((1, 2), 2)[1] - normal_periodic_impact((1, 2))[1])
     alpha**2*z2
     """
-    after = normal_impact_after(flights[:count])
     start = normal_periodic_impact(flights)
-    there = after.xreplace({x: start[0], w: start[1]})
-    beside = after.jacobian([x, w]) * state(z1, z2)
-    return state(*(lowest_terms(there[i]) + beside[i].expand() for i in (0, 1)))
-
-
-@cache
-def normal_return_beside(flights: tuple[int, ...]) -> State:
-    """Where the flights lead from (z1, z2) beside the impact that they bring back, seen from it, in
-    normal form.
-
-    >>> normal_return_beside((1, 2)).T
-    Matrix([[alpha**2*z1 - 3*alpha**2*z2, alpha**2*z2]])
-    """
-    there = normal_impact_beside(flights, len(flights)) - normal_periodic_impact(flights)
-    return state(*(lowest_terms(entry).expand() for entry in there))
+    there = normal_impact_after(flights[:count]).xreplace({x: start[0], w: start[1]})
+    change = normal_change_beside(flights[:count])
+    return state(*(lowest_terms(there[i]) + change[i] for i in (0, 1)))

@@ -17,7 +17,7 @@ from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import close_in_one_variable
 from juggleproof.certificates.search.psatz.by_parameter import search_by_parameter
-from juggleproof.certificates.search.psatz.facts import Pool
+from juggleproof.certificates.search.psatz.candidates import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
     DEEP,

@@ -130,9 +130,9 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
 SETTLED = ("theorem", "theorem-one-third", "restitution-to-a-half", "restitution-half", *RANGES)
 
 
-def what_attracts(entries: Iterable[Judged]) -> tuple[list[Range], Flights, Range, Range]:
+def what_attracts(entries: Iterable[Judged]) -> tuple[list[Range], Flights, Range]:
     """The ranges of the claims by which every orbit tends to some e_K; and the flights of another
-    orbit, where it attracts, and where it exists. Raises ClaimError where one of them fails.
+    orbit, and where it attracts. Raises ClaimError where one of them fails.
     """
     sharp = {entry.claim.id: entry.sharp for entry in entries if entry.verdict == "holds"}
 
@@ -142,8 +142,7 @@ def what_attracts(entries: Iterable[Judged]) -> tuple[list[Range], Flights, Rang
             raise ClaimError(f"{claim_id} holds on no range that can be drawn")
         return found[0][0], found[-1][1]
 
-    attracts, exists = (span(f"restitution-unequal{part}") for part in ("", "-ends"))
-    return [span(claim_id) for claim_id in SETTLED], FLIGHTS, attracts, exists
+    return [span(claim_id) for claim_id in SETTLED], FLIGHTS, span("restitution-unequal-room")
 
 
 def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, bool]]]:

@@ -6,7 +6,7 @@ import inspect
 import json
 import re
 import zlib
-from base64 import b64encode
+from base64 import a85encode
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -496,8 +496,8 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
 
 def packed(parts: Mapping[str, str]) -> str:
     """Named parts of the page, and apart from them their formulas and the outlines of pictures,
-    each once, as JSON that is compressed (RFC 1950) and in base 64: where one stands in a part, its
-    number stands after #.
+    each once, as JSON that is compressed (RFC 1950) and in base 85 (signs from ! to v but <, with
+    which markup could begin): where one stands in a part, its number stands after #.
     """
     shared = dict[str, int]()
     numbered = {
@@ -509,7 +509,8 @@ def packed(parts: Mapping[str, str]) -> str:
         for name, part in parts.items()
     }
     data = json.dumps({"parts": numbered, "shared": [*shared]}, ensure_ascii=False)
-    return b64encode(zlib.compress(data.encode(), 9)).decode("ascii")
+    signs = a85encode(zlib.compress(data.encode(), 9)).decode("ascii")
+    return signs.replace("z", "!!!!!").replace("<", "v")
 
 
 def _shown(

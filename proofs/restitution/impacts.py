@@ -8,6 +8,7 @@ K periods later.
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -16,6 +17,8 @@ from juggleproof.certificates.language import (
     Term,
     conjunction,
     equal,
+    iff,
+    reals,
     term,
 )
 from juggleproof.proofs.paper.names import alpha, at, claim, equals, w, x
@@ -38,6 +41,7 @@ from juggleproof.proofs.theorem.orbits import (
     K,
     after_impact,
     always,
+    d,
     n,
     next_impact,
     strikes,
@@ -48,6 +52,8 @@ ABOVE = K - 1 < alpha * (K + 1)
 EXISTS, BELOW = [alpha < 1, ABOVE], [alpha > 0, alpha * (K + 1) < K - 1]
 BEGINS = [equal(alpha * (K + 1), K - 1), K >= 2]
 TWICE = next_impact(K, AFTER)
+OTHER_ONE = Vector(reals("y z"))
+NEAR = term(Fraction(1, 4))
 STRUCK, FLOWN = (Vector(tuple(map(term, image.entries))) for _, image in PIECES)
 
 
@@ -60,6 +66,17 @@ def from_here(image: Vector, state: Vector) -> Vector:
     """The image, a vector of x and w, at this state."""
     found: Vector = at(image, {"x": term(state.entries[0]), "w": term(state.entries[1])})
     return found
+
+
+def apart(one: Vector, other: Vector, most: Term) -> Formula:
+    """The components of two states differ by no more than this."""
+    return conjunction(
+        [
+            part
+            for here, there in zip(map(term, one.entries), map(term, other.entries))
+            for part in (here - there <= most, there - here <= most)
+        ]
+    )
 
 
 def before(periods: Term) -> Vector:
@@ -102,13 +119,21 @@ DOMAIN = WHOLE & ABOVE
 def an_impact_that_leads_to_an_impact_flies_between() -> list[Statement]:
     """Where T_K, an impact and then K periods of flight up to the next impact, leads from an impact
     to a state of H, the K - 1 periods between are flight: T_K is f^K there.
+
+    After an impact and n periods of flight, states that were d apart are (n + 2) alpha d apart at
+    most, in x as in w.
     """
     return [
         always(
             ~strikes(after_impact(n, HERE)),
             given=[strikes(HERE), IN_FLIGHT[1], n >= 0, n <= K - 2],
             label="in-flight-between",
-        )
+        ),
+        always(
+            apart(after_impact(n, HERE), after_impact(n, OTHER_ONE), (n + 2) * alpha * d),
+            given=[apart(HERE, OTHER_ONE, d), n >= 0],
+            label="near-between",
+        ),
     ]
 
 
@@ -127,10 +152,10 @@ def each_fixed_point_attracts_a_box() -> list[AnyStatement]:
     ]
 
 
-@claim("restitution-e-K-none", "restitution", "alpha < (K - 1)/(K + 1)", parameters=())
-def no_fixed_point_below_its_range() -> list[Statement]:
-    """For alpha < (K - 1)/(K + 1) no two flights of K periods follow one another, and no state of H
-    is a fixed point of T_K.
+@claim("restitution-e-K-none", "restitution", "where e_K exists", parameters=())
+def fixed_points_exist_just_on_their_range() -> list[Statement]:
+    """For alpha < (K - 1)/(K + 1) no two flights of K periods follow one another. T_K has one fixed
+    point, and that is an impact of H if and only if K <= (1 + alpha)/(1 - alpha).
     """
     return [
         always(
@@ -139,7 +164,8 @@ def no_fixed_point_below_its_range() -> list[Statement]:
             in_range=BELOW,
             label="no-two-flights",
         ),
-        always(x < 0, given=[equals(AFTER, HERE)], in_range=BELOW, label="none-comes-back"),
+        always(iff(equals(AFTER, HERE), equals(HERE, THERE)), label="one-comes-back"),
+        always(iff(is_impact(THERE), K <= (1 + alpha) / (1 - alpha)), label="is-an-impact"),
     ]
 
 
@@ -148,6 +174,9 @@ def fixed_points_attract_nothing_where_they_begin() -> list[Statement]:
     """At alpha = (K - 1)/(K + 1), K >= 2, flights of K periods follow one another only from e_K
     itself. Its orbit is that of the state K periods of flight before it, and no states lead to it
     but those 0, .., K periods of flight before it.
+
+    A state within 1/4 of one of the orbit's, and led by f to within 1/4 of the next, is an impact
+    just where that one is.
     """
     return [
         always(
@@ -174,5 +203,20 @@ def fixed_points_attract_nothing_where_they_begin() -> list[Statement]:
             given=[SPACE, ~strikes(HERE), equals(FLOWN, before(n))],
             in_range=BEGINS,
             label="flights-that-lead-to-it",
+        ),
+        always(
+            strikes(HERE), given=[apart(HERE, E_K, NEAR)], in_range=BEGINS, label="near-it-strikes"
+        ),
+        always(
+            ~strikes(HERE),
+            given=[apart(HERE, before(n), NEAR), n >= 2, n <= K - 1],
+            in_range=BEGINS,
+            label="near-its-flight-flies",
+        ),
+        always(
+            term(STRUCK.entries[1]) < K + 1 - NEAR,
+            given=[apart(HERE, before(term(1)), NEAR)],
+            in_range=BEGINS,
+            label="near-its-end-flies",
         ),
     ]

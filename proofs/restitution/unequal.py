@@ -8,23 +8,25 @@ room to spare; at either end of its range one impact has none.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from sympy import factor_list, fraction, together
+from sympy import Expr, factor_list, fraction, together
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
     Statement,
+    Term,
     conjunction,
     equal,
     reals,
     term,
 )
 from juggleproof.proofs.paper.derivations import Origin, made_by
-from juggleproof.proofs.paper.names import alpha, always, claim, equals
+from juggleproof.proofs.paper.names import alpha, always, claim, equals, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import is_impact
 from juggleproof.proofs.theorem.definition import (
@@ -33,30 +35,32 @@ from juggleproof.proofs.theorem.definition import (
     Contraction,
     contracts,
     escapes,
+    opposite,
     positive,
     the_map,
     tidy,
 )
 from juggleproof.proofs.theorem.orbits import strikes
+from juggleproof.symbolic.algebra import State, lowest_terms
 
 FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods
 PERIODS, COUNT = sum(FLIGHTS), len(FLIGHTS)
 BORN, DIES = 8, 9  # the numbers of flights after which the impacts come that end its range
-z1, z2 = reals("z1 z2")
+z1, z2, rho = reals("z1 z2 rho")
 SPACED = [alpha > Fraction(73, 100), alpha < Fraction(31, 40)]
 WIDER = [alpha > Fraction(7286, 10000), alpha < Fraction(7765, 10000)]  # both ends lie here
-RADIUS = term(Fraction(1, 2000))
+NOT_LARGE = rho <= Fraction(1, 2000)
 WEIGHTS = (term(PERIODS), term(1))
 SMALL = conjunction(
     [
         part
         for name, weight in zip((z1, z2), WEIGHTS)
-        for part in (name <= weight * RADIUS, -weight * RADIUS <= name)
+        for part in (name <= weight * rho, -weight * rho <= name)
     ]
 )
 
 
-RANGE = conjunction(SPACED) & WHOLE
+RANGE = conjunction(WIDER) & WHOLE
 
 
 def derived_along(name: str, flights: tuple[int, ...], *arguments: int) -> Vector:
@@ -98,28 +102,62 @@ def divides() -> Formula:
     return found
 
 
+def cleared(margin: Callable[[State], Expr], count: int) -> Formula:
+    """The formula margin > 0 of the impact after so many flights, times its denominator, which has
+    one sign.
+    """
+    flights = FLIGHTS[count:] + FLIGHTS[:count]
+    above, below = fraction(lowest_terms(margin(symbolic.normal_periodic_impact(flights))))
+    sign = 1 if below.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
+    found: Formula = made_by(Origin("normal_periodic_impact", (flights,)), positive(sign * above))
+    return found
+
+
+def change(count: int) -> Vector:
+    """What (z1, z2) beside the start adds to the impact after so many flights."""
+    return derived_along("normal_change_beside", FLIGHTS[:count])
+
+
+def changed(count: int) -> Vector:
+    """The impact after so many flights, which is (x, w) on the orbit, from beside the start."""
+    return Vector(tuple(here + term(more) for here, more in zip((x, w), change(count).entries)))
+
+
+def moved(count: int, times: int = 0) -> Term:
+    """How much x after so many flights, and w so many times, change at most beside the start."""
+    return (PERIODS + sum(FLIGHTS[:count]) + times) * alpha**count * rho
+
+
 DOMAIN = divides()
+EXISTS = opposite(cleared(lambda born: -born[0], BORN)) & cleared(
+    lambda dies: dies[1] - dies[0], DIES
+)
 BESIDE = replace(
     NORMAL,
+    parameters=(alpha, rho),
+    positive=(rho > 0,),
     state=(z1, z2),
     space=SMALL,
-    pieces=((equal(term(0), 0), derived_along("normal_return_beside", FLIGHTS)),),
+    pieces=((equal(term(0), 0), change(COUNT)),),
     fixed=Vector((0, 0)),
     place=Vector((z1, z2)),
 )
-CLOSER = Contraction(equal(term(0), 0), WEIGHTS, 2 * alpha**COUNT, RADIUS, RADIUS)
+CLOSER = Contraction(equal(term(0), 0), WEIGHTS, 2 * alpha**COUNT, rho, rho)
 WORD = " ".join("1" + " 2" * (periods - 1) for periods in FLIGHTS)
 
 
-@claim("restitution-unequal", "restitution", "12 unequal flights", parameters=())
+@claim("restitution-unequal", "restitution", "12 unequal flights")
 def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
-    """For 73/100 < alpha < 31/40 an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and
-    repeats itself; every impact within 13/1000 in x and 1/2000 in w of its first has these flights
-    too, and comes 2 alpha^12 times nearer to it, weighted, with every 12.
+    """Where it exists, an orbit of f has flights of 1 1 2 3 3 2 2 3 3 2 2 2 periods and repeats
+    itself, and is not that of an e_K.
+
+    Every impact within 26 rho in x and rho in w of its first has these flights too, and with every
+    12 of them its weighted distance from the first falls to 2 alpha^12 of what it was or less, for
+    each rho from 0 to 1/2000 that the impacts after 8 and after 9 flights have room for: (x, w) of
+    the one has 43 alpha^8 rho <= x, of the other 47 alpha^9 rho < w - x.
     """
     return [
         the_map("f", NORMAL, DOMAIN),
-        escapes("comes-back", "restitution-unequal/f", replace(NORMAL, other=START), DOMAIN, WORD),
         always(
             equals(
                 START, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))
@@ -127,31 +165,45 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
             in_range=[equal(alpha, Fraction(3, 4))],
             label="at-three-quarters",
         ),
+        always(term(START.entries[1]) < term(on_the_orbit(4).entries[1]), label="is-no-e-K"),
         *(
-            always(is_impact(beside(count)), given=[SMALL], in_range=WIDER, label=f"impact-{count}")
+            always(
+                is_impact(beside(count)),
+                given=[NOT_LARGE, SMALL],
+                in_range=WIDER,
+                label=f"impact-{count}",
+            )
             for count in range(COUNT)
             if count not in (BORN, DIES)
         ),
         always(
             strikes(beside(BORN)) & above(beside(DIES)),
-            given=[SMALL],
+            given=[NOT_LARGE, SMALL],
             in_range=WIDER,
             label="half-of-two",
         ),
+        always(above(changed(BORN)), given=[moved(BORN) <= x, SMALL], label="stays-above"),
         always(
-            above(beside(BORN)) & strikes(beside(DIES)),
-            given=[SMALL],
-            in_range=SPACED,
-            label="other-half",
+            strikes(changed(DIES)),
+            given=[moved(DIES, times=1) < w - x, SMALL],
+            label="still-strikes",
         ),
-        the_map("map", BESIDE, RANGE),
+        the_map("map", BESIDE, (alpha > 0) & WIDER[1]),
         contracts("contracts", "restitution-unequal/map", BESIDE, RANGE, CLOSER),
+        # last, as the range that is told is that of the last map rule
+        escapes(
+            "comes-back",
+            "restitution-unequal/f",
+            replace(NORMAL, other=START),
+            DOMAIN & EXISTS,
+            WORD,
+        ),
     ]
 
 
 @claim("restitution-unequal-ends", "restitution", "where that orbit exists", parameters=("alpha",))
 def two_of_its_impacts_end_the_range_of_the_orbit() -> list[Statement]:
-    """The impact after 8 of the flights is above the table, and that after 9 a collision, for
+    """The impact after 8 of the flights is not below the table, and that after 9 a collision, for
     73/100 < alpha < 31/40; the ends of the sharp range are algebraic numbers, 0.7286.. and 0.7764..
 
     Between 0.7286 and 0.7765 the orbit's other conditions hold, by restitution-unequal: it exists
@@ -160,5 +212,21 @@ def two_of_its_impacts_end_the_range_of_the_orbit() -> list[Statement]:
     return [
         always(
             above(on_the_orbit(BORN)) & strikes(on_the_orbit(DIES)), in_range=SPACED, label="both"
+        )
+    ]
+
+
+@claim("restitution-unequal-room", "restitution", "where it attracts", parameters=("alpha",))
+def two_of_its_impacts_have_room_between_the_ends() -> list[Statement]:
+    """The impact after 8 of the flights is higher than the table, and that after 9 a collision, for
+    73/100 < alpha < 31/40; the sharp range is that of restitution-unequal-ends without its ends.
+
+    So there is a rho as in restitution-unequal for every alpha between the ends.
+    """
+    return [
+        always(
+            (term(on_the_orbit(BORN).entries[0]) > 0) & strikes(on_the_orbit(DIES)),
+            in_range=SPACED,
+            label="both",
         )
     ]

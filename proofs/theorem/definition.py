@@ -70,8 +70,8 @@ def written(expression: Expr) -> str:
     >>> from juggleproof.symbolic.algebra import alpha, w
     >>> written(2 - alpha * w), written((1 - alpha) / (alpha**2 + 2 * alpha + 1))
     ('2 - alpha*w', '(1 - alpha)/(alpha + 1)^2')
-    >>> written((alpha + 1) / (1 - alpha))
-    '(alpha + 1)/(1 - alpha)'
+    >>> written((alpha + 1) / (1 - alpha)), written(-alpha * w)
+    ('(alpha + 1)/(1 - alpha)', '-alpha*w')
     """
     return str(tidy(expression))
 
@@ -81,7 +81,7 @@ def tidy(expression: Expr) -> Term:
     denominator.
     """
     above, below = fraction(lowest_terms(expression))
-    if not _by_sign(above)[0]:
+    if below != 1 and not _by_sign(above)[0]:
         above, below = -above, -below
     numerator, factored = _difference(above), factor(below)
     if below == 1:
@@ -502,7 +502,7 @@ def escapes(name: str, of: str, setting: Setting, of_alpha: Formula, word: str =
             ("start", listed(setting.other)),
             ("word", word),
         ),
-        _terms(setting.fixed, setting.other),
+        _terms(of_alpha, setting.fixed, setting.other),
     )
 
 

@@ -90,9 +90,9 @@ def branches(flights: Flights, over: Range) -> list[Arc]:
 
 
 @styled
-def attractors(settled: Sequence[Range], flights: Flights, proved: Range, exist: Range) -> Figure:
+def attractors(settled: Sequence[Range], flights: Flights, proved: Range) -> Figure:
     """The attracting orbits over alpha, and ranges in which all orbits tend to some e_K; one of
-    other flights is proved to attract in one range, and to exist in another.
+    other flights is proved to attract in its range.
     """
     plane = Plane(blank(6.4, 4.4), (0.085, 0.115, 0.9, 0.865), (0, 1), UP)
     plane.frame(TICKS, ticks(range(0, UP[1] + 1, 2)), r"$\alpha$", "$w$ at impacts", 24)
@@ -108,9 +108,8 @@ def attractors(settled: Sequence[Range], flights: Flights, proved: Range, exist:
         if K > 1:
             plane.dots([(float(begins), K + 1)], f"begins-{K}", 3.2, filled=False)
     plane.line(branches(flights, proved), "unequal", linewidth=0.9, edgecolor=B2.colour)
-    beside = [(flights, (exist[0], proved[0])), (flights, (proved[1], exist[1]))]
-    seen = [(flights, around(flights, alpha)) for flights, alpha in SEEN]
-    for count, (of, over) in enumerate([*beside, *seen]):
+    for count, (of, alpha) in enumerate(SEEN):
+        over = around(of, alpha)
         plane.line(branches(of, over), f"simulated-{count}", B2, linewidth=0.7)
     return plane.figure
 

@@ -19,7 +19,14 @@ from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
-from juggleproof.proofs.restitution.unequal import FLIGHTS, PERIODS, START, on_the_orbit
+from juggleproof.proofs.restitution.unequal import (
+    BORN,
+    DIES,
+    FLIGHTS,
+    PERIODS,
+    START,
+    on_the_orbit,
+)
 from juggleproof.proofs.theorem.definition import holds_at, value_of
 from juggleproof.proofs.theorem.orbits import State, step
 
@@ -33,8 +40,14 @@ FALSE = {
     "elastic": ("restitution-flights/in-flight-between", "n <= K - 2", "n <= K - 1"),
     "whole": ("restitution-e-K-begins/impacts-that-lead-to-it", "integer K n", "integer K"),
     "below-the-table": ("restitution-e-K-begins/flights-that-lead-to-it", "given 0 <= x\n", ""),
-    "too-large": ("restitution-unequal/other-half", "1/2000", "1/100"),
-    "too-early": ("restitution-unequal/other-half", "alpha > 73/100", "alpha > 72/100"),
+    "no-less": ("restitution-flights/near-between", "n + 2", "n + 1"),
+    "at-its-end": ("restitution-e-K-none/is-an-impact", "K <= (", "K < ("),
+    "too-far": ("restitution-e-K-begins/near-its-flight-flies", "<= 1/4", "<= 2"),
+    "an-early-impact": ("restitution-e-K-begins/near-its-end-flies", "1 - 1/4", "1 - 4"),
+    "too-large": ("restitution-unequal/impact-7", "1/2000", "1/100"),
+    "no-room": ("restitution-unequal/stays-above", "43*alpha^8*rho", "42*alpha^8*rho"),
+    "nor-there": ("restitution-unequal/still-strikes", "47*alpha^9*rho", "46*alpha^9*rho"),
+    "on-the-table": ("restitution-unequal-room/both", "alpha > 73/100", "alpha > 72/100"),
     "too-late": ("restitution-unequal-ends/both", "alpha < 31/40", "alpha < 32/40"),
 }
 # (map rule, what is changed in it, into what): its certificate serves no more
@@ -62,7 +75,7 @@ WEAKENED = [
     ("restitution-three-fifths/impacts", " and (x - 0)^2 + (w - 5)^2 > 0", ""),
     ("restitution-beyond-five-sevenths/descends", "5000*alpha < 3643", "alpha < 3/4"),
     ("restitution-unequal/comes-back", "word 1 1 1 2", "word 1 1 2 1"),
-    ("restitution-unequal/comes-back", "alpha > 73/100", "alpha > 72/100"),
+    ("restitution-unequal/comes-back", "alpha < 1553/2000", "alpha < 1"),
     ("restitution-unequal/contracts", "rate 2*alpha^12", "rate alpha^12"),
 ]
 
@@ -174,14 +187,20 @@ def test_there_are_exceptions_fails_without_a_range_that_begins() -> None:
     assert not Restitutions(half, half, Fraction(7), 24, "11 22 33", "").exceptions()
 
 
-def test_orbit_of_unequal_flights_comes_back_holds() -> None:
-    alpha = Fraction(3, 4)
+def room_at(alpha: Fraction) -> Fraction:
+    """The greatest rho with the room that the claim asks for, the strict one by a little."""
+    born, dies = (state_at(alpha, on_the_orbit(count)) for count in (BORN, DIES))
+    return min(born.x / (43 * alpha**8), (dies.w - dies.x) / (48 * alpha**9), Fraction(1, 2000))
+
+
+@pytest.mark.parametrize("alpha", [Fraction(3, 4), Fraction(72864, 10**5), Fraction(77649, 10**5)])
+def test_orbit_of_unequal_flights_comes_back_holds(alpha: Fraction) -> None:
+    away = room_at(alpha)
     start = state_at(alpha, START)
     assert flights(start, len(FLIGHTS)) == (FLIGHTS, start)
     for count in range(len(FLIGHTS)):
         assert flights(start, count)[1] == state_at(alpha, on_the_orbit(count))
     for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
-        away = Fraction(1, 2000)
         corner = State(alpha, start.x + left * PERIODS * away, start.w + down * away)
         lengths, after = flights(corner, len(FLIGHTS))
         assert lengths == FLIGHTS

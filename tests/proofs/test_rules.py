@@ -99,6 +99,26 @@ def test_the_range_of_several_attractors_is_that_of_the_descent_holds() -> None:
     assert range_of_rule("t/returns", texts) == "at least 0 < a < 1/3"
 
 
+@pytest.mark.parametrize(
+    "domain, text",
+    [
+        ("a^2 <= 2 and a >= 0", "at least 0 <= a <= 1393/985"),
+        ("a^2 > 2 and a > 0", "at least a >= 1970/1393"),
+        ("a > 0 and a^2 < 2 and 2*a^2 > 1", "at least 985/1393 <= a <= 1393/985"),
+        ("a^2 > 2", "at least a^2 > 2"),  # two intervals
+        ("a^2 > 2 and 10^14*a^2 < 2*10^14 + 1", "at least a^2 > 2 and 10^14*a^2 < 2*10^14 + 1"),
+        ("0 < a and a^2 < 0", "at least 0 < a and a^2 < 0"),
+    ],
+)
+def test_an_irrational_end_is_told_inside_of_it_holds(domain: str, text: str) -> None:
+    assert range_of_rule("t/map", {"t/map": f"statement t/map\nover a\ndomain {domain}"}) == text
+
+
+def test_a_sharp_range_is_told_exactly_holds() -> None:
+    texts = SHARP | {"t/falls": SHARP["t/falls"].replace("3*a < 1", "3*a^2 < 1")}
+    assert range_of_rule("t/exactly", texts) == "a > 0 and 3*a^2 < 1"
+
+
 def test_a_rule_without_a_domain_has_no_range_holds() -> None:
     text = "statement t/sum\nforall x K\ninteger K\niterates x -> x + 2\nafter K -> x + 2*K"
     assert range_of_rule("t/sum", {"t/sum": text}) == ""

@@ -7,6 +7,7 @@ Annalen 207 (1974).  The files, each after those that it imports:
   propose
 - `basis`: the last basis of a linear program, by floats
 - `facts`: the facts of a state; scales by homogeneity, equations used up, signs at sight
+- `candidates`: polynomials to square, or to make cases of by sign
 - `problem`: the facts of one leaf, ready for a search; whether floats see a point that meets them
 - `lifting`: identities between them as nodes over the facts of the state
 - `linear`: products of facts, by a linear program

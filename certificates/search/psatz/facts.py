@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -527,87 +527,3 @@ class Signs:
                 value = Fraction(int(b.p), int(b.q)) * comb(degree, k) / width**degree
                 found.append((value / slopes[0] ** k / slopes[1] ** (degree - k), own))
         return found if strict else []
-
-
-# -------------------------------------------------------------------------------------------------
-# Polynomials to square, or to make cases of by sign: candidates read off the facts of a
-# problem.
-
-MOST = 6  # of the candidates of one kind
-MOST_PAIRS = 500  # of facts with a resultant
-
-
-class Pool:
-    """Primitive polynomials, each once, up to sign."""
-
-    def __init__(self) -> None:
-        self.polys: list[fmpz_mpoly] = []
-
-    def add(self, poly: fmpz_mpoly) -> None:
-        """Keeps a polynomial that is not constant and was not kept before."""
-        if not poly or poly.is_constant():
-            return
-        poly = poly / int(poly.content())
-        poly = -poly if poly.leading_coefficient() < 0 else poly
-        if all(poly != known for known in self.polys):
-            self.polys.append(poly)
-
-
-def squares(
-    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
-) -> list[fmpz_mpoly]:
-    """Candidates for squares, cheapest first: repeated factors, critical lines, variables,
-    differences of variables.
-    """
-    pool = Pool()
-    for poly in _worth_squaring(ring, facts, parameter):
-        pool.add(poly)
-        if len(pool.polys) == most:
-            break
-    return pool.polys
-
-
-def _worth_squaring(
-    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int
-) -> Iterator[fmpz_mpoly]:
-    used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
-    for poly in facts:
-        if total_degree(poly) > 1:
-            for factor, exponent in ring.factors(poly):
-                if exponent > 1:
-                    yield factor
-    for poly in reversed(facts):
-        for v in used:
-            if poly.degrees()[v] == 2:
-                for factor, _ in ring.factors(poly.derivative(v)):
-                    if factor.degrees()[v]:
-                        yield factor
-    for v in used:
-        yield ring.gens[v]
-    for v, w in combinations(used, 2):
-        yield ring.gens[v] - ring.gens[w]
-        yield ring.gens[v] + ring.gens[w]
-
-
-def resultants(
-    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
-) -> list[fmpz_mpoly]:
-    """Factors of resultants of two facts in a variable that is linear in one of them, smallest
-    first; none where there are too many pairs.
-    """
-    pool = Pool()
-    pairs = [
-        (p, q, v)
-        for v in range(ring.size)
-        if v != parameter
-        for p, q in combinations([p for p in facts if p.degrees()[v]], 2)
-        if min(p.degrees()[v], q.degrees()[v]) == 1
-    ]
-    for p, q, v in pairs if len(pairs) <= MOST_PAIRS else ():
-        for factor, _ in ring.factors(p.resultant(q, v)):
-            pool.add(factor)
-    found = [
-        p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)
-    ]
-    found.sort(key=lambda p: (len(p), total_degree(p)))
-    return found[:most]

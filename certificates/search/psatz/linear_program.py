@@ -108,7 +108,7 @@ def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -
     strict[:count] = np.concatenate(program.strict) if count else ()
     costs = np.zeros(columns)
     costs[:count] = np.concatenate(program.costs) if count else ()
-    alive = presolve(matrix, count, strict[:count])
+    alive = presolve(matrix, count, strict[:count], budget)
     if alive is None:
         return None
     work = matrix[:, alive]
@@ -242,9 +242,9 @@ def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
     return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 
 
-def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | None:
+def presolve(matrix: Floats, count: int, strict: Mask, budget: Budget) -> NDArray[np.intp] | None:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
-    None if no strict one is left.
+    None if no strict one is left. Raises Exhausted where the budget ends.
 
     Shapes, for n columns of which the first `count` are not free: `matrix` (rows, n), `strict`
     (count,).
@@ -254,6 +254,7 @@ def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | Non
     fixed = used[:, count:].any(axis=1)
     alive = np.ones(matrix.shape[1])
     while True:
+        budget.spend(matrix.size // 1000)
         reached = used @ alive
         rows = (reached > 0) & (np.abs(signs @ alive) == reached) & ~fixed
         if not rows.any():

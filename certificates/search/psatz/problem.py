@@ -20,19 +20,16 @@ from juggleproof.certificates.algebra.polynomials import (
     constant_of,
     total_degree,
 )
+from juggleproof.certificates.search.psatz.candidates import MOST, Pool, resultants, squares
 from juggleproof.certificates.search.psatz.facts import (
-    MOST,
     Bounded,
     Fact,
     Factors,
-    Pool,
     Reduction,
     Scaling,
     Signed,
     Signs,
     Sum,
-    resultants,
-    squares,
     times,
 )
 from juggleproof.certificates.states import State

@@ -8,12 +8,17 @@
   const texts = new Map();
   let timer = 0;
 
-  // The parts of the page that stand in it as data: JSON, compressed, in base 64, with formulas and outlines by number. Without them the page is a list.
+  // The parts of the page that stand in it as data: JSON, compressed, in base 85, with formulas and outlines by number. Without them the page is a list.
   let parts = null;
   let shared = [];
   const unpacked = async () => {
-    const bytes = Uint8Array.from(atob(document.getElementById("parts").textContent), (sign) => sign.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    const text = document.getElementById("parts").textContent.replaceAll("v", "<");
+    const bytes = new DataView(new ArrayBuffer(Math.ceil(text.length / 5) * 4));
+    for (let at = 0; at < text.length; at += 5) {
+      const digits = [...text.slice(at, at + 5).padEnd(5, "u")];
+      bytes.setUint32(at / 5 * 4, digits.reduce((word, sign) => 85 * word + sign.charCodeAt(0) - 33, 0));
+    }
+    const stream = new Blob([bytes.buffer.slice(0, Math.floor(text.length * 4 / 5))]).stream().pipeThrough(new DecompressionStream("deflate"));
     ({ parts, shared } = JSON.parse(await new Response(stream).text()));
   };
 
@@ -56,7 +61,7 @@
     let count = 0;
     for (const claim of claims) {
       const fits = (!verdicts.length || verdicts.includes(claim.dataset.verdict)) &&
-        (!section || claim.dataset.section === section) && words.every((word) => textOf(claim).includes(word));
+        (!section || claim.parentElement.id === "section-" + section) && words.every((word) => textOf(claim).includes(word));
       claim.hidden = !fits;
       count += fits;
     }

@@ -21,13 +21,14 @@ from juggleproof.certificates.algebra.polynomials import (
     pseudo_divide,
 )
 from juggleproof.certificates.search.closing import search_closing
+from juggleproof.certificates.search.psatz.candidates import MOST_DIGITS, digits, resultants
 from juggleproof.certificates.search.psatz.facts import Scaling
 from juggleproof.certificates.search.psatz.lifting import (
     Term,
     shortest_divisor,
     without_common_facts,
 )
-from juggleproof.certificates.search.psatz.linear_program import Program, solve
+from juggleproof.certificates.search.psatz.linear_program import Program, presolve, solve
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
@@ -236,3 +237,32 @@ def test_what_was_done_takes_what_is_left_holds() -> None:
     with pytest.raises(Exhausted):
         part.charge(26)
     assert (whole.left, part.left) == (60, 0)
+
+
+def test_resultants_are_factored_holds() -> None:
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    found = resultants(ring, [x * y - 1, x**2 - y], -1)
+    assert y**2 + y + 1 in found and y - 1 in found
+
+
+def test_rejects_resultants_whose_work_no_count_bounds() -> None:
+    """Of large coefficients, or of a high degree, which would not end in the time of this suite."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+
+    def pair(power: int) -> list[fmpz_mpoly]:
+        one, other = (sum((k + m) ** power * y**k for k in range(20)) for m in (1, 2))
+        assert digits(one) < MOST_DIGITS  # which the resultant exceeds, if any
+        return [x * one - other, x * other + one]
+
+    assert resultants(ring, pair(3), -1) and not resultants(ring, pair(20), -1)
+    assert not resultants(ring, [pair(3)[0], x**100 + y], -1)
+
+
+def test_columns_that_fall_one_after_another_are_counted_work_holds() -> None:
+    chain = np.eye(100) - np.eye(100, k=-1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    strict, budget = np.arange(100) == 99, Budget(2000)
+    assert presolve(chain, 100, strict, budget) is None and budget.left == 1000
+    with pytest.raises(Exhausted):
+        presolve(chain, 100, strict, Budget(900))

@@ -26,9 +26,11 @@ marks: list[str] = []
 
 
 def marked(value: Any, mark: Symbol) -> Any:
-    """The value with the mark added to every expression in it."""
+    """The value with the mark added to every expression in it; of a vector to each entry another
+    multiple, which their difference keeps.
+    """
     if isinstance(value, MatrixBase):
-        return value.applyfunc(lambda entry: entry + mark)
+        return type(value)(*value.shape, [n * mark + one for n, one in enumerate(value, 1)])
     if isinstance(value, Expr):
         return value + mark
     if isinstance(value, tuple):

@@ -6,7 +6,7 @@ import json
 import re
 import shutil
 import zlib
-from base64 import b64decode
+from base64 import a85decode
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -95,7 +95,7 @@ def read_html(text: str) -> Element:
 def parts_of(document: Element) -> dict[str, str]:
     """The parts of a page that stand in it as data, by name."""
     packed = next(one for one in document.all("script") if one.attributes.get("id") == "parts")
-    data = json.loads(zlib.decompress(b64decode(packed.text())))
+    data = json.loads(zlib.decompress(a85decode(packed.text().replace("v", "<"))))
     return {
         name: re.sub(r"#(\d+);", lambda number: data["shared"][int(number[1])], part)
         for name, part in data["parts"].items()

@@ -136,6 +136,11 @@ def test_every_claim_statement_and_rule_has_its_place_holds() -> None:
 def test_verdicts_are_those_of_the_contents_holds() -> None:
     shown = {one.attributes["id"]: one for one in document().with_class("claim")}
     assert list(shown) and len(shown) == len(contents().entries)
+    within = {
+        one.attributes["id"]: section.attributes["id"]
+        for section in document().with_class("of-section")
+        for one in section.with_class("claim")
+    }
     for entry in contents().entries:
         article = shown[entry.claim.id]
         badge = next(article.with_class("badge"))
@@ -145,7 +150,7 @@ def test_verdicts_are_those_of_the_contents_holds() -> None:
             == badge.text().strip()
             == badge.attributes["class"].split()[1]
         )
-        assert article.attributes["data-section"] == entry.claim.section
+        assert within[entry.claim.id] == f"section-{entry.claim.section}"
     for word, count in contents().verdicts.items():
         assert f"{word} {count}" in [
             spaced(item) for item in next(document().with_class("tally")).all("a")

@@ -24,6 +24,8 @@ from juggleproof.scenes.figures.attractors import (
 from tests.proofs.reports.results_table import results
 from tests.scenes.figures.drawn import points
 
+TINY = Fraction(1, 10**9)
+
 
 def test_branches_of_the_fixed_points_are_theirs_holds() -> None:
     for K in range(1, MOST + 1):
@@ -47,15 +49,17 @@ def test_orbit_is_there_fails_without_its_range() -> None:
 
 
 def test_shaded_ranges_are_those_of_the_claims_holds() -> None:
-    settled, flights, proved, exist = what_attracts(results())
+    settled, flights, proved = what_attracts(results())
     assert joined_ranges(settled) == [(0, settled[-1][1])] and flights == FLIGHTS
-    assert exist[0] < proved[0] < proved[1] < exist[1]
+    assert exists(FLIGHTS, proved[0] + TINY) and exists(FLIGHTS, proved[1] - TINY)
+    assert not exists(FLIGHTS, proved[0] - TINY) and not exists(FLIGHTS, proved[1] + TINY)
+    assert {x for x, _ in points("fig-attractors", "unequal", 1)} >= {*map(float, proved)}
     (low, high), *_ = joined_ranges(settled)
     shaded = points("fig-attractors", "settled-0", 1)
     assert {x for x, _ in shaded} == {float(low), float(high)}
 
 
-@pytest.mark.parametrize("claim", [SETTLED[3], "restitution-unequal"])
+@pytest.mark.parametrize("claim", [SETTLED[3], "restitution-unequal-room"])
 def test_rejects_a_claim_that_does_not_hold(claim: str) -> None:
     entries = [
         SimpleNamespace(
