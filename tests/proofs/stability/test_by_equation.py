@@ -10,8 +10,8 @@ import sympy
 
 from juggleproof.proofs.stability.algebraic import Renamed
 from juggleproof.proofs.stability.by_equation import WithEquation, by_an_equation, has_a_zero
-from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
-from juggleproof.proofs.stability.given import Map, read_rows
+from juggleproof.proofs.stability.functions.contracting_boxes import beside
+from juggleproof.proofs.stability.given import HIGH, Map, read_rows
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.search import search_stability
@@ -114,5 +114,6 @@ def test_ends_of_boxes_that_are_roots_of_numbers_are_left_out_holds() -> None:
     assert found is not None
     (fixed,) = fixed_points(found.system)
     system = with_licences(found.system)
-    rules = [*contracting_box_rules(setting_of(system, fixed, system.domain), "units")]
-    assert not any("sqrt" in row for maps, _ in rules for one in maps for _, row in one.rows)
+    setting = setting_of(system, fixed, system.domain)
+    ends = [sympy.sqrt(34), sympy.Integer(6)]
+    assert beside(setting, (1, HIGH), None, ends) == 6
