@@ -16,7 +16,8 @@ In reading order, each importing those before it only:
 - `refuting`: periodic orbits in exact terms.
 - `settings`: a fixed point with a part of the domain.
 - `attracting`, `failing`: that the point is stable and attracts every state, or not.
-- `algebraic`: fixed points that are no square roots, as parameters.
+- `algebraic`, `by_equation`: fixed points that are no square roots, as parameters: in place of an
+  old one, or with the equation that elimination leaves.
 - `search`: all of it, in order, and the outcome.
 - `claiming`: the same as a claim of one's own.
 """

@@ -30,10 +30,17 @@ from juggleproof.proofs.stability.given import (
     written,
 )
 from juggleproof.proofs.stability.points import PARAMETERS
-from juggleproof.proofs.stability.samples import Arrays, Floats, divides, multiplied_out, region
+from juggleproof.proofs.stability.samples import (
+    REAL,
+    Arrays,
+    Floats,
+    divides,
+    licence,
+    multiplied_out,
+    region,
+)
 
 NAMES = "ecuvwz"  # for the point, the first that is free
-REAL = 1e-9  # imaginary part, in floats
 MOST_DEGREE = 12
 BUDGET = 200_000  # of counted work for a statement about the point
 
@@ -45,6 +52,19 @@ class Renamed:
     system: Map
     parameter: str
     term: str
+
+    def sentence(self) -> str:
+        """What the old parameter is."""
+        return f"here {self.parameter} = {self.term}"
+
+    def doubt(self, before: Map) -> str:
+        """What samples alone say."""
+        each = f"each {self.parameter} has one such {self.name()}"
+        return "" if has_one_point(before, self) else f", where samples alone say that {each}"
+
+    def name(self) -> str:
+        """The parameter that the old one makes room for."""
+        return self.system.parameters[-1]
 
 
 def by_its_point(system: Map, several: bool = False) -> Renamed | None:
@@ -77,18 +97,21 @@ def by_its_point(system: Map, several: bool = False) -> Renamed | None:
                 old = min(linear, key=lambda one: sympy.Poly(factor, one).LC().has(state))
                 (term,) = sympy.solve(factor, old)
                 at = sympy.factor(term.subs(state, *symbols([name])))
-                return with_parameter(system, inside, name, str(old), at)
+                return with_parameter(system, inside, name, (name,), str(old), at)
     return None
 
 
-def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) -> Renamed:
-    """The map with a name for its point, in place of an old parameter, which is this term."""
+def with_parameter(
+    system: Map, inside: str, name: str, point: tuple[str, ...], old: str, term: Expr
+) -> Renamed:
+    """The map with a name for a coordinate of its point, in place of an old parameter, which is
+    this term.
+    """
     put = {old: as_factor(written(term))}
     over = tuple(one for one in system.parameters if one != old) + (name,)
-    at_point = renamed(inside, {system.state[0]: name})
+    at_point = renamed(inside, dict(zip(system.state, map(as_factor, point))))
     every = conjuncts(renamed(conjunction(at_point, system.domain), put))
-    facts = {poly: f"{written(poly)} > 0" for one in every for poly, strict in atoms(one) if strict}
-    every = [multiplied_out(one, facts) if divides(one) else one for one in every]
+    every = without_divisors(every)
     kept = [one for one in every if one != ANYWHERE]
     for part in reversed(every):  # what the others say already
         rest = [one for one in kept if one != part]
@@ -104,7 +127,24 @@ def with_parameter(system: Map, inside: str, name: str, old: str, term: Expr) ->
     space = renamed(system.space, put)
     domain = conjunction(*kept) or ANYWHERE
     changed = replace(system, parameters=over, domain=domain, space=space, pieces=pieces)
-    return Renamed(replace(changed, point=(name,)), old, written(term))
+    return Renamed(replace(changed, point=point), old, written(term))
+
+
+def without_divisors(parts: Sequence[str]) -> list[str]:
+    """Conditions that divide, multiplied by their divisors, which have one sign at samples of the
+    others.
+
+    >>> without_divisors(["e > 0", "1/(e + 1) < 1"])
+    ['e > 0', '-e < 0']
+    """
+    known = conjunction(*(one for one in parts if not divides(one)))
+    facts = {poly: f"{written(poly)} > 0" for poly, strict in atoms(known) if strict}
+    for part in parts:
+        for poly, _ in atoms(part) if divides(part) else ():
+            below = sympy.denom(sympy.together(poly))
+            for one, _ in sympy.factor_list(below)[1]:
+                facts.setdefault(one, licence(one, known))
+    return [multiplied_out(one, facts) if divides(one) else one for one in parts]
 
 
 def without_positive_factors(part: str, positive: Set[Expr]) -> str:
@@ -149,7 +189,7 @@ def has_one_point(before: Map, found: Renamed) -> bool:
     >>> has_one_point(system, by_its_point(system))
     True
     """
-    (name,), old, term = found.system.point, found.parameter, found.term
+    name, old, term = found.name(), found.parameter, found.term
     over, domain = found.system.parameters, found.system.domain
     second = f"{name}_2"
     other = {name: second}

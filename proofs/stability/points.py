@@ -19,7 +19,7 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
-from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region
+from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region, without_equations
 
 PARAMETERS = 150  # samples
 VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables that are free
@@ -84,8 +84,17 @@ def _named(system: Map) -> Iterator[FixedPoint]:
     point, put = as_point(terms), dict(zip(symbols(system.state), terms))
     for k, images in enumerate(system.images):
         gaps = [i.subs(put, simultaneous=True) - t for i, t in zip(images, terms)]
-        if point is not None and all(sympy.cancel(gap) == 0 for gap in gaps):
+        if point is not None and all(is_zero(gap, system) for gap in gaps):
             yield FixedPoint(point, k, terms)
+
+
+def is_zero(term: Expr, system: Map) -> bool:
+    """Whether the term is 0 wherever the equation of the domain holds, if it has one."""
+    _, fixed = without_equations(system.domain, system.parameters)
+    above = sympy.numer(sympy.together(term))
+    for name, gap in fixed.items():
+        above = sympy.prem(above, gap, *symbols([name])) if above != 0 else above
+    return bool(sympy.expand(above) == 0)
 
 
 def _found(system: Map) -> Iterator[FixedPoint]:

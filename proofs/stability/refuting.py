@@ -114,7 +114,8 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
     """
     state = symbols(setting.system.state)
     _, fixed = without_equations(setting.domain, setting.system.parameters)
-    put = {sympy.Symbol(name, real=True): expression(term) for name, term in fixed.items()}
+    linear = [(*symbols([name]), gap) for name, gap in fixed.items()]
+    put = {x: -gap.coeff(x, 0) / gap.coeff(x, 1) for x, gap in linear if sympy.degree(gap, x) == 1}
     images: list[sympy.Expr] = list(state)
     for k in word:
         values = dict(zip(state, images))

@@ -39,6 +39,7 @@ Bools = NDArray[np.bool_]
 SEED = 1995  # of all samples, so that every run searches in one way
 STATES = 40  # for each of the parameters
 ROUNDS = 40  # of drawing, before fewer samples than were asked for do
+REAL = 1e-9  # imaginary part of a zero, relative to its size
 FAR = 2.5  # powers of ten that unbounded variables run over
 
 
@@ -86,10 +87,13 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
         if given:
             chosen = rng.integers(0, len(next(iter(given.values()))), count)
             point |= {name: values[chosen] for name, values in given.items()}
+        size = count
+        for name, gap in fixed.items():
+            which, zeros = real_zeros(gap, name, point, count)
+            point = {one: values[which] for one, values in point.items()} | {name: zeros}
+            size = len(zeros)
         with np.errstate(all="ignore"):
-            for name, term in fixed.items():
-                point[name] = column(term, point, count)
-            inside = np.broadcast_to(holds(formula, point), (count,))
+            inside = np.broadcast_to(holds(formula, point), (size,))
         kept.append({name: values[inside] for name, values in point.items()})
         total += int(inside.sum())
         if total >= count:
@@ -98,9 +102,9 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
     return {name: np.concatenate([part[name] for part in kept])[:count] for name in names_kept}
 
 
-def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str, str]]:
-    """The formula without an equation that is linear in one of the variables, and that variable
-    with the term for it; without any, where there is no such equation.
+def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str, Expr]]:
+    """The formula without an equation of polynomials, and the variable of these with the lowest
+    degree in it, with what is 0; without any, where there is no such equation.
     """
     parts = conjuncts(formula)
     for part in parts:
@@ -108,12 +112,30 @@ def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq) or node.ops[1:]:
             continue
         sides = [expression(checker_text(side)) for side in (node.left, *node.comparators)]
-        gap = sympy.numer(sympy.together(sides[0] - sides[1]))
-        for symbol in symbols(names):
-            if gap.is_polynomial(symbol) and sympy.degree(gap, symbol) == 1:
-                term = sympy.cancel(-gap.coeff(symbol, 0) / gap.coeff(symbol, 1))
-                return conjunction(*(p for p in parts if p != part)), {str(symbol): written(term)}
+        gap = sympy.expand(sympy.numer(sympy.together(sides[0] - sides[1])))
+        found = [one for one in symbols(names) if one in gap.free_symbols]
+        if found and gap.is_polynomial(*found):
+            name = min(found, key=lambda one: sympy.degree(gap, one))
+            return conjunction(*(p for p in parts if p != part)), {str(name): gap}
     return formula, {}
+
+
+def real_zeros(gap: Expr, name: str, point: Arrays, count: int) -> tuple[NDArray[np.int64], Floats]:
+    """The real zeros of a polynomial in one variable at each of the points, and at which point each
+    of them lies.
+    """
+    poly = sympy.Poly(gap, *symbols([name]))
+    with np.errstate(all="ignore"):
+        columns = [column(written(c), point, count) for c in poly.all_coeffs()]
+        if poly.degree() == 1:
+            return np.arange(count), -columns[1] / columns[0]
+    which, found = [], []
+    for k, row in enumerate(np.stack(columns, axis=1)):
+        zeros = np.roots(row) if np.isfinite(row).all() else np.zeros(0)
+        real = zeros.real[np.abs(zeros.imag) <= REAL * np.abs(zeros)]
+        which += [k] * len(real)
+        found += list(real)
+    return np.array(which, dtype=np.int64), np.array(found)
 
 
 # -------------------------------------------------------------------------------------------------

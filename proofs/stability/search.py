@@ -12,8 +12,9 @@ from itertools import compress, islice
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.algebraic import Renamed, by_its_point, has_one_point
+from juggleproof.proofs.stability.algebraic import MOST_DEGREE, Renamed, by_its_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
+from juggleproof.proofs.stability.by_equation import by_an_equation
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     LOCAL_BUDGET,
@@ -116,14 +117,11 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         where = lines_named(system, line)
         return Outcome(proof, "unknown", f"the map{where}: {line}", [text] if text else [])
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
-    other = None if every else by_its_point(original)
+    other = None if every else by_its_point(original) or by_an_equation(original)
     if other:
         outcome = outcome_of(other.system, report, budget)
         if outcome.sentence:
-            outcome.sentence += f"; here {other.parameter} = {other.term}"
-            if not has_one_point(original, other):
-                each = f"each {other.parameter} has one such {other.system.point[0]}"
-                outcome.sentence += f", where samples alone say that {each}"
+            outcome.sentence += f"; {other.sentence()}{other.doubt(original)}"
         return outcome
     if not every:
         if not system.point and not proof.add(without_fixed_point(system)):
@@ -131,7 +129,10 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
         what = ", ".join(system.point)
         none = f"{what} is no fixed point in the space"
         if not what:
-            none = "no isolated fixed point in square roots was found in the space"
+            none = (
+                "no isolated fixed point in square roots, or by an equation of degree"
+                f" {MOST_DEGREE} at most, was found in the space"
+            )
         return Outcome(proof, "unknown", none, lines)
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
         if not fixed.stable_share(system, parameters):

@@ -286,7 +286,7 @@ def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]
     """
     point = setting.constants[f"{setting.system.state[side[0]]}_point"]
     for one in every:
-        if not one.is_rational_function():
+        if any(not power.exp.is_Integer for power in one.atoms(sympy.Pow)):
             continue  # a root, which a map cannot name
         at = at_parameters(setting, one)
         inside = end is None or (side[1] * (at_parameters(setting, end) - at) > 0).all()

@@ -1,0 +1,226 @@
+"""Fixed points that are no square roots, and of which no parameter is a term: a coordinate of the
+point as a further parameter, with the equation that elimination leaves for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import sympy
+
+from juggleproof.proofs.stability.algebraic import (
+    MOST_DEGREE,
+    NAMES,
+    Renamed,
+    interval,
+    shows,
+    with_parameter,
+    without_divisors,
+)
+from juggleproof.proofs.stability.certifying import beyond
+from juggleproof.proofs.stability.given import (
+    ANYWHERE,
+    Expr,
+    Map,
+    as_factor,
+    column,
+    conjunction,
+    conjuncts,
+    holds,
+    renamed,
+    symbols,
+    written,
+)
+from juggleproof.proofs.stability.points import PARAMETERS
+from juggleproof.proofs.stability.samples import (
+    Arrays,
+    real_zeros,
+    region,
+)
+
+MOST_SOLUTIONS = 40  # of the equations of a fixed point, by their degrees
+STEPS = 64  # of which one, or a power, is as wide as the interval of a number
+
+
+@dataclass(frozen=True)
+class WithEquation:
+    """The map with a coordinate of its point as a parameter, which is a zero of a polynomial."""
+
+    system: Map
+    name: str
+    polynomial: Expr
+    where: str  # what tells it from the other zeros
+
+    def sentence(self) -> str:
+        """What the name stands for."""
+        return f"here {self.name} is the zero of {written(self.polynomial)} with {self.where}"
+
+    def doubt(self, before: Map) -> str:
+        """What samples alone say."""
+        return "" if has_a_zero(before, self) else ", where samples alone say that there is one"
+
+
+def by_an_equation(system: Map) -> WithEquation | Renamed | None:
+    """The map with a coordinate of its fixed point for a further parameter, where at samples there
+    is one zero of an equation with a fixed point in the space for each value of the parameters; in
+    place of one that the equation is linear in, if there is one; None elsewhere.
+
+    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> rows = [("state", "x"), ("space", "x > 0"), ("piece", "(2*x + 2/x^2)/3")]
+    >>> found = by_an_equation(read_rows("cube-root", rows))
+    >>> found.system.domain, found.system.point
+    ('e^3 - 2 = 0 and e > 5/4 and e < 81/64', ('e',))
+    """
+    taken = {*system.names, *(f"{name}_point" for name in system.state)}
+    free = [one for one in NAMES if one not in taken]
+    if system.point or not free:
+        return None
+    (name,) = symbols(free[:1])
+    for piece, (guard, _) in enumerate(system.pieces):
+        inside = conjunction(system.space, guard)
+        for polynomial, terms in eliminated(system, piece, name):
+            if not is_the_point(system, polynomial, terms, inside, str(name)):
+                continue
+            every = symbols(system.parameters)
+            linear = [one for one in every if sympy.degree(polynomial, one) == 1]
+            if not linear:
+                return with_equation(system, polynomial, terms, inside, str(name))
+            old = linear[0]
+            term = sympy.factor(sympy.solve(polynomial, old)[0])
+            point = tuple(written(sympy.factor(one.xreplace({old: term}))) for one in terms)
+            return with_parameter(system, inside, str(name), point, str(old), term)
+    return None
+
+
+def eliminated(system: Map, piece: int, name: Expr) -> Iterator[tuple[Expr, tuple[Expr, ...]]]:
+    """Irreducible polynomials in a name for one coordinate of the fixed points of a piece, with the
+    parameters, and all coordinates as terms in it.
+    """
+    state, parameters = symbols(system.state), symbols(system.parameters)
+    field = sympy.QQ.frac_field(*parameters) if parameters else sympy.QQ
+    gaps = [sympy.numer(sympy.together(i - s)) for i, s in zip(system.images[piece], state)]
+    degrees = [sympy.Poly(one, *state).total_degree() for one in gaps]
+    if not 0 < np.prod(degrees) <= MOST_SOLUTIONS:
+        return
+    for last in reversed(state):
+        order = [*(one for one in state if one != last), last]
+        polys = [sympy.Poly(one, *order, domain=field) for one in gaps]
+        basis = polys if len(state) == 1 else sympy.groebner(polys, *order, order="lex").polys
+        for factor, _ in sympy.factor_list(sympy.numer(sympy.together(basis[-1].as_expr())))[1]:
+            if not factor.has(last) or factor.has(*order[:-1]):
+                continue
+            if not 1 < sympy.degree(factor, last) <= MOST_DEGREE:
+                continue
+            terms = {last: name}
+            if len(state) > 1:
+                with_factor = [*polys, sympy.Poly(factor, *order, domain=field)]
+                terms |= linear_in(sympy.groebner(with_factor, *order, order="lex").polys, last)
+            if len(terms) == len(state):
+                points = tuple(sympy.factor(terms[one].xreplace({last: name})) for one in state)
+                yield factor.xreplace({last: name}), points
+
+
+def linear_in(basis: list[sympy.Poly], last: Expr) -> dict[Expr, Expr]:
+    """The variables for which a basis has an equation with no other variable but the last, of
+    degree one, with the term that it makes.
+    """
+    found = {}
+    for poly in basis:
+        others = [one for one in poly.gens if one != last and poly.has(one)]
+        if len(others) == 1 and poly.degree(others[0]) == 1:
+            gap = poly.as_expr().expand()
+            below = gap.coeff(others[0], 1)
+            if not below.has(last):
+                found[others[0]] = sympy.cancel(-gap.coeff(others[0], 0) / below)
+    return found
+
+
+def is_the_point(
+    system: Map, polynomial: Expr, terms: tuple[Expr, ...], inside: str, name: str
+) -> bool:
+    """Whether at all samples of the parameters one zero makes a state of the set, and no other
+    does.
+    """
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    count = len(next(iter(parameters.values()))) if parameters else 1
+    which, zeros = real_zeros(polynomial, name, parameters, count)
+    known: Arrays = {one: values[which] for one, values in parameters.items()} | {name: zeros}
+    with np.errstate(all="ignore"):
+        states = [column(written(term), known, len(zeros)) for term in terms]
+        there = np.broadcast_to(
+            holds(inside, {**known, **dict(zip(system.state, states))}), zeros.shape
+        )
+    return bool((np.bincount(which[there], minlength=count) == 1).all())
+
+
+def with_equation(
+    system: Map, polynomial: Expr, terms: tuple[Expr, ...], inside: str, name: str
+) -> WithEquation:
+    """The map with the name as a parameter, the equation in its domain, and what tells its zero
+    from others.
+    """
+    over = (*system.parameters, name)
+    equation = f"{written(polynomial)} = 0"
+    point = tuple(map(written, terms))
+    put = {one: as_factor(term) for one, term in zip(system.state, point)}
+    at_point = conjuncts(renamed(inside, put))
+    known = conjunction(system.domain, equation)
+    if not system.parameters:
+        known = conjunction(known, *isolated(polynomial, terms, system, inside, name))
+    every = without_divisors([*conjuncts(known), *at_point])[len(conjuncts(known)) :]
+    kept = [one for one in every if one != ANYWHERE]
+    for part in reversed(every):  # what the others say already
+        rest = [one for one in kept if one != part]
+        if part in kept and not beyond(conjunction(known, *rest), part, over):
+            kept = rest
+    domain = conjunction(known, *kept)
+    changed = replace(system, parameters=over, domain=domain, point=point)
+    where = [
+        one
+        for one in conjuncts(domain)
+        if one not in conjuncts(conjunction(system.domain, equation))
+    ]
+    return WithEquation(changed, name, polynomial, conjunction(*where))
+
+
+def isolated(
+    polynomial: Expr, terms: tuple[Expr, ...], system: Map, inside: str, name: str
+) -> list[str]:
+    """Rational ends of an interval with the zero of the point and no other one: a sixty-fourth
+    wide, or less where zeros are closer.
+    """
+    variable = sympy.Symbol(name, real=True)
+    for (low, high), _ in sympy.Poly(polynomial, variable).intervals(eps=sympy.Rational(1, STEPS)):
+        middle = {name: np.array([float((low + high) / 2)])}
+        states = [column(written(term), middle, 1) for term in terms]
+        if np.all(holds(inside, {**middle, **dict(zip(system.state, states))})):
+            grid = [Fraction(int(sympy.floor(low * STEPS)) + k, STEPS) for k in range(3)]
+            for one, other in pairwise(grid):
+                signs = [polynomial.subs(variable, sympy.Rational(end)) for end in (one, other)]
+                if signs[0] * signs[1] < 0 and one <= low and high <= other:
+                    return [f"{name} > {one}", f"{name} < {other}"]
+            return [f"{name} > {low}", f"{name} < {high}"] if low < high else []
+    return []
+
+
+def has_a_zero(before: Map, found: WithEquation) -> bool:
+    """Whether it is certified that there is such a zero for all of the parameters: the polynomial
+    has different signs at the ends of an interval, within which the rest of the domain holds.
+    """
+    low, high = interval(before, found.name, found.system.domain)
+    head = [f"forall {' '.join(before.parameters)}"] if before.parameters else []
+    given = [*head, f"given {before.domain}"] if before.domain != ANYWHERE else head
+    text = written(found.polynomial)
+    ends = [renamed(text, {found.name: f"({end})"}) for end in (low, high)]
+    if not shows(given, f"{low} < {high}") or not any(
+        shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
+        for left, right in ("<>", "><")
+    ):
+        return False
+    between = [f"forall {' '.join(found.system.parameters)}", *given[len(head) :]]
+    between += [f"given {low} < {found.name}", f"given {found.name} < {high}"]
+    return shows([*between, f"given {text} = 0"], found.where)

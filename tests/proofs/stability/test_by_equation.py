@@ -1,0 +1,119 @@
+"""A fixed point by an equation: what is certified of it, and what rests on samples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy
+
+from juggleproof.proofs.stability.algebraic import Renamed
+from juggleproof.proofs.stability.by_equation import WithEquation, by_an_equation, has_a_zero
+from juggleproof.proofs.stability.functions.contracting_boxes import beside
+from juggleproof.proofs.stability.given import HIGH, Map, read_rows
+from juggleproof.proofs.stability.points import fixed_points
+from juggleproof.proofs.stability.samples import region, with_licences
+from juggleproof.proofs.stability.search import search_stability
+from juggleproof.proofs.stability.settings import setting_of
+
+Row = tuple[str, str]
+
+
+def made(*rows: Row) -> Map:
+    return read_rows("made", list(rows))
+
+
+HASSELL = made(("state", "x"), ("space", "x > 0"), ("piece", "2*x/(1 + x)^3"))
+PLANE = [("state", "x y"), ("space", "x >= 0 and y >= 0")]
+UNITS = made(*PLANE, ("piece", "x/4 + 1/(2*(1 + y^2)), y/3 + 1/(2*(1 + x))"))
+TOGGLE = made(
+    ("over", "a"),
+    ("domain", "0 < a and a < 1"),
+    *PLANE,
+    ("piece", "x/2 + a/(2*(1 + y^2)), y/2 + a/(2*(1 + x^2))"),
+)
+SUM = made(
+    ("over", "a"),
+    ("domain", "0 < a"),
+    ("state", "x"),
+    ("space", "x > 0"),
+    ("piece", "x + (a^2 - x^3 - a^3*x)/8"),
+)
+
+
+def test_a_number_is_a_zero_in_an_interval_and_the_map_is_settled_holds() -> None:
+    found = by_an_equation(HASSELL)
+    assert isinstance(found, WithEquation) and has_a_zero(HASSELL, found)
+    assert found.system.domain == "e^3 + 3*e^2 + 3*e - 1 = 0 and e > 1/4 and e < 17/64"
+    outcome = search_stability(HASSELL)
+    assert outcome.verdict == "stable"
+    assert outcome.sentence == (
+        "e is stable and attracts every state; here e is the zero of"
+        " e^3 + 3*e^2 + 3*e - 1 with e > 1/4 and e < 17/64"
+    )
+
+
+def test_coordinates_are_terms_in_one_of_them_holds() -> None:
+    found = by_an_equation(UNITS)
+    assert isinstance(found, WithEquation)
+    assert found.system.point == ("e^2 - 3*e/4 + 2/3", "e")
+    (point,) = fixed_points(found.system)
+    zeros = np.roots([12, -9, 20, -9])
+    e = zeros.real[np.abs(zeros.imag) < 1e-9]
+    x, y = point.point.at({"e": e})
+    assert np.allclose(y, e) and np.allclose(UNITS.next({"x": x, "y": y}), [x, y])
+
+
+def test_a_parameter_that_the_equation_is_linear_in_makes_room_holds() -> None:
+    found = by_an_equation(TOGGLE)
+    assert isinstance(found, Renamed)
+    assert (found.term, found.system.point) == ("e*(e^2 + 1)", ("e", "e"))
+
+
+def test_an_equation_with_parameters_stays_in_the_domain_holds() -> None:
+    found = by_an_equation(SUM)
+    assert isinstance(found, WithEquation) and has_a_zero(SUM, found)
+    points = region(found.system.domain, found.system.parameters, 50)
+    a, e = points["a"], points["e"]
+    assert len(e) == 50 and np.allclose(a**2 - e**3 - a**3 * e, 0, atol=1e-6 * (1 + a**2).max())
+
+
+FALSE = {
+    "no-zero": ("e^2 + 1", "e > 0 and e < 1"),
+    "no-change-of-sign": ("(2*e - 1)^2", "e > 0 and e < 1"),
+    "elsewhere": ("2*e - 1", "e > 2 and e < 3"),
+    "not-all-of-the-conditions": ("2*e - 1", "e > 0 and e < 1 and e > 1/2"),
+}
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_rejects_that_there_is_a_zero_where_there_is_none(name: str) -> None:
+    text, where = FALSE[name]
+    e = sympy.Symbol("e", real=True)
+    polynomial = sympy.sympify(text.replace("^", "**"), locals={"e": e})
+    system = replace(HASSELL, parameters=("e",), domain=f"{text} = 0 and {where}", point=("e",))
+    assert not has_a_zero(HASSELL, WithEquation(system, "e", polynomial, where))
+
+
+def test_what_samples_alone_say_of_the_zero_is_said_to_rest_on_them_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("juggleproof.proofs.stability.algebraic.BUDGET", 0)
+    sentence = search_stability(HASSELL).sentence
+    assert sentence.endswith("e < 17/64, where samples alone say that there is one")
+
+
+def test_no_equation_is_taken_where_two_zeros_are_states() -> None:
+    two = made(("state", "x"), ("piece", "x + (x^3 - 3*x + 1)/8"))
+    assert by_an_equation(two) is None
+
+
+def test_ends_of_boxes_that_are_roots_of_numbers_are_left_out_holds() -> None:
+    found = by_an_equation(UNITS)
+    assert found is not None
+    (fixed,) = fixed_points(found.system)
+    system = with_licences(found.system)
+    setting = setting_of(system, fixed, system.domain)
+    ends = [sympy.sqrt(34), sympy.Integer(6)]
+    assert beside(setting, (1, HIGH), None, ends) == 6
