@@ -4,8 +4,7 @@ paper's order.
     lines    arcs of parabolas, as numbers
     arcs     derived expressions as numbers, and the arcs that they draw
     look     the look of figures
-    drawing  how figures are saved, and a plane to draw on
-    plane    what the pictures of simulations have in common: title, key of colours, white behind
+    drawing  how figures are saved, a plane to draw on, and what pictures of simulations share
     states   the plane of the sampled states
     paper    the figures of the paper
     ours     two that it lacks

@@ -14,7 +14,11 @@ from matplotlib.figure import Figure
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.drawing import (
+    BOTTOM,
     Plane,
+    axes,
+    key,
+    on_white,
     raster,
     spaced,
     style,
@@ -23,7 +27,6 @@ from juggleproof.scenes.figures.drawing import (
 from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
-from juggleproof.scenes.figures.plane import BOTTOM, axes, key, on_white
 from juggleproof.scenes.juggler.given import brief, formulas
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits
 from juggleproof.scenes.juggler.orbits import heights

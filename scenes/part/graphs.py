@@ -10,10 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import Sides, raster, spaced, styled, ticks
+from juggleproof.scenes.figures.drawing import (
+    Sides,
+    Title,
+    axes,
+    key,
+    on_white,
+    raster,
+    spaced,
+    styled,
+    ticks,
+)
 from juggleproof.scenes.figures.lines import joined, straight
 from juggleproof.scenes.figures.look import B1, B2, BAND, INK, KEPT, LOSS, R
-from juggleproof.scenes.figures.plane import Title, axes, key, on_white
 
 Array = NDArray[np.float64]
 COLOURS = tuple(look.colour for look in (B1, B2, R, BAND, LOSS, KEPT))

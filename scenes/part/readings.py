@@ -274,8 +274,8 @@ def sweep(
 
 RECORD = Path(__file__).with_name("sweep.json")
 PHASES = (-90, 0, 90)
-RESTITUTIONS = (0, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.875, 0.9, 0.925, 0.95)
-FRICTIONS = (0.02, 0.06, 0.1, 0.2, 0.35, 0.5, 0.7, 0.92, 1.3)
+RESTITUTIONS = (0, 0.3, 0.5, 0.7, 0.8, 0.875, 0.925, 0.95)
+FRICTIONS = (0.02, 0.06, 0.2, 0.5, 0.92, 1.3)
 STATED = (
     Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92),
     Reading("2x4", "peak", 0, 0, 0.7, 0.06),

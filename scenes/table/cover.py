@@ -9,10 +9,20 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import Plane, Sides, raster, spaced, style, ticks
+from juggleproof.scenes.figures.drawing import (
+    LETTERS,
+    TOP,
+    Plane,
+    Sides,
+    axes,
+    on_white,
+    raster,
+    spaced,
+    style,
+    ticks,
+)
 from juggleproof.scenes.figures.lines import Arc, Place, joined
 from juggleproof.scenes.figures.look import B1, B2, KEPT, LOSS, PLAIN, Look, R
-from juggleproof.scenes.figures.plane import LETTERS, TOP, axes, on_white
 from juggleproof.scenes.table.attractors import MOST, attractors
 from juggleproof.scenes.table.curves import birth, doubling, gamma_of, grazing, own_grazing
 

@@ -11,10 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import Plane, raster, spaced, style, ticks
+from juggleproof.scenes.figures.drawing import (
+    LETTERS,
+    Plane,
+    axes,
+    on_white,
+    raster,
+    spaced,
+    style,
+    ticks,
+)
 from juggleproof.scenes.figures.lines import joined
 from juggleproof.scenes.figures.look import B1, BAND, KEPT, R
-from juggleproof.scenes.figures.plane import LETTERS, axes, on_white
 from juggleproof.scenes.table.curves import second_orbit
 from juggleproof.scenes.table.motion import (
     MOST,

@@ -193,7 +193,7 @@ def test_the_search_of_readings_is_written_holds(
     def cut(tasks: Callable[..., list[Task]], seed: int) -> Callable[..., list[Task]]:
         return lambda *done: [Task(*task[:2], 1, seed, 0.1) for task in tasks(*done)[:2]]
 
-    for seed, name in enumerate(("screened", "neighbours", "finals")):
+    for seed, name in enumerate(("screened", "nearer", "finals")):
         monkeypatch.setattr(simulate_part, name, cut(getattr(simulate_part, name), seed))
     written = []
     for jobs in "12":

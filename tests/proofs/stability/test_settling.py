@@ -94,8 +94,13 @@ SETTLED = {  # name: (text, exit code, first line)
     "circle": (
         "over c s\ndomain c^2 + s^2 = 1\nstate x y\npiece c*x - s*y, s*x + c*y",
         1,
-        "unknown  circle: no parameters were found in the domain c^2 + s^2 = 1; put in what an"
-        " equation fixes",
+        "unknown  circle: no fixed point was certified to be stable, or not to be",
+    ),
+    "two-equations": (
+        "over a b\ndomain a^2 + b^2 = 1 and 4*a*b = 1\nstate x\npiece a*x",
+        1,
+        "unknown  two-equations: no parameters were found in the domain a^2 + b^2 = 1 and"
+        " 4*a*b = 1; put in what an equation fixes",
     ),
     "identity": (
         "state x\npiece x",
