@@ -93,8 +93,8 @@ def by_processes(most: int) -> Iterator[tuple[str, ...]]:
 
 
 def by_command() -> Iterator[Row]:
-    """Rows: the least CPU seconds of some runs of commands, each from nothing and in a process of its
-    own, and megabytes, with the aims.
+    """Rows: the least CPU seconds of some runs of commands, each from nothing and in a process of
+    its own, and megabytes, with the aims.
 
     No command seems to take fewer megabytes than this process before: so they come first.
     """

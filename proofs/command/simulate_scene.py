@@ -58,7 +58,7 @@ def _known(text: str, name: str, known: Mapping[str, object]) -> str:
 
 
 def reading_of(options: SceneOptions) -> Reading:
-    """The reading of the options; what is not given is as in the most likely one that is stored."""
+    """The reading of the options; what is not given is as in the stored one that is chosen."""
     likely = chosen(recorded()).reading
     along, up = likely.phase_x, likely.phase_y
     if options.phase is not None:

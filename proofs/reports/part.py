@@ -37,6 +37,7 @@ from juggleproof.scenes.part.readings import (
     assumptions,
     chosen,
     likelihood,
+    most_likely_point,
     recorded,
 )
 from juggleproof.scenes.part.setting import Scene
@@ -160,7 +161,7 @@ def point(one: Point) -> str:
 
 def likeliest(stages: Sequence[Stage]) -> str:
     """The most likely point of a sweep, its onset, and how many are as likely within scatter."""
-    best = chosen(stages)
+    best = most_likely_point(stages)
     rule = ONSETS[best.likelihoods.index(best.likelihood)]
     return (
         f"most likely: {name_of(best)}, onset by the {rule} time, log-likelihood"
@@ -226,8 +227,8 @@ class Results:
 
 
 def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
-    """Whether a run of table I is the one that the report shows: nothing chosen, the most
-    likely reading that is stored, full ensembles.
+    """Whether a run of table I is the one that the report shows: nothing chosen, the
+    reading that is stored, full ensembles.
     """
     try:
         likely = chosen(recorded()).reading

@@ -382,7 +382,7 @@ def recorded() -> tuple[Stage, ...]:
     """The search that is stored beside this file; the reading of the scene comes from it.
     SceneError where it cannot be read.
 
-    >>> chosen(recorded()).likelihood == max(one.likelihood for one in recorded()[-1].points)
+    >>> chosen(recorded()) in as_good(recorded())
     True
     """
     try:
@@ -397,15 +397,20 @@ def recorded() -> tuple[Stage, ...]:
         ) from None
 
 
-def chosen(stages: Sequence[Stage]) -> Point:
+def most_likely_point(stages: Sequence[Stage]) -> Point:
     """The most likely point of the last stage; the first where several are."""
     return max(stages[-1].points, key=lambda one: one.likelihood)
 
 
 def as_good(stages: Sequence[Stage]) -> list[Point]:
     """The points of the last stage that `SCATTER` does not tell from the most likely."""
-    least = chosen(stages).likelihood - SCATTER
+    least = most_likely_point(stages).likelihood - SCATTER
     return [one for one in stages[-1].points if one.likelihood >= least]
+
+
+def chosen(stages: Sequence[Stage]) -> Point:
+    """The first of the points that `SCATTER` does not tell from the most likely."""
+    return as_good(stages)[0]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -427,15 +432,15 @@ class Assumption:
 
 
 def assumptions(setting: Scene, amplitudes: str) -> list[Assumption]:
-    """All that a run of table I assumes; what is as in the most likely reading of the stored search
-    is inferred, all else chosen.
+    """All that a run of table I assumes; what is as in the reading that is chosen of the stored
+    search is inferred, all else chosen.
     """
     try:
         likely = chosen(recorded()).reading
     except SceneError:  # none is stored, or none that can be read
         likely = None
     inferred = likely.scene() if likely else None
-    why = "the most likely reading of the stored search, made with another seed"
+    why = "a most likely reading of the stored search, made with another seed"
 
     def entry(name: str, value: str, same: bool) -> Assumption:
         if same:

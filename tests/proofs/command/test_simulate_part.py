@@ -222,7 +222,7 @@ def test_stored_sweep_gives_the_reading_of_the_scene_holds(
         ("amplitudes", best.amplitudes),
         ("phases at the start", f"{best.phase_x:g} along, {best.phase_y:g} up, in degrees"),
     ):
-        assert f"{name} {value} inferred the most likely reading of the stored search" in output
+        assert f"{name} {value} inferred a most likely reading of the stored search" in output
 
 
 @pytest.mark.parametrize(

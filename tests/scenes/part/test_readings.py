@@ -30,6 +30,7 @@ from juggleproof.scenes.part.readings import (
     finals,
     likelihood,
     most_likely,
+    most_likely_point,
     nearer,
     point,
     read,
@@ -40,7 +41,7 @@ from juggleproof.scenes.part.readings import (
     watched,
 )
 
-LIKELY = Reading("2x4", "peak-to-peak", 0, -90, 0.875, 0.92)
+LIKELY = Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92)
 HORIZON = 12.0
 
 
@@ -101,7 +102,7 @@ def test_onsets_by_the_three_rules_holds() -> None:
 
 
 def test_the_table_starts_at_its_lowest_where_both_phases_are_minus_90_holds() -> None:
-    setting = readings.STATED[0].scene(f_x=30.0, A_x=5e-4)
+    setting = LIKELY.scene(f_x=30.0, A_x=5e-4)
     assert (setting.phase_x, setting.phase_y) == (-math.pi / 2, -math.pi / 2)
     assert (setting.a, setting.b, setting.A_y) == (0.01, 0.02, 1e-4)
 
@@ -174,15 +175,13 @@ def test_the_stored_search_tried_all_that_is_screened_holds() -> None:
     assert last.impacts == sum(one.impacts for one in last.points)
 
 
-def test_the_reading_of_the_scene_is_the_most_likely_holds() -> None:
-    best = chosen(recorded())
+def test_the_reading_of_the_scene_is_not_told_from_the_most_likely_holds() -> None:
+    best = most_likely_point(recorded())
     assert all(one.likelihood <= best.likelihood for one in recorded()[-1].points)
-    assert best in as_good(recorded()) and best.reading == LIKELY
-    asked, other = (
-        next(one for one in recorded()[-1].points if one.reading == stated)
-        for stated in readings.STATED
-    )
-    assert asked in as_good(recorded()) and other not in as_good(recorded())
+    assert chosen(recorded()).reading == LIKELY
+    assert chosen(recorded()).likelihood > best.likelihood - readings.SCATTER
+    (other,) = (one for one in recorded()[-1].points if one.reading == readings.STATED[1])
+    assert other not in as_good(recorded())
 
 
 def test_a_record_is_read_as_it_was_written_holds() -> None:
@@ -208,8 +207,8 @@ def test_likeliest_are_those_within_scatter_holds() -> None:
     def at(e: float, lnl: float) -> Point:
         return Point(Reading("2x4", "peak", 0, 0, e, 0.1), (), (), (), (lnl,) * len(ONSETS), 1)
 
-    found = Stage(24, 2, 12.0, 3, 3, (at(0.5, -3.0), at(0.7, -1.0), at(0.8, -1.9)))
-    assert chosen([found]).reading.e == 0.7
+    found = Stage(24, 2, 12.0, 3, 3, (at(0.5, -3.0), at(0.7, -1.9), at(0.8, -1.0)))
+    assert most_likely_point([found]).reading.e == 0.8 and chosen([found]).reading.e == 0.7
     assert [one.reading.e for one in as_good([found])] == [0.7, 0.8]
-    assert [task.reading.e for task in finals(found.points)] == [0.875, 0.7, 0.7, 0.8, 0.5]
+    assert [task.reading.e for task in finals(found.points)] == [0.875, 0.7, 0.8, 0.7, 0.5]
     assert len(PAPER) == 6
