@@ -57,7 +57,8 @@ class WithEquation:
 
     def sentence(self) -> str:
         """What the name stands for."""
-        return f"here {self.name} is the zero of {written(self.polynomial)} with {self.where}"
+        which = "" if self.where == ANYWHERE else f" with {self.where}"
+        return f"here {self.name} is the zero of {written(self.polynomial)}{which}"
 
     def doubt(self, before: Map) -> str:
         """What samples alone say."""

@@ -79,6 +79,12 @@ def test_an_equation_with_parameters_stays_in_the_domain_holds() -> None:
     assert len(e) == 50 and np.allclose(a**2 - e**3 - a**3 * e, 0, atol=1e-6 * (1 + a**2).max())
 
 
+def test_the_only_zero_of_an_equation_is_told_by_it_alone_holds() -> None:
+    rows = [("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x")]
+    found = by_an_equation(made(*rows, ("piece", "x - (x^3 + x - a^2)/8")))
+    assert found is not None and found.sentence() == "here e is the zero of -a^2 + e^3 + e"
+
+
 FALSE = {
     "no-zero": ("e^2 + 1", "e > 0 and e < 1"),
     "no-change-of-sign": ("(2*e - 1)^2", "e > 0 and e < 1"),
