@@ -102,6 +102,8 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     if not all(map(len, parameters.values())):
         hint = "; put in what an equation fixes" if " = " in given else ""
         none = f"no parameters were found in the domain {given}{hint}"
+        if is_certified([f"forall {' '.join(system.parameters)}", f"show {negation(given)}"]):
+            none = f"the domain {given} is empty"
         return Outcome(proof, "unknown", none, [])
     lines: list[str] = []
 

@@ -126,7 +126,7 @@ SETTLED = {  # name: (text, exit code, first line)
     "empty": (
         "over a\ndomain a > 1 and a < 0\nstate x\npiece x/2",
         1,
-        "unknown  empty: no parameters were found in the domain a > 1 and a < 0",
+        "unknown  empty: the domain a > 1 and a < 0 is empty",
     ),
 }
 
