@@ -401,7 +401,7 @@ def every_orbit_tends_to_zero():
     ("parameter", "domain", "rate", "code", "shown"),
     [
         ("alpha", "0 < alpha and 2*alpha < 1", "alpha", 0, "at least 0 < alpha < 1/2"),
-        ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha and alpha^2 < 1/4"),
+        ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha < 1/2"),
         ("a", "0 < a and 2*a < 1", "a", 0, "at least 0 < a < 1/2"),
         ("a", "0 < a and a < 1", "a", 0, "at least 0 < a < 1"),
         ("a", "0 < a and a < 1", "a/2", 1, "unknown"),
