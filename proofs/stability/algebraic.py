@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.given import (
@@ -31,12 +32,11 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.points import PARAMETERS
 from juggleproof.proofs.stability.samples import (
-    REAL,
     Arrays,
-    Floats,
     divides,
     licence,
     multiplied_out,
+    real_zeros,
     region,
 )
 
@@ -112,11 +112,7 @@ def with_parameter(
     at_point = renamed(inside, dict(zip(system.state, map(as_factor, point))))
     every = conjuncts(renamed(conjunction(at_point, system.domain), put))
     every = without_divisors(every)
-    kept = [one for one in every if one != ANYWHERE]
-    for part in reversed(every):  # what the others say already
-        rest = [one for one in kept if one != part]
-        if part in kept and rest and not beyond(conjunction(*rest), part, over):
-            kept = rest
+    kept = needed_of(every, (), over)
     for _ in range(2):  # again with what the first turn says to be positive
         positive = {atoms(one)[0][0] for one in kept if atoms(one) and atoms(one)[0][1]}
         kept = [without_positive_factors(one, positive) for one in kept]
@@ -128,6 +124,16 @@ def with_parameter(
     domain = conjunction(*kept) or ANYWHERE
     changed = replace(system, parameters=over, domain=domain, space=space, pieces=pieces)
     return Renamed(replace(changed, point=point), old, written(term))
+
+
+def needed_of(parts: Sequence[str], known: Sequence[str], over: Sequence[str]) -> list[str]:
+    """The conditions without those that the others, with what is known, are certified to say."""
+    kept = [one for one in parts if one != ANYWHERE]
+    for part in reversed(parts):
+        rest = [*known, *(one for one in kept if one != part)]
+        if part in kept and rest and not beyond(conjunction(*rest), part, over):
+            kept = [one for one in kept if one != part]
+    return kept
 
 
 def without_divisors(parts: Sequence[str]) -> list[str]:
@@ -201,17 +207,22 @@ def has_one_point(before: Map, found: Renamed) -> bool:
     low, high = interval(before, name, domain)
     equation, divisor = sympy.fraction(sympy.together(expression(f"{term} - {old}")))
     given = [f"forall {' '.join(before.parameters)}", f"given {before.domain}"]
-    ends = [renamed(written(equation), {name: f"({end})"}) for end in (low, high)]
-    if not shows(given, f"{low} < {high}") or not any(
-        shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
-        for left, right in ("<>", "><")
-    ):
+    if not changes_sign(given, written(equation), name, low, high):
         return False
     between = [f"forall {' '.join((*before.parameters, name))}", f"given {before.domain}"]
     between += [f"given {low} < {name}", f"given {name} < {high}"]
     is_finite = f"{written(divisor)} != 0"
     where_both = [f"given {is_finite}", f"given {old} = {term}"]
     return shows(between, is_finite) and shows([*between, *where_both], domain)
+
+
+def changes_sign(given: Sequence[str], text: str, name: str, low: str, high: str) -> bool:
+    """Whether it is certified that a term has different signs at the ends of an interval."""
+    ends = [renamed(text, {name: f"({end})"}) for end in (low, high)]
+    return shows(given, f"{low} < {high}") and any(
+        shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
+        for left, right in ("<>", "><")
+    )
 
 
 def interval(before: Map, name: str, domain: str) -> tuple[str, str]:
@@ -232,24 +243,25 @@ def is_the_point(system: Map, equation: Expr, inside: str, several: bool) -> boo
     one is; or whether several are.
     """
     (state,) = symbols(system.state)
-    parameters = region(system.domain, system.parameters, PARAMETERS)
-    poly = sympy.Poly(equation, state)
-    if poly.degree() > MOST_DEGREE:
+    if sympy.degree(equation, state) > MOST_DEGREE:
         return False
-    size = len(next(iter(parameters.values())))
-    columns = [column(written(c), parameters, size) for c in poly.all_coeffs()]
-    counts = [
-        zeros_inside(system, parameters, row, k, inside)
-        for k, row in enumerate(np.stack(columns, axis=1))
-    ]
-    return bool(counts) and (min(counts) > 1 if several else {*counts} == {1})
+    counts = zeros_inside(system, equation, str(state), (state,), inside)
+    return bool(len(counts)) and bool((counts > 1).all() if several else (counts == 1).all())
 
 
-def zeros_inside(system: Map, parameters: Arrays, row: Floats, k: int, inside: str) -> int:
-    """How many real zeros the polynomial with these coefficients has in the set, for the
-    parameters of one number.
+def zeros_inside(
+    system: Map, polynomial: Expr, name: str, terms: Sequence[Expr], inside: str
+) -> NDArray[np.int64]:
+    """How many real zeros of a polynomial in this variable make a state of the set, by these terms
+    in it, for each sample of the parameters.
     """
-    zeros = np.roots(row)
-    real = zeros.real[np.abs(zeros.imag) <= REAL * np.abs(zeros)]
-    known = {name: np.full(len(real), values[k]) for name, values in parameters.items()}
-    return int(np.sum(holds(inside, {**known, system.state[0]: real})))
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    count = len(next(iter(parameters.values()))) if parameters else 1
+    which, zeros = real_zeros(polynomial, name, parameters, count)
+    known: Arrays = {one: values[which] for one, values in parameters.items()} | {name: zeros}
+    with np.errstate(all="ignore"):
+        states = [column(written(term), known, len(zeros)) for term in terms]
+        there = np.broadcast_to(
+            holds(inside, {**known, **dict(zip(system.state, states))}), zeros.shape
+        )
+    return np.bincount(which[there], minlength=count)

@@ -16,12 +16,14 @@ from juggleproof.proofs.stability.algebraic import (
     MOST_DEGREE,
     NAMES,
     Renamed,
+    changes_sign,
     interval,
+    needed_of,
     shows,
     with_parameter,
     without_divisors,
+    zeros_inside,
 )
-from juggleproof.proofs.stability.certifying import beyond
 from juggleproof.proofs.stability.given import (
     ANYWHERE,
     Expr,
@@ -34,12 +36,6 @@ from juggleproof.proofs.stability.given import (
     renamed,
     symbols,
     written,
-)
-from juggleproof.proofs.stability.points import PARAMETERS
-from juggleproof.proofs.stability.samples import (
-    Arrays,
-    real_zeros,
-    region,
 )
 
 MOST_SOLUTIONS = 40  # of the equations of a fixed point, by their degrees
@@ -84,7 +80,7 @@ def by_an_equation(system: Map) -> WithEquation | Renamed | None:
     for piece, (guard, _) in enumerate(system.pieces):
         inside = conjunction(system.space, guard)
         for polynomial, terms in eliminated(system, piece, name):
-            if not is_the_point(system, polynomial, terms, inside, str(name)):
+            if not (zeros_inside(system, polynomial, str(name), terms, inside) == 1).all():
                 continue
             every = symbols(system.parameters)
             linear = [one for one in every if sympy.degree(polynomial, one) == 1]
@@ -140,24 +136,6 @@ def linear_in(basis: list[sympy.Poly], last: Expr) -> dict[Expr, Expr]:
     return found
 
 
-def is_the_point(
-    system: Map, polynomial: Expr, terms: tuple[Expr, ...], inside: str, name: str
-) -> bool:
-    """Whether at all samples of the parameters one zero makes a state of the set, and no other
-    does.
-    """
-    parameters = region(system.domain, system.parameters, PARAMETERS)
-    count = len(next(iter(parameters.values()))) if parameters else 1
-    which, zeros = real_zeros(polynomial, name, parameters, count)
-    known: Arrays = {one: values[which] for one, values in parameters.items()} | {name: zeros}
-    with np.errstate(all="ignore"):
-        states = [column(written(term), known, len(zeros)) for term in terms]
-        there = np.broadcast_to(
-            holds(inside, {**known, **dict(zip(system.state, states))}), zeros.shape
-        )
-    return bool((np.bincount(which[there], minlength=count) == 1).all())
-
-
 def with_equation(
     system: Map, polynomial: Expr, terms: tuple[Expr, ...], inside: str, name: str
 ) -> WithEquation:
@@ -173,12 +151,7 @@ def with_equation(
     if not system.parameters:
         known = conjunction(known, *isolated(polynomial, terms, system, inside, name))
     every = without_divisors([*conjuncts(known), *at_point])[len(conjuncts(known)) :]
-    kept = [one for one in every if one != ANYWHERE]
-    for part in reversed(every):  # what the others say already
-        rest = [one for one in kept if one != part]
-        if part in kept and not beyond(conjunction(known, *rest), part, over):
-            kept = rest
-    domain = conjunction(known, *kept)
+    domain = conjunction(known, *needed_of(every, [known], over))
     changed = replace(system, parameters=over, domain=domain, point=point)
     where = [
         one
@@ -216,11 +189,7 @@ def has_a_zero(before: Map, found: WithEquation) -> bool:
     head = [f"forall {' '.join(before.parameters)}"] if before.parameters else []
     given = [*head, f"given {before.domain}"] if before.domain != ANYWHERE else head
     text = written(found.polynomial)
-    ends = [renamed(text, {found.name: f"({end})"}) for end in (low, high)]
-    if not shows(given, f"{low} < {high}") or not any(
-        shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
-        for left, right in ("<>", "><")
-    ):
+    if not changes_sign(given, text, found.name, low, high):
         return False
     between = [f"forall {' '.join(found.system.parameters)}", *given[len(head) :]]
     between += [f"given {low} < {found.name}", f"given {found.name} < {high}"]
