@@ -5,7 +5,8 @@ a few exact restitutions, which proves nothing of the others.
 
 Impacts with the same next flights are a convex polygon. A word is taken for impossible where its
 polygon is empty, or has no area, at all the restitutions tried; of these words as few are kept, the
-long ones dropped first, as leave no way round the runs of equal flights.
+long ones dropped first, as leave no way round the runs of equal flights but flights that are
+repeated for ever.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ from itertools import islice
 
 from flint import fmpq
 
+from juggleproof import symbolic
 from juggleproof.benchmarks.processes import cpu_seconds
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import exact
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 
@@ -100,25 +103,28 @@ def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word 
     return None
 
 
-def one_in_all(words: Collection[Word], most: int) -> bool:
-    """Whether every long word in flights of at most `most` periods holds one of these.
+def is_enough(words: Collection[Word], repeated: Collection[Word], most: int) -> bool:
+    """Whether all flights that go on without one of these words, of at most `most` periods each,
+    are at last a repeated word again and again; by the checker.
 
-    >>> one_in_all([(1, 1), (2,)], 2), one_in_all([(1, 1), (2, 2)], 2)
+    >>> is_enough([(1, 1), (2,)], [], 2), is_enough([(1, 1), (2, 2)], [], 2)
     (True, False)
+    >>> is_enough([(1, 1), (2, 2)], [(2, 1)], 2)
+    True
     """
-    held = {*words}
-    begun = {word[:n] for word in words for n in range(len(word))}
-    left: set[Word] = {()}  # of what is read, the longest end with which one of these begins
-    for _ in begun:
-        read = [(*end, periods) for end in left for periods in range(1, most + 1)]
-        ends = [[word[n:] for n in range(len(word) + 1)] for word in read]
-        left = {next(filter(begun.__contains__, one)) for one in ends if held.isdisjoint(one)}
-    return not left
+    try:
+        checker.require_no_other([*words], [*repeated], most, "words", checker.Work())
+    except checker.Rejected:
+        return False
+    return True
 
 
-def find_words(alphas: Sequence[Fraction], most: int) -> tuple[list[Word], list[Word]]:
+def find_words(
+    alphas: Sequence[Fraction], most: int, repeated: Collection[Word]
+) -> tuple[list[Word], list[Word]]:
     """For each length up to `most` the run of flights after which all others are equal; and words
-    that no impact follows, so that one of all these is in every long word.
+    that no impact follows, so that one of all these is in all flights that do not repeat one of
+    some words for ever.
 
     Raises ValueError where words of `LONGEST` flights are too short for that.
     """
@@ -128,13 +134,13 @@ def find_words(alphas: Sequence[Fraction], most: int) -> tuple[list[Word], list[
         ends = (run_of(periods, levels, most) for periods in range(1, most + 1))
         runs = [run for run in ends if run is not None]
         found = impossible(levels, most)
-        if len(runs) == most and one_in_all([*runs, *found], most):
+        if len(runs) == most and is_enough([*runs, *found], repeated, most):
             break
     else:
         raise ValueError(f"words of {LONGEST} flights are too short")
     for word in sorted(found, key=lambda word: -len(word)):
         others = [one for one in found if one != word]
-        if one_in_all([*runs, *others], most):
+        if is_enough([*runs, *others], repeated, most):
             found = others
     return runs, sorted(found, key=lambda word: (len(word), word))
 
@@ -148,6 +154,16 @@ def restitutions(least: Fraction, most: Fraction) -> list[Fraction]:
     return [least + NEXT_TO, *inside, most - NEXT_TO]
 
 
+def last_of(chosen: Restitutions) -> Fraction:
+    """The end of a range, or next to where the repeated flights bring back no point below the
+    table.
+    """
+    alpha = chosen.most
+    while chosen.repeated and chosen.depth().subs(symbolic.alpha, alpha) <= 0:
+        alpha -= NEXT_TO
+    return alpha
+
+
 def written(words: Sequence[Word]) -> str:
     """The words as the table of claims has them."""
     return " ".join("".join(map(str, word)) for word in words)
@@ -155,7 +171,9 @@ def written(words: Sequence[Word]) -> str:
 
 def search_for(chosen: Restitutions) -> tuple[str, str]:
     """The runs and the words of a row of the table."""
-    runs, never = find_words(restitutions(chosen.least, chosen.most), chosen.longest - 1)
+    alphas = restitutions(chosen.least, last_of(chosen))
+    repeated = [chosen.repeated] if chosen.repeated else []
+    runs, never = find_words(alphas, chosen.longest - 1, repeated)
     return written(runs), written(never)
 
 

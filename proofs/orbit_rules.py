@@ -298,7 +298,7 @@ def _of_settling(f: Lines) -> str:
 
 def _of_return(f: Lines) -> str:
     settling = f.named("settling")
-    names, starts = settling.all("contraction"), settling.all("word")
+    names, starts = settling.all("contraction"), settling.all("word")[len(settling.all("rank")) :]
     points = []
     for k, (name, start) in enumerate(zip(names, starts), 1):
         steps = len(f.all("word")[int(start.split()[0]) - 1].split())
@@ -455,10 +455,12 @@ RULES = {
         },
     ),
     "settles": Rule(
-        "descent (never )*(contraction word )+",
+        "descent (never )*(rank word )*(contraction word )+",
         _of_settling,
         {
             "never": "no state of the last stage follows word {0} of those that none follows",
+            "falls": "a state of the last stage that follows word {0} of those with a rank has a"
+            " rank that is not below 0, and falls by 1 or more along the word",
             "inside": "the domain of the descent is part of that of contraction {0}",
             "ends": "a state of the last stage that follows the word of contraction {0} is in its"
             " set `on`",

@@ -53,8 +53,8 @@ NAMES = {
         "zero_change_height zero_change_speed normal_collision_time normal_e_1 normal_e_2 "
         "normal_energy normal_energy_change normal_f1 normal_f2 normal_fixed_point "
         "normal_margin normal_flight_power normal_impact_fixed_point scaled scaled_state "
-        "scaling unscaling normal_impact_after normal_periodic_impact normal_change_beside "
-        "normal_impact_beside"
+        "scaling unscaling normal_impact_after normal_periodic_impact "
+        "normal_sum_of_heights normal_change_beside normal_impact_beside"
     ),
     ".bounds": (
         "Candidate candidates falls_without_bound greatest E_max Extremum delta_E_max "

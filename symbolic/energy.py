@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from sympy import Expr, Integer, expand
+from sympy import Expr, Integer, Matrix, expand, eye
 
 from juggleproof.symbolic.algebra import (
     DerivationError,
@@ -367,6 +367,20 @@ def normal_periodic_impact(flights: tuple[int, ...]) -> State:
     True
     """
     return state(*solution_of(list(normal_impact_after(flights) - state(x, w)), [x, w]))
+
+
+@cache
+def normal_sum_of_heights(flights: tuple[int, ...]) -> Expr:
+    """A linear form in the impact (x, w), in normal form, that falls with each time that flights of
+    so many periods are repeated by the height of x over that of the impact which they bring back.
+
+    >>> form, after = normal_sum_of_heights((2,)), normal_impact_after((2,))
+    >>> fall = form - form.xreplace({x: after[0], w: after[1]})
+    >>> lowest_terms(fall - (x - normal_periodic_impact((2,))[0]))
+    0
+    """
+    stays = eye(2) - normal_impact_after(flights).jacobian([x, w])
+    return lowest_terms((Matrix([[1, 0]]) * stays.inv() * state(x, w))[0])
 
 
 @cache

@@ -35,7 +35,7 @@ from .language import (
     read_statements, univariate, variables_of,
 )
 from .rules import State, close, find, prove
-from .orbits import orbit_rules, premises_of
+from .orbits import closed_circle, orbit_rules, premises_of, require_no_other, ways_on
 from .settling import (
     CERTIFICATES, MAX_FOLDER_WORK, MAX_STATEMENTS, STATEMENTS, check_folder, check_one, load, main,
     read_certificates, report, verdict,
@@ -46,6 +46,8 @@ __all__ = [
     "CERTIFICATES", "Kind", "MAX_FOLDER_WORK", "MAX_STATEMENTS", "Rejected", "STATEMENTS",
     "State", "check_folder", "check_one", "close", "find", "load", "main", "orbit_rules",
     "premises_of", "prove", "read_certificates", "report", "verdict",
+    # words of pieces, for who looks for those of a rule on several attractors, or shows them in Coq
+    "closed_circle", "require_no_other", "ways_on",
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "NAMED", "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",

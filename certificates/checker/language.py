@@ -417,7 +417,7 @@ ORDERS = {
     "escapes": r"map domain (root )*point start word ",
     "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "exactly": r"attraction (escape |unstable )+",
-    "settles": r"descent (never )*(contraction word )+",
+    "settles": r"descent (never )*(rank word )*(contraction word )+",
     "returns": r"map settling (word )+",
 }
 

@@ -5,13 +5,15 @@ Each rule writes its premises itself, as text, and a certificate has to prove ex
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 
 from .algebra import Kind, Rejected, Work, at, require
 from .language import NAMED, Known, Statement, read_statements
 from .maps import PER_LETTER, Orbits, Premises, all_earlier, all_of, earlier, where
 from .rules import Hint, prove
 from .text import names_in, put
+
+Word = tuple[int, ...]  # pieces of a map, by their numbers from 1 on
 
 
 def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
@@ -347,26 +349,30 @@ def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Pre
 
 
 def premises_of_settling(statement: Statement, known: Known, work: Work) -> Premises:
-    """A descent of a map f with the last stage A; words of pieces `never`; and ends, each a
-    contraction of the same map and a word.  s follows a word where its pieces apply to s, f(s), and
-    so on.  For all parameters in the descent's domain and all states s of the space, f^n(s) tends
-    to the point of one of the contractions; and each of the points is stable.
+    """A descent of a map f with the last stage A; words of pieces `never`; words with a rank; and
+    ends, each a contraction of the same map and a word.  s follows a word where its pieces apply to
+    s, f(s), and so on.  For all parameters in the descent's domain and all states s of the space,
+    f^n(s) tends to the point of one of the contractions; and each of the points is stable.
 
     Premises: the descent's domain is part of that of each contraction; no state of A follows a word
-    `never`, where all states on the way are in A and in the space; and such a state that follows
-    the word of an end is in the set `on` of its contraction.  Checked here: every word of some
-    length N holds one of these words.
+    `never`, where all states on the way are in A and in the space; such a state that follows a word
+    of K pieces with a rank has rank(s) >= 0 and rank(f^K(s)) <= rank(s) - 1; and one that follows
+    the word of an end is in the set `on` of its contraction.  Checked here: a sequence of pieces
+    without an end that holds no word `never` and no word of an end repeats at last a word with a
+    rank.
 
-    f^n(s) is in A for all n >= M, by the descent, and the N pieces that apply from f^M(s) on hold
-    one of the words.  It is no word `never`, as all these states are in A and in the space; so it
-    is that of an end, and some f^(M+j)(s) with 0 <= j < N is in the set `on`, where |f^(M+j+k)(s) -
-    e| <= rate^k size for all k >= 0.
+    f^n(s) is in A for all n >= M, by the descent.  If the pieces that apply from f^M(s) on held no
+    word `never` and none of an end, some f^N(s) would follow a word with a rank again and again,
+    and its rank would fall below 0.  They hold no word `never`, as all these states are in A and in
+    the space; so they hold that of an end, and some f^(M+j)(s) is in the set `on`, where
+    |f^(M+j+k)(s) - e| <= rate^k size for all k >= 0.
     """
     f = Orbits(earlier(statement, known, "descent"), known, work)
     # a relation may lead on by another piece than the one whose guard holds
     require(f.map.kind == "map", Kind.EARLIER, f"map {f.map.name}")
-    never, words = statement.get("never"), statement.get("word")
-    require_one_in_all([*never, *words], len(f.pieces), statement.name, work)
+    never, ranks, words = map(statement.get, ("never", "rank", "word"))
+    falling, words = words[: len(ranks)], words[len(ranks) :]
+    require_no_other([*never, *words], falling, len(f.pieces), statement.name, work)
     stage = f.own.get("stage")[-1]
     f.roots = f.roots if names_in(stage) & (f.moving - {*f.state}) else []
 
@@ -381,6 +387,14 @@ def premises_of_settling(statement: Statement, known: Known, work: Work) -> Prem
     premises = {}
     for i, word in enumerate(never):
         premises[f"never-{i + 1}"] = following(word, "show 0 = 1")
+    for i, ((guards, terms), word) in enumerate(zip(ranks, falling)):
+        # of the state alone: a rank that names a state on the way would change from time to time
+        alone = names_in(*terms) <= {*f.parameters, *f.state}
+        require(not guards and len(terms) == 1 and alone, Kind.VALUE, statement.name)
+        last = [f"let {name}_next = {term}" for name, term in zip(f.state, f.follow(word)[1])]
+        here = put(terms[0], {name: f"{name}_0" for name in f.state})
+        falls = f"show ({here}) >= 0 and ({f.next(terms[0])}) <= ({here}) - 1"
+        premises[f"falls-{i + 1}"] = following(word, *last, falls)
     for i, (one, word) in enumerate(zip(all_earlier(statement, known, "contraction"), words)):
         end = Orbits(one, known, work)
         require(f.map is end.map, Kind.OTHER_MAP, statement.name)
@@ -428,33 +442,84 @@ def premises_of_return(statement: Statement, known: Known, work: Work) -> Premis
             rows += [*lets, f"have {applies}"]
         same_end = all_of(f"({last}) = ({image})" for last, image in zip(here, images))
         premises[f"word-{k + 1}"] = g.for_all(*rows, f"show {same_end}", extra=g.state)
-    for k, (one, word) in enumerate(
-        zip(all_earlier(settling, known, "contraction"), settling.get("word"))
-    ):
+    ends = settling.get("word")[len(settling.get("rank")) :]
+    for k, (one, word) in enumerate(zip(all_earlier(settling, known, "contraction"), ends)):
         end, ((guard,), _) = Orbits(one, known, work), at(g.pieces, word[0] - 1)
         on = f"given {g.domain}", f"given {end.own.get('on')[0]}"
         premises[f"piece-{k + 1}"] = end.at(*on, f"show {guard}")
     return premises
 
 
-def require_one_in_all(words: Sequence[Sequence[int]], letters: int, name: str, work: Work) -> None:
-    """Every word of some length, in letters from 1 on, holds one of these words.
+def require_no_other(
+    words: Sequence[Sequence[int]],
+    repeated: Sequence[Sequence[int]],
+    letters: int,
+    name: str,
+    work: Work,
+) -> None:
+    """A sequence without an end, of letters from 1 on, that holds none of the words repeats at last
+    one of those that may be repeated.
 
-    Words are read a letter at a time.  Of one that holds none only its longest end is kept with
-    which one of these begins; where one is left after as many letters as there are such ends, an
-    end has come back, and there are words of every length.
+    An end (see `ways_on`) that no letter leads on from does not come back; nor do those on a circle
+    from which no letter leads off, once one of them is left out: where it is reached, the letters
+    round it are read for ever.  Without such ends nothing is left.
+    """
+    ways = ways_on(words, letters, work)
+    while ways:
+        work.spend(len(ways) * letters)
+        on = {e: {k: to for k, to in way.items() if to in ways} for e, way in ways.items()}
+        on = {end: way for end, way in on.items() if way}
+        if on == ways:
+            circle = closed_circle(ways)
+            once = [k for end in circle for k in ways[end]]
+            work.spend(len(once) ** 2 + sum(map(len, repeated)))
+            turned = [once[n:] + once[:n] for n in range(len(once))]
+            require(any([*word] in turned for word in repeated), Kind.WORDS, name)
+            on = {end: ways[end] for end in ways.keys() - {*circle}}
+        ways = on
+
+
+def ways_on(
+    words: Sequence[Sequence[int]], letters: int, work: Work
+) -> dict[Word, dict[int, Word]]:
+    """How sequences that hold none of the words are read a letter at a time: {end: {letter: the end
+    that it leads to}}.
+
+    Of what is read only the longest end is kept with which one of the words begins, and no letter
+    is read by which a word is held.
     """
     work.spend(sum(len(word) ** 2 for word in words))
     held = {tuple(word) for word in words}
     begun = {word[:n] for word in held for n in range(len(word))}
-    left: Collection[tuple[int, ...]] = {()}
-    for _ in begun:
-        # to cut off an end and to look it up takes time that grows with its length
-        work.spend(len(left) * letters * max(len(word) + len(word) ** 2 // 8 for word in words))
-        read = [(*end, k) for end in left for k in range(1, letters + 1)]
-        ends = ([word[n:] for n in range(len(word))] for word in read)
-        left = {next(filter(begun.__contains__, one), ()) for one in ends if held.isdisjoint(one)}
-    require(not left, Kind.WORDS, name)
+    longest = max(map(len, held), default=0)
+    ways: dict[Word, dict[int, Word]] = {}
+    found: list[Word] = [()]
+    while found:
+        end = found.pop()
+        if end not in ways:
+            # to cut off an end and to look it up takes time that grows with its length
+            work.spend(letters * (longest + longest**2 // 8 + 1))
+            read = {k: [(*end, k)[n:] for n in range(len(end) + 1)] for k in range(1, letters + 1)}
+            free = {k: ends for k, ends in read.items() if held.isdisjoint(ends)}
+            ways[end] = {k: next(filter(begun.__contains__, e), ()) for k, e in free.items()}
+            found += ways[end].values()
+    return ways
+
+
+def closed_circle(ways: Mapping[Word, Mapping[int, Word]]) -> list[Word]:
+    """Ends each of which leads to the next alone, and the last to the first; none if there are none
+    such.
+    """
+    seen: set[Word] = set()
+    for end in ways:
+        path: list[Word] = []
+        while end not in seen and len(ways[end]) == 1:
+            seen.add(end)
+            path.append(end)
+            (end,) = ways[end].values()
+        if end in path:
+            return path[path.index(end) :]
+    return []
 
 
 ORBIT_RULES = {

@@ -31,7 +31,11 @@ from juggleproof.certificates.search.psatz.linear import (
     search,
 )
 from juggleproof.certificates.search.psatz.orthant import search_orthant
-from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
+from juggleproof.certificates.search.psatz.problem import (
+    Problem,
+    has_interior_point,
+    high_facts,
+)
 from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
@@ -91,6 +95,8 @@ def search_closing(
         node = quick.close(inside) or quick.attempt(inside, FIRST)
         node = node or close_in_one_variable(inside, budget)
     node = node or Closing(known, budget, effort).close(inside)
+    if node is None and has_high_facts(inside):
+        node = Closing(known, budget, effort, True).close(inside)
     for name, terms in reversed(uses):
         node = None if node is None else ("use", name, terms, {}, node)
     return node if node is None or not confirm or state.is_closed_by(node, known) else None
@@ -123,11 +129,23 @@ def with_uses(
     return uses, state
 
 
+def has_high_facts(state: State) -> bool:
+    """Whether some facts are left out at first for their degree."""
+    ring = Ring(tuple(state.context.index))
+    return bool(high_facts([ring.read(poly) for poly, _ in state.facts]))
+
+
 class Closing:
     """One search with its budget; rings are made once for each list of variables."""
 
-    def __init__(self, known: dict[str, checker.Statement], budget: Budget, effort: int) -> None:
-        self.known, self.budget, self.effort = known, budget, effort
+    def __init__(
+        self,
+        known: dict[str, checker.Statement],
+        budget: Budget,
+        effort: int,
+        high: bool = False,
+    ) -> None:
+        self.known, self.budget, self.effort, self.high = known, budget, effort, high
         self.rings: dict[tuple[str, ...], Ring] = {}
 
     def problem(self, state: State, whole: bool = False) -> Problem:
@@ -136,7 +154,7 @@ class Closing:
         names = tuple(state.context.index)
         if names not in self.rings:
             self.rings[names] = Ring(names)
-        problem = Problem(state, self.rings[names], whole)
+        problem = Problem(state, self.rings[names], whole, high=self.high)
         self.count(0, [len(poly) for poly in problem.polys()])
         return problem
 

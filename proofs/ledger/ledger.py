@@ -79,7 +79,7 @@ UNPRINTED = {
     "restitution-two-thirds": "the same at alpha = 2/3, but for six states",
     "restitution-to-five-sevenths": "that every orbit tends to e_1, .. or e_5, 2/3 < alpha < 5/7",
     "restitution-five-sevenths": "the same at alpha = 5/7, but for seven states",
-    "restitution-beyond-five-sevenths": "that every orbit tends to e_1, .. or e_6, up to 0.7286",
+    "restitution-beyond-five-sevenths": "that every orbit tends to e_1, .. or e_6, up to a_c",
     "restitution-unequal": "an orbit of unequal flights, no e_K, that attracts a box",
     "restitution-unequal-ends": "the restitutions for which that orbit exists",
     "restitution-unequal-room": "the restitutions for which it attracts a box",

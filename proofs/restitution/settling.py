@@ -1,9 +1,10 @@
-"""For 1/2 < alpha < 3643/5000 every orbit tends to the orbit of some e_K, but for few states where
-a range of some e_K begins.
+"""For 1/2 < alpha < a_c = 0.7286.., where an orbit of 12 unequal flights begins, every orbit tends
+to the orbit of some e_K, but for few states where a range of some e_K begins.
 
 Impacts are sorted by the length of the flight that follows. No state has certain words of such
 lengths; every long word holds one of these, or a run of flights of K periods that is long enough
-for all later flights to last K periods too.
+for all later flights to last K periods too, or repeats the 12 flights, which no state does for ever
+below a_c.
 """
 
 from __future__ import annotations
@@ -11,17 +12,22 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from sympy import Expr, fraction
+
+from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
     MapRule,
     conjunction,
     equal,
+    iff,
     term,
 )
-from juggleproof.proofs.paper.names import alpha, at, claim, derived_vector, w
+from juggleproof.proofs.paper.names import alpha, always, at, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import RADIUS, WEIGHTS
+from juggleproof.proofs.restitution.unequal import BORN, FLIGHTS, on_the_orbit
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     IMPACT,
@@ -33,13 +39,16 @@ from juggleproof.proofs.theorem.definition import (
     Descent,
     contracts,
     descends,
+    positive,
     spaced,
     the_map,
     tidied,
+    tidy,
     u,
 )
 from juggleproof.proofs.theorem.orbits import strikes
 from juggleproof.proofs.theorem.stability import is_none_of
+from juggleproof.symbolic.algebra import lowest_terms
 
 STRUCK, FLOWN = PIECES
 
@@ -54,6 +63,9 @@ class Restitutions:
     factor: int  # of the root of the energy, in the rank
     runs: str  # flights of K for so long are followed by flights of K for ever
     never: str  # lengths of flights that follow one another from no state
+    # flights that bring back a point below the table: each time they are repeated, from an impact,
+    # the state comes closer to it
+    repeated: tuple[int, ...] = ()
 
     @property
     def longest(self) -> int:
@@ -66,6 +78,31 @@ class Restitutions:
         between = (p[1] * alpha > p[0]) & (q[1] * alpha < q[0])
         one = equal(p[1] * alpha, p[0])
         return (one if p == q else between) & (1 - alpha > 0) & (1 + alpha > 0)
+
+    def until_it_returns(self) -> Formula:
+        """The part of the range where the point that the repeated flights bring back is below the
+        table.
+        """
+        if not self.repeated:
+            return self.of_alpha()
+        above, below = fraction(lowest_terms(self.depth()))
+        sign = 1 if below.subs(symbolic.alpha, self.least) > 0 else -1
+        return self.of_alpha() & positive(sign * above)
+
+    def depth(self) -> Expr:
+        """How far below the table is the point that the repeated flights bring back."""
+        return -symbolic.normal_periodic_impact(self.repeated)[0]
+
+    def repeats(self) -> list[tuple[str, str]]:
+        """The repeated flights, with a rank that falls by 1 each time, and is not below 0 at a slow
+        impact: the sum of the heights to come, over the depth.
+        """
+        if not self.repeated:
+            return []
+        form = symbolic.normal_sum_of_heights(self.repeated)
+        least = form.xreplace({symbolic.x: 0, symbolic.w: self.fast})
+        rank = tidy((form - least) / self.depth())
+        return [("rank", str(rank)), ("word", spaced(self.repeated))]
 
     def exceptions(self) -> tuple[Vector, ...]:
         """The orbit of the e_K whose range begins here, and what flies to it."""
@@ -86,7 +123,7 @@ def every_orbit_settles(claim_id: str) -> list[AnyStatement]:
     """
     chosen = RANGES[claim_id]
     slow = IMPACT & (w < chosen.fast)
-    of_alpha = chosen.of_alpha()
+    of_alpha, settling = chosen.of_alpha(), chosen.until_it_returns()
     space = SPACE & is_none_of(*chosen.exceptions()) if chosen.exceptions() else SPACE
 
     def flies(*periods: int) -> Formula:
@@ -110,7 +147,7 @@ def every_orbit_settles(claim_id: str) -> list[AnyStatement]:
     return [
         the_map("map", replace(NORMAL, space=space), of_alpha),
         the_map("impacts", setting, of_alpha),
-        descends("descends", here, setting, of_alpha, descent, AT_IMPACTS, fast),
+        descends("descends", here, setting, settling, descent, AT_IMPACTS, fast),
         *(
             contracts(
                 f"e-{run[0]}",
@@ -126,6 +163,7 @@ def every_orbit_settles(claim_id: str) -> list[AnyStatement]:
             (
                 ("descent", f"{claim_id}/descends"),
                 *(("never", spaced(word)) for word in words),
+                *chosen.repeats(),
                 *(
                     line
                     for run in runs
@@ -205,13 +243,14 @@ RANGES = {
     ),
     "restitution-beyond-five-sevenths": Restitutions(
         Fraction(5, 7),
-        Fraction(3643, 5000),
+        Fraction(7287, 10000),
         Fraction(8),
         48,
         "11111 22222 333333 444444 555555 666666",
         "13 14 15 16 24 25 26 34 35 36 45 46 56 121 212 231 232 323 331 2223 2333 3221 11122"
-        " 21112 211222 332222 2233223 3222111 3321122 33211112 211221122 332221122 3321123322"
-        " 332112332112 12332221123322 3223322211233223322211233223",
+        " 21112 211222 332222 3222111 3321122 32233223 33211112 211221122 332221122 3321123322"
+        " 332112332112 12332221123322",
+        FLIGHTS[BORN:] + FLIGHTS[:BORN],
     ),
 }
 
@@ -264,9 +303,22 @@ def every_orbit_but_seven_tends_to_one_of_five() -> list[AnyStatement]:
     return every_orbit_settles("restitution-five-sevenths")
 
 
-@claim("restitution-beyond-five-sevenths", "restitution", "5/7 < alpha < 3643/5000", parameters=())
+@claim("restitution-beyond-five-sevenths", "restitution", "5/7 < alpha < a_c", parameters=())
 def every_orbit_tends_to_one_of_six() -> list[AnyStatement]:
-    """For 5/7 < alpha < 3643/5000 every orbit of H tends to the orbit of one of e_1, .., e_6; all
-    of these are stable.
+    """For 5/7 < alpha < a_c = 0.7286.. every orbit of H tends to the orbit of one of e_1, .., e_6;
+    all of these are stable.
+
+    Between 5/7 and 7287/10000 alpha < a_c just where the impact after 8 flights of the orbit in
+    restitution-unequal would be below the table, so that it exists from a_c on.
     """
-    return every_orbit_settles("restitution-beyond-five-sevenths")
+    chosen = RANGES["restitution-beyond-five-sevenths"]
+    below = term(on_the_orbit(BORN).entries[0]) < 0
+    return [
+        # first, as the range that is told is that of the last map rule
+        always(
+            iff(chosen.until_it_returns(), below),
+            in_range=[chosen.of_alpha()],
+            label="until-another-orbit-begins",
+        ),
+        *every_orbit_settles("restitution-beyond-five-sevenths"),
+    ]

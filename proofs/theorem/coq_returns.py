@@ -17,7 +17,7 @@ from juggleproof.proofs.theorem.coq_frame import (
     theorem_name,
 )
 from juggleproof.proofs.theorem.coq_readings import reading_name
-from juggleproof.proofs.theorem.coq_settles import end_module, word_of_coq
+from juggleproof.proofs.theorem.coq_settles import end_module, word_of_coq, words_of_ends
 from juggleproof.proofs.theorem.coq_terms import coq_term
 
 # The other map, with what it settles to, is in the module Inner. `$word` is that of its piece `$k`,
@@ -211,7 +211,7 @@ def returning_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         ),
     )
     says = []
-    for k, (name, word) in enumerate(zip(contractions, settling.get("word")), 1):
+    for k, (name, word) in enumerate(zip(contractions, words_of_ends(settling)), 1):
         within = f"Inner.{end_module(settling, name)}"
         at, piece = f"{within}.Contraction", word[0]
         says.append(_says(f, own, at, len(words[piece - 1])))

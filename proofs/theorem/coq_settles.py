@@ -9,8 +9,9 @@ from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctiv
 from juggleproof.proofs.theorem.coq_frame import Frame, theorem_name
 from juggleproof.proofs.theorem.coq_readings import reading_name
 
-# `$words` are all words and `$letters` those that they are written in; a word of `$long` letters
-# holds one of them. `$known` is what a state has along a word, in the order of the premises.
+# `$words` are the words of which sequences hold one that do not repeat one of `$repeated`, and
+# `$letters` those that they are written in; `$places` shows that. `$known` is what a state has
+# along a word, in the order of the premises.
 FOLLOWED = """\
 Lemma $lemma : ${all}Descent.domain$a -> forall of_s,
   Settling.follows$a $word of_s -> $shown.
@@ -23,7 +24,9 @@ Qed.
 """
 
 SETTLES = """\
-Lemma of_words : Attractors.left_after $words $letters $long = nil.
+Definition of_places : list Attractors.Place := $places.
+
+Lemma of_words : Attractors.every_way_ends $words $repeated $letters of_places = true.
 Proof. vm_compute. reflexivity. Qed.
 
 (* Each of the points is stable, and every orbit tends to one of them. *)
@@ -40,14 +43,16 @@ Proof.
     (Map.space$a) (Descent.stage_$last$a) (Settling.guards$a)
     $letters (fun of_t => of_map_keeps$a of_t of_map)
     (of_stage_$last$a of_dom)) with (s := of_s)
-    (never := $never) (ends := Settling.ends$a)
-    (word := fun of_e : Settling.End => fst of_e) (n := $long)
+    (never := $never) (repeated := $repeated) (ends := Settling.ends$a)
+    (word := fun of_e : Settling.End => fst of_e) (rank := Settling.rank$a)
+    (places := of_places)
     (on := fun of_e : Settling.End => snd (snd of_e))
     (point := fun (of_e : Settling.End) of_j => States.coordinate of_j (fst (snd of_e)))
     as (of_e & of_in & of_tends).
   { intros of_t of_here. destruct (of_map_moves$a of_t of_map of_here) as $one_piece; [$pieces]. }
-  { exact (Attractors.none_is_left $words $letters $long of_words). }
+  { exact of_words. }
   { intros of_u of_in of_t of_along. destruct of_in as $never_in$no_word. }
+  { intros of_i of_less of_t of_along. $falls }
   { intros of_e of_in of_t of_along. destruct of_in as $end_in; [$ends]. }
   { exact (of_last_stage_reached$a of_dom). }
   { intros of_e of_in of_t _ of_on. destruct of_in as $end_in; [$tends]. }
@@ -63,9 +68,20 @@ def end_module(own: checker.Statement, name: str) -> str:
     return f"End_{own.get('contraction').index(name) + 1}"
 
 
+def words_of_ends(own: checker.Statement) -> list[list[int]]:
+    """The word of each contraction that the statement names, after those with a rank."""
+    words: list[list[int]] = own.get("word")
+    return words[len(own.get("rank")) :]
+
+
 def word_of_coq(pieces: Sequence[int]) -> str:
     """A list of numbers."""
     return f"({''.join(f'{k} :: ' for k in pieces)}nil)%nat"
+
+
+def words_of_coq(words: Sequence[Sequence[int]]) -> str:
+    """A list of words."""
+    return f"({_listed([word_of_coq(word) for word in words])}%list : list (list nat))"
 
 
 def _listed(parts: Sequence[str]) -> str:
@@ -80,8 +96,10 @@ def settling_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The pieces by their numbers, what follows a word, and the ends: a word, a point and a set."""
     ends = [
         f"({word_of_coq(word)}, ({at}.point$a, {at}.set$a))"
-        for word, at in zip(own.get("word"), _ends(own))
+        for word, at in zip(words_of_ends(own), _ends(own))
     ]
+    ranks = [term for _, (term,) in own.get("rank")]
+    which = "".join(f"{k}%nat => rank_{k + 1}$a | " for k in range(len(ranks)))
     cases = "".join(f"{k}%nat => Map.guard_{k}$a | " for k in f.pieces)
     yield "Module Settling.\nImport States."
     yield "Definition End : Type := list nat * (State * (State -> Prop))."
@@ -97,6 +115,13 @@ def settling_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
         "  map (fun of_e : End => fst (snd of_e)) (ends$a).",
     ]
     yield f.fill("\n".join(rows), own)
+    for k, term in enumerate(ranks, 1):
+        yield f.define(own, f"rank_{k}", "R", term)
+    rows = [
+        f"Definition rank{f.bound} (of_i : nat) : State -> R :=",
+        f"  match of_i with {which}_ => fun _ => 0 end.",
+    ]
+    yield f.fill("\n".join(rows), own)
     yield "End Settling."
 
 
@@ -106,11 +131,18 @@ def _ends(own: checker.Statement) -> list[str]:
 
 def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """Each point is stable, and every orbit tends to one of them."""
-    never, words = own.get("never"), own.get("word")
+    never, words = own.get("never"), words_of_ends(own)
+    repeated = own.get("word")[: len(own.get("rank"))]
     numbers = range(1, len(words) + 1)
     for k, word in enumerate(never, 1):
         then = f"${{open}}exact (R1_neq_R0 (eq_sym ({_premise(f, own, f'never_{k}', word)})))."
         yield _followed(f, own, f"of_never_{k}", word, "False", then)
+    for k, word in enumerate(repeated, 1):
+        then = f"${{open}}destruct ({_premise(f, own, f'falls_{k}', word)}) as [of_high of_low]."
+        then = f"{then}\n  split; [exact (Rge_le _ _ of_high)|exact of_low]."
+        rank, last = f"Settling.rank$a {k - 1}%nat", f"(Rules.iterate (Map.f$a) {len(word)} of_s)"
+        shown = f"0 <= {rank} of_s /\\ {rank} {last} <= {rank} of_s - 1"
+        yield _followed(f, own, f"of_fall_{k}", word, shown, then, to_the_last=True)
     for k, (word, at) in enumerate(zip(words, _ends(own)), 1):
         then = f"${{open}}exact ({_premise(f, own, f'ends_{k}', word)})."
         then = f"split; [exact of_there_0|].\n  {then}"
@@ -124,14 +156,20 @@ def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         for k, name in zip(numbers, own.get("contraction"))
     ]
     impossible = [f"exact (of_never_{k}$a of_dom of_t of_along)" for k in range(1, len(never) + 1)]
+    which = [
+        f"destruct of_i as [|of_i]; [exact (of_fall_{k}$a of_dom of_t of_along)|].\n    "
+        for k in range(1, len(repeated) + 1)
+    ]
     letter = "split; [repeat (first [left; reflexivity|right])|exact of_g]"
     yield f.fill(
         SETTLES,
         own,
-        words=_listed([word_of_coq(word) for word in (*never, *words)]) + "%list",
-        never=_listed([word_of_coq(word) for word in never]) + "%list",
+        words=words_of_coq([*never, *words]),
+        never=words_of_coq(never),
+        repeated=words_of_coq(repeated),
         letters=word_of_coq(f.pieces),
-        long=f"{sum(map(len, (*never, *words)))}%nat",
+        places=_listed([*places([*never, *words], repeated, len(f.pieces))]) + "%list",
+        falls=f.fill("".join(which), own) + "cbn in of_less. lia.",
         stable=f.fill(
             " /\\\n  ".join(
                 f"States.stable (Map.space$a) (Map.f$a) ({at}.point$a)" for at in _ends(own)
@@ -159,6 +197,30 @@ def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     )
 
 
+def places(
+    words: Sequence[Sequence[int]], repeated: Sequence[Sequence[int]], letters: int
+) -> Iterator[str]:
+    """For each end that is kept of what is read (`checker.ways_on`): a number that is greater than
+    that of the ends that it leads to, or the same round a circle; and on a circle which of the
+    repeated words it is, and how many of its letters are read.
+    """
+    ways, height = checker.ways_on(words, letters, checker.Work()), 0
+    while ways:
+        ways = {e: {k: to for k, to in way.items() if to in ways} for e, way in ways.items()}
+        found = {end: (0, 0) for end, way in ways.items() if not way}
+        if not found:
+            circle = checker.closed_circle(ways)
+            once = [k for end in circle for k in ways[end]]
+            turns = [once[n:] + once[:n] for n in range(len(once))]
+            which, word = next((i, [*one]) for i, one in enumerate(repeated) if [*one] in turns)
+            for count, end in enumerate(circle):
+                found[end] = which, (count - turns.index(word)) % len(once)
+        for end, (which, along) in sorted(found.items()):
+            yield f"Attractors.place {word_of_coq(end)} {height}%nat {which}%nat {along}%nat"
+        ways = {end: way for end, way in ways.items() if end not in found}
+        height += 1
+
+
 def _premise(f: Frame, own: checker.Statement, name: str, word: Sequence[int]) -> str:
     """A premise for a state that follows a word."""
     known = [f"of_there_{n} of_in_{n} of_g_{n}" for n in range(len(word))]
@@ -166,9 +228,17 @@ def _premise(f: Frame, own: checker.Statement, name: str, word: Sequence[int]) -
 
 
 def _followed(
-    f: Frame, own: checker.Statement, lemma: str, word: Sequence[int], shown: str, then: str
+    f: Frame,
+    own: checker.Statement,
+    lemma: str,
+    word: Sequence[int],
+    shown: str,
+    then: str,
+    to_the_last: bool = False,
 ) -> str:
-    """What holds of a state that follows a word: the states on the way are the images."""
+    """What holds of a state that follows a word: the states on the way are the images, and so is
+    the one after it, where something is shown of that.
+    """
     state, steps, rewrites = "of_s", list[str](), list[str]()
     for n, piece in enumerate(word[:-1]):
         rewrites.append(f"of_step_{n}")
@@ -177,6 +247,11 @@ def _followed(
         steps.append(f"pose proof ({applied}) as of_step_{n}.")
         steps.append(f"rewrite {', '.join(rewrites)} in {known}.")
         state = f"(Map.image_{piece}$a {state})"
+    if to_the_last:
+        n, piece = len(word) - 1, word[-1]
+        applied = f"of_map_is_{piece}$a {state} of_map of_there_{n} of_g_{n}"
+        steps.append(f"pose proof ({applied}) as of_step_{n}.")
+        steps.append(f"cbn [Rules.iterate]. rewrite {', '.join([*rewrites, f'of_step_{n}'])}.")
     names = [f"of_{one}_{n}" for n in range(len(word)) for one in ("there", "in", "g")]
     return f.fill(
         FOLLOWED,

@@ -196,7 +196,7 @@ TABLE = (
         " orbits that simulations end in.",
         "Over alpha from 0 to 1 there are nine falling curves, e_1 to e_9; e_K begins at an open"
         " circle at alpha = (K - 1)/(K + 1), at closing speed K + 1. All is shaded up to 0.7286."
-        " Beyond, up to about 0.8, there are bundles of short lines between the curves.",
+        " From there up to about 0.8 there are bundles of short lines between the curves.",
         "attractors.attractors",
     ),
 )

@@ -8,24 +8,48 @@ from fractions import Fraction
 import pytest
 
 from juggleproof.benchmarks import words
-from juggleproof.benchmarks.words import find_words, restitutions, search_for, written
+from juggleproof.benchmarks.words import (
+    NEXT_TO,
+    find_words,
+    is_enough,
+    last_of,
+    restitutions,
+    search_for,
+    written,
+)
 from juggleproof.proofs.restitution.settling import RANGES
 
+BEYOND = "restitution-beyond-five-sevenths"
 
-@pytest.mark.parametrize("name", ["restitution-to-three-fifths", "restitution-two-thirds"])
+
+@pytest.mark.parametrize("name", ["restitution-to-three-fifths", "restitution-two-thirds", BEYOND])
 def test_words_of_the_claims_are_those_found_holds(name: str) -> None:
     assert search_for(RANGES[name]) == (RANGES[name].runs, RANGES[name].never)
 
 
 def test_words_are_found_again_below_a_half_holds() -> None:
-    runs, never = find_words(restitutions(Fraction(1, 3), Fraction(1, 2)), 2)
+    runs, never = find_words(restitutions(Fraction(1, 3), Fraction(1, 2)), 2, [])
     assert written(runs) == "1 22" and written(never) == ""
+
+
+def test_words_are_enough_fails_without_flights_that_may_be_repeated() -> None:
+    chosen = RANGES[BEYOND]
+    words = [tuple(map(int, one)) for one in (*chosen.runs.split(), *chosen.never.split())]
+    assert is_enough(words, [chosen.repeated], chosen.longest - 1)
+    assert not is_enough(words, [], chosen.longest - 1)
+
+
+def test_search_ends_next_to_where_the_repeated_flights_come_back_holds() -> None:
+    last = last_of(RANGES[BEYOND])
+    assert last == Fraction(72863, 10**5)
+    assert RANGES[BEYOND].depth().subs("alpha", last) > 0
+    assert RANGES[BEYOND].depth().subs("alpha", last + NEXT_TO) <= 0
 
 
 def test_words_fail_without_room_for_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(words, "LONGEST", 3)
     with pytest.raises(ValueError, match="words of 3 flights are too short"):
-        find_words([Fraction(7, 10)], 5)
+        find_words([Fraction(7, 10)], 5, [])
 
 
 def test_table_is_printed_beside_what_is_found_holds(

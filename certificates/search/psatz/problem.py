@@ -65,7 +65,8 @@ MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 class Problem:
     """What a leaf of a proof has to contradict; `whole`, with the facts too that seem only to
-    define a root; without `quotients`, equations give only what they need not divide for.
+    define a root, or are of high degree; `high`, with the latter; without `quotients`, equations
+    give only what they need not divide for.
 
     >>> from juggleproof.certificates import checker
     >>> context = checker.Context()
@@ -78,7 +79,12 @@ class Problem:
     """
 
     def __init__(
-        self, state: State, ring: Ring, whole: bool = False, quotients: bool = True
+        self,
+        state: State,
+        ring: Ring,
+        whole: bool = False,
+        quotients: bool = True,
+        high: bool = False,
     ) -> None:
         self.ring = ring
         polys = [ring.read(poly) for poly, _ in state.facts]
@@ -106,6 +112,8 @@ class Problem:
             scale_facts,
         )
         self.idle: set[int] = set() if whole else idle_facts(lowered, relations)
+        if not whole and not high:
+            self.idle |= high_facts(lowered)
         equations = [
             (k, p)
             for k, p in enumerate(lowered)
@@ -385,6 +393,27 @@ def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int
         if not found:
             return idle
         idle |= found
+
+
+HIGH = 12  # degrees
+
+
+def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
+    """The facts of one variable whose degree is high, and twice that of all facts of several: their
+    products with these would be most of a program, and few proofs need one.
+
+    >>> a, x = Ring(("a", "x")).gens
+    >>> high_facts([a**20 - 2, a**3 - 1, x - a**9]), high_facts([a**20 - 2, x - a**10])
+    ({0}, set())
+    """
+    most = max((total_degree(p) for p in polys if used_in(p) > 1), default=0)
+    least = max(HIGH, 2 * most)
+    return {k for k, p in enumerate(polys) if used_in(p) == 1 and total_degree(p) > least}
+
+
+def used_in(poly: fmpz_mpoly) -> int:
+    """How many variables occur in a polynomial."""
+    return sum(bool(degree) for degree in poly.degrees())
 
 
 # -------------------------------------------------------------------------------------------------

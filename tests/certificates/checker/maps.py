@@ -782,6 +782,17 @@ word 2 1
 contraction asked/contracts
 word 1 1
 
+statement asked/ends-by-ranks
+descent asked/descends-in-roots
+never 1 1
+never 2 2 1
+rank x + a*y
+word 1 2
+rank b - y
+word 2
+contraction asked/contracts
+word 1 1 1
+
 statement asked/ends-in-roots
 descent asked/descends-in-roots
 never 2

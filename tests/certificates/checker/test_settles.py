@@ -1,9 +1,11 @@
-"""Several attractors: every orbit tends to one of them, where every long word of pieces holds one
-that no orbit follows, or one that leads to an attractor.
+"""Several attractors: every orbit tends to one of them, where every sequence of pieces holds one
+word that no orbit follows, or one that leads to an attractor, or repeats one that no orbit follows
+for ever.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from fractions import Fraction
 from itertools import product
 
@@ -13,7 +15,7 @@ from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Work
-from juggleproof.certificates.checker.orbits import require_one_in_all
+from juggleproof.certificates.checker.orbits import Word, require_no_other
 from tests.certificates.checker.harness import Expected, refused
 from tests.certificates.checker.maps import PUSH, checked, edited, read, searched, up_to
 
@@ -80,6 +82,42 @@ word 1 1
 contraction two/down
 word 3
 """
+# One point that attracts, and states farther off, which come nearer to it by 1 in two steps.
+NEARER = """
+statement near/map
+over
+domain 0 = 0
+state x
+space x >= -9 and x <= -1 or x >= 0 and x <= 9
+piece x >= 1 -> -x
+piece x < 0 -> -x - 1
+piece x >= 0 and x < 1 -> x/2
+
+statement near/descends
+map near/map
+domain 0 = 0
+rank 0
+stage 0 = 0
+
+statement near/point
+map near/map
+domain 0 = 0
+on x >= 0 and x < 1
+point 0
+weights 1
+rate 1/2
+radius 1/2
+size 1
+
+statement near/settles
+descent near/descends
+never 1 1
+never 2 2
+rank x
+word 1 2
+contraction near/point
+word 3
+"""
 # (statement, what stands there, what is put in its place, the premise of two/settles that fails)
 FAILING = [
     ("map", "x + 2", "x - x", "never-1"),
@@ -105,6 +143,32 @@ MALFORMED: list[tuple[str, str, Expected]] = [
     ("contraction two/down", "contraction two/descends", (Kind.EARLIER, "contracts two/descends")),
     ("contraction two/down", "contraction two/later", (Kind.EARLIER, "contracts two/later")),
     ("descent two/descends", "descent two/up", (Kind.EARLIER, "descends two/up")),
+]
+# (what stands in near/settles, what is put in its place, its premise that fails)
+RISING = [
+    ("rank x", "rank x/2", "falls-1"),
+    ("rank x", "rank x - 2", "falls-1"),
+    ("word 1 2", "word 2 1", "falls-1"),
+    ("rank x\nword 1 2", "rank x\nword 1 2\nrank -x\nword 1 2", "falls-2"),
+    ("word 3", "word 3\ncontraction near/point\nword 2 3", "ends-2"),
+]
+# (the same, why it is refused)
+OTHER_RANKS: list[tuple[str, str, Expected]] = [
+    ("rank x\nword 1 2\n", "", (Kind.WORDS, "near/settles")),
+    ("rank x\nword 1 2", "rank x\nword 1", (Kind.WORDS, "near/settles")),
+    ("rank x\nword 1 2", "rank x\nword 1 2 1", (Kind.WORDS, "near/settles")),
+    ("rank x\nword 1 2", "rank x\nword 1 2 1 2", (Kind.WORDS, "near/settles")),
+    ("rank x\nword 1 2", "rank x\nword", (Kind.WORDS, "near/settles")),
+    ("rank x", "rank x\nword\nrank x", (Kind.WORD, "near/descends")),
+    ("rank x", "rank x\nword 1 4\nrank x", (Kind.INDEX, "3")),
+    ("never 2 2\n", "", (Kind.WORDS, "near/settles")),
+    ("never 1 1\n", "", (Kind.WORDS, "near/settles")),
+    ("rank x", "rank x > 0 -> x", (Kind.VALUE, "near/settles")),
+    ("rank x", "rank x, x", (Kind.VALUE, "near/settles")),
+    # a state on the way, by which a rank would be another one each time
+    ("rank x", "rank x_0", (Kind.VALUE, "near/settles")),
+    ("rank x", "rank -x_1", (Kind.VALUE, "near/settles")),
+    ("rank x", "rank x_next + 1", (Kind.VALUE, "near/settles")),
 ]
 
 
@@ -143,6 +207,36 @@ def test_rejects_words_that_leave_others_and_names_of_other_kinds(
     old: str, new: str, expected: Expected
 ) -> None:
     outcome, reason = checked(two(old, new), searched(TWO))["two/settles"]
+    assert outcome == "rejected"
+    assert refused(reason, expected), reason
+
+
+def test_words_that_no_orbit_repeats_for_ever_are_enough_holds() -> None:
+    assert checked(NEARER, searched(NEARER))["near/settles"] == ("certified", None)
+    turned = edited(
+        edited(NEARER, "settles", "rank x", "rank -x"), "settles", "word 1 2", "word 2 1"
+    )
+    assert checked(turned, searched(turned))["near/settles"] == ("certified", None)
+
+
+@pytest.mark.parametrize(("old", "new", "premise"), RISING)
+def test_one_point_attracts_every_state_fails_without_its_premise(
+    old: str, new: str, premise: str
+) -> None:
+    text, name = edited(NEARER, "settles", old, new), "near/settles"
+    found = searched(text)
+    assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
+    outcome, reason = checked(text, {**found, name: searched(NEARER)[name]})[name]
+    assert outcome == "rejected" and reason is not None
+    assert reason.place == f"premise {premise} of {name}" or reason.kind is Kind.PREMISES
+
+
+@pytest.mark.parametrize(("old", "new", "expected"), OTHER_RANKS)
+def test_rejects_ranks_of_other_words_and_of_states_on_the_way(
+    old: str, new: str, expected: Expected
+) -> None:
+    text = edited(NEARER, "settles", old, new)
+    outcome, reason = checked(text, searched(NEARER))["near/settles"]
     assert outcome == "rejected"
     assert refused(reason, expected), reason
 
@@ -205,29 +299,77 @@ def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
     assert refused(reason, (Kind.VARIABLE_TWICE, "d_0", f"premise ends-2 of {name}"))
 
 
-def avoided(words: list[tuple[int, ...]], letters: int, length: int) -> bool:
-    """Whether a word of this length holds none of the words, by trying each."""
-    return any(
-        not any(word == long[n : n + len(word)] for word in words for n in range(length))
-        for long in product(range(1, letters + 1), repeat=length)
-    )
+def avoiding(words: Collection[Word], letters: int, length: int) -> Iterator[Word]:
+    """The words of this length that hold none of the words, by trying each."""
+    for long in product(range(1, letters + 1), repeat=length):
+        if not any(word == long[n : n + len(word)] for word in words for n in range(length)):
+            yield long
 
 
-def holds_one(words: list[tuple[int, ...]], letters: int) -> bool:
+def holds_one(words: Collection[Word], letters: int, repeated: Collection[Word] = ()) -> bool:
     try:
-        require_one_in_all(words, letters, "two/settles", Work())
+        require_no_other([*words], [*repeated], letters, "two/settles", Work())
     except checker.Rejected as reason:
         assert refused(reason, (Kind.WORDS, "two/settles"))
         return False
     return True
 
 
-@given(st.sets(st.lists(st.integers(1, 2), min_size=1, max_size=4).map(tuple), min_size=1))
-def test_words_are_in_every_long_word_holds(words: set[tuple[int, ...]]) -> None:
+WORDS = st.sets(st.lists(st.integers(1, 2), min_size=1, max_size=4).map(tuple), min_size=1)
+
+
+@given(WORDS)
+def test_words_are_in_every_long_word_holds(words: set[Word]) -> None:
     """A word as long as all these together with none of them would come back to an end."""
     long = min(12, sum(map(len, words)) + 1)
     if long < 12:
-        assert holds_one([*words], 2) is not avoided([*words], 2, long)
+        assert holds_one(words, 2) is not any(avoiding(words, 2, long))
+
+
+@given(
+    st.sets(st.lists(st.integers(1, 2), min_size=1, max_size=3).map(tuple), max_size=3),
+    st.lists(st.integers(1, 2), min_size=1, max_size=3).map(tuple),
+)
+def test_words_are_in_every_long_word_but_a_repeated_one_holds(
+    words: set[Word], repeated: Word
+) -> None:
+    """The middle of a long word, with as much before it and after it as there are ends of words."""
+    ends = len({word[:n] for word in words for n in range(len(word))} | {()})
+    if ends < 4:
+        size = ends + len(repeated)
+        again = repeated * (size + 1)
+        turns = {again[n : n + size] for n in range(len(repeated))}
+        middles = {long[ends:-ends] for long in avoiding(words, 2, 2 * ends + size)}
+        # a word that repeats a shorter one is not the word round a circle
+        alone = len(turns) == len(repeated)
+        assert holds_one(words, 2, [repeated]) is (not middles or alone and middles <= turns)
+
+
+@pytest.mark.parametrize(
+    ("texts", "repeated", "expected"),
+    [
+        ("1 1, 2 2", "1 2", True),
+        ("1 1, 2 2", "2 1", True),
+        ("1 1, 2 2", "2 1 2 1", False),
+        ("1 1, 2 2", "1 2 1", False),
+        ("1 1, 2 2", "1", False),
+        ("2 2", "1 2", False),
+        ("2 2", "1 2, 1", False),
+        # from one circle to another and back
+        ("1 1 1", "2, 1 2", False),
+        # from one circle to another, and never back
+        ("1 2", "1, 2", True),
+        ("1 2", "2", False),
+        ("1 1 2, 2 1 1, 2 2 1, 1 2 2", "1, 2, 1 2", True),
+    ],
+)
+def test_words_are_in_every_long_word_but_repeated_ones(
+    texts: str, repeated: str, expected: bool
+) -> None:
+    words, more = (
+        [tuple(map(int, one.split())) for one in text.split(",")] for text in (texts, repeated)
+    )
+    assert holds_one(words, 2, more) is expected
 
 
 @pytest.mark.parametrize(
@@ -266,7 +408,7 @@ def test_words_are_in_every_long_word(texts: str, letters: int, expected: bool) 
 )
 def test_rejects_words_that_take_too_much_work(words: list[list[int]], letters: int) -> None:
     with pytest.raises(checker.Rejected) as info:
-        require_one_in_all(words, letters, "two/settles", Work(10**6))
+        require_no_other(words, [], letters, "two/settles", Work(10**6))
     assert refused(info.value, Kind.WORK)
 
 

@@ -511,26 +511,53 @@ def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     }
 
 
-def require_no_way_on(words: Iterable[tuple[int, ...]], pieces: int) -> None:
-    """No infinite word is without these: what is left of the words with none, by their last
-    letters, is empty when those that nothing follows are taken away.
+def require_no_way_on(
+    words: Iterable[tuple[int, ...]], repeated: Sequence[tuple[int, ...]], pieces: int
+) -> None:
+    """An infinite word without these is at last one of the repeated: of the words with none, by
+    their last letters, those that come back do so in one way, and the letters on the way are those
+    of a repeated word.
     """
     apart = {*words}
-    size = max(map(len, apart)) - 1
+    size = max(map(len, apart), default=1) - 1
     left: set[tuple[int, ...]] = {()}
     for _ in range(size):
         left = {(*end, k) for end in left for k in range(1, pieces + 1)}
         left = {end for end in left if not holds(end, apart)}
     ways = {
-        end: {(*end, k)[1:] for k in range(1, pieces + 1) if not holds((*end, k), apart)}
+        (end, k): (*end, k)[1:] if size else ()
         for end in left
+        for k in range(1, pieces + 1)
+        if not holds((*end, k), apart)
     }
-    while True:
-        closed = {end for end, after in ways.items() if not any(one in ways for one in after)}
-        require(bool(closed) or not ways, "words of every length hold none of these")
-        if not ways:
-            return
-        ways = {end: after for end, after in ways.items() if end not in closed}
+    size = len(ways) + 1
+    while len(ways) < size:
+        from_, size = {end for end, _ in ways}, len(ways)
+        ways = {way: end for way, end in ways.items() if end in from_}
+    ways = {way: end for way, end in ways.items() if way[0] in reached_from(end, ways)}
+    from_ = {end for end, _ in ways}
+    require(len(from_) == len(ways), "words of every length hold none of these")
+    for start in from_:
+        end, letters = start, list[int]()
+        while end != start or not letters:
+            ((k, end),) = [(k, to) for (one, k), to in ways.items() if one == end]
+            letters.append(k)
+        turns = {(*letters[n:], *letters[:n]) for n in range(len(letters))}
+        require(not turns.isdisjoint(repeated), "words of every length hold none of these")
+
+
+def reached_from(
+    start: tuple[int, ...], ways: Mapping[tuple[tuple[int, ...], int], tuple[int, ...]]
+) -> set[tuple[int, ...]]:
+    """What the ways lead to from there, itself too."""
+    after: dict[tuple[int, ...], set[tuple[int, ...]]] = {}
+    for (end, _), to in ways.items():
+        after.setdefault(end, set()).add(to)
+    found, new = {start}, {start}
+    while new:
+        new = set().union(*(after.get(end, set()) for end in new)) - found
+        found |= new
+    return found
 
 
 def holds(word: tuple[int, ...], apart: set[tuple[int, ...]]) -> bool:
@@ -541,9 +568,10 @@ def of_settles(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     descent = statements[statement.one("descent")]
     first, last = Setting(descent, statements), descent.all("stage")[-1]
     require(first.map.kind == "map", "a map")
-    never, words = statement.all("never"), statement.all("word")
+    never, ranks, words = map(statement.all, ("never", "rank", "word"))
     require(max(max(word) for word in (*never, *words)) <= len(first.pieces), "a word of pieces")
-    require_no_way_on([*never, *words], len(first.pieces))
+    falling, words = words[: len(ranks)], words[len(ranks) :]
+    require_no_way_on([*never, *words], falling, len(first.pieces))
     in_roots = bool(names_in(last) & {line.says[0] for line in first.moving})
 
     def named(setting: Setting, n: int, roots: bool = True) -> dict[str, str]:
@@ -569,6 +597,16 @@ def of_settles(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     premises = {}
     for i, word in enumerate(never, 1):
         premises[f"never-{i}"] = follows(word, [Line("show", ("=", ZERO, ONE))])
+    for i, ((guards, (term, *more)), word) in enumerate(zip(ranks, falling), 1):
+        require(not guards and not more, "one term for a rank")
+        require(names_in(term) <= {*first.parameters, *first.state}, "a rank of the state")
+        names = named(first, len(word) - 1, False)
+        images = [renamed(image, names) for image in first.pieces[word[-1] - 1][1]]
+        after = {name: f"{name}_next" for name in first.state}
+        here = renamed(term, named(first, 0, False))
+        shown = conjunction([(">=", here, ZERO), ("<=", renamed(term, after), ("-", here, ONE))])
+        lines = [Line("let", (after[name], image)) for name, image in zip(first.state, images)]
+        premises[f"falls-{i}"] = follows(word, [*lines, Line("show", shown)])
     for i, (name, word) in enumerate(zip(statement.all("contraction"), words), 1):
         end = Setting(statements[name], statements)
         require(end.map.name == first.map.name, "another map")
@@ -604,7 +642,8 @@ def of_returns(statement: Statement, statements: Mapping[str, Statement]) -> Pre
         premises[f"word-{i}"] = [*lines, Line("show", equal(terms, images))]
     for i, name in enumerate(settling.all("contraction"), 1):
         end = Setting(statements[name], statements)
-        guard, _ = first.pieces[settling.all("word")[i - 1][0] - 1]
+        ends = settling.all("word")[len(settling.all("rank")) :]
+        guard, _ = first.pieces[ends[i - 1][0] - 1]
         lines = [*end.at_state(), Line("given", first.domain)]
         lines += [Line("given", statements[name].one("on")), Line("show", guard)]
         premises[f"piece-{i}"] = lines

@@ -35,7 +35,7 @@ ORDERS = {
     "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
     "exactly": "attraction (escape |unstable )+",
-    "settles": "descent (never )*(contraction word )+",
+    "settles": "descent (never )*(rank word )*(contraction word )+",
     "returns": "map settling (word )+",
 }
 NAMES = ("forall", "integer", "exists", "over", "state", "input")
@@ -111,12 +111,15 @@ def read_statements(text: str) -> dict[str, Statement]:
     return statements
 
 
-def names_below(statement: Statement, earlier: Mapping[str, Statement]) -> set[str]:
-    """The parameters and roots of a statement and of those that it names."""
+def names_below(
+    statement: Statement, earlier: Mapping[str, Statement], states: bool = False
+) -> set[str]:
+    """The parameters and roots of a statement and of those that it names; with state variables."""
     names = {*statement.names("over"), *(name for name, _ in statement.all("root"))}
+    names |= {*statement.names("state")} if states else set()
     for line in statement.lines:
         if line.word in OTHERS:
-            names |= names_below(earlier[line.says], earlier)
+            names |= names_below(earlier[line.says], earlier, states)
     return names
 
 
@@ -130,7 +133,8 @@ def read_statement(
     order = "".join(f"{word} " for word, _, _ in pairs)
     kinds = [kind for kind, wanted in ORDERS.items() if re.fullmatch(wanted, order)]
     require(len(kinds) == 1, f"{name}: no kind of statement has these lines")
-    scope = Scope(known, earlier, around=kinds[0] in ("lyapunov", "unstable"))
+    around, moves = kinds[0] in ("lyapunov", "unstable"), kinds[0] == "settles"
+    scope = Scope(known, earlier, around, moves)
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
     statement = Statement(name, kinds[0], lines)
     variables = {name for word in ("forall", "exists", "over") for name in statement.names(word)}
@@ -146,10 +150,12 @@ class Scope:
         known: Mapping[str, Definition],
         earlier: Mapping[str, Statement],
         around: bool = False,
+        moves: bool = False,
     ) -> None:
         self.known = known
         self.earlier = earlier
         self.around = around  # whether the lines may speak of a point, and of the gap to it
+        self.moves = moves  # whether they may name the state of a descent
         self.near: set[str] = set()
         self.names: set[str] = set()
         self.hidden: set[str] = set()  # of these no definition is over
@@ -268,7 +274,7 @@ class Scope:
         if name not in self.earlier or self.earlier[name].kind not in kinds:
             raise Rejected(f"{name} is no earlier statement of kind {' or '.join(kinds)}")
         if word in ("descent", "attraction"):
-            known = names_below(self.earlier[name], self.earlier)
+            known = names_below(self.earlier[name], self.earlier, self.moves)
             self.names |= known
             self.hidden |= known
         if word in ("map", "relation"):

@@ -37,7 +37,7 @@ from tests.certificates.checker.maps import (
 )
 from tests.certificates.checker.rules import TABLES
 from tests.certificates.checker.test_returns import LOOP
-from tests.certificates.checker.test_settles import TWO
+from tests.certificates.checker.test_settles import NEARER, TWO
 from tests.certificates.checker.test_tampering import AT_LIMITS, altered, places, tampered
 from tests.certificates.reader.orbits import PREMISES
 from tests.certificates.reader.settling import (
@@ -174,7 +174,8 @@ def until(text: str) -> Iterator[str]:
 
 
 @pytest.mark.parametrize(
-    "text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE, TWO, LOOP]
+    "text",
+    [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE, TWO, NEARER, LOOP],
 )
 def test_changes_of_orbit_rules_have_the_checkers_outcome_hold(text: str) -> None:
     certificates = searched(text)

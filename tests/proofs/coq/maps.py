@@ -298,6 +298,31 @@ def two_points_attract() -> list[MapRule]:
     ]
 
 
+@claim("nearer")
+def what_is_far_comes_nearer_by_one() -> list[MapRule]:
+    """From 1 on x moves to -x, and back to x - 1; what is less than 1 contracts to 0."""
+    pieces = (
+        ("piece", "x >= 1 -> -x"),
+        ("piece", "x < 0 -> -x - 1"),
+        ("piece", "x >= 0 and x < 1 -> a*x"),
+    )
+    over = (("over", "a"), ("domain", BELOW_1), ("state", "x"))
+    of = (("map", "nearer/map"), ("domain", BELOW_1))
+    words = (
+        *(("never", "1 1"), ("never", "2 2"), ("rank", "x"), ("word", "1 2")),
+        *(("rank", "-x + a*0"), ("word", "2 1"), ("contraction", "nearer/near"), ("word", "3")),
+    )
+    return [
+        MapRule("map", (*over, ("space", "x <= -1 or x >= 0"), *pieces)),
+        MapRule("all", (*of, ("rank", "0"), ("stage", "0 = 0"))),
+        MapRule(
+            "near",
+            (*of, ("on", "x >= 0 and x < 1"), ("point", "0"), *norm("1", "a", "1/2", "1")),
+        ),
+        MapRule("ends", (("descent", "nearer/all"), *words)),
+    ]
+
+
 @claim("returned")
 def an_orbit_of_two_states_attracts() -> list[MapRule]:
     """What is at most 9 moves out to 10 or more and back; both steps at once contract to 2."""

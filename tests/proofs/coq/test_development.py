@@ -73,7 +73,7 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: C
         "Lyapunov.into_attraction",
         "Lyapunov.into_stability",
         "Lyapunov.instability_refutes",
-        "Attractors.none_is_left",
+        "Attractors.leads_on",
         "Attractors.an_end_is_met",
         "Attractors.settles",
         "Returns.by_coordinates",
