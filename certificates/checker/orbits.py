@@ -464,7 +464,7 @@ def require_no_other(
     from which no letter leads off, once one of them is left out: where it is reached, the letters
     round it are read for ever.  Without such ends nothing is left.
     """
-    ways = ways_on(words, letters, work)
+    ways, again = ways_on(words, letters, work), {tuple(word) for word in repeated}
     while ways:
         work.spend(len(ways) * letters)
         on = {e: {k: to for k, to in way.items() if to in ways} for e, way in ways.items()}
@@ -472,9 +472,9 @@ def require_no_other(
         if on == ways:
             circle = closed_circle(ways)
             once = [k for end in circle for k in ways[end]]
-            work.spend(len(once) ** 2 + sum(map(len, repeated)))
-            turned = [once[n:] + once[:n] for n in range(len(once))]
-            require(any([*word] in turned for word in repeated), Kind.WORDS, name)
+            work.spend(len(once) ** 2)
+            turned = any((*once[n:], *once[:n]) in again for n in range(len(once)))
+            require(turned, Kind.WORDS, name)
             on = {end: ways[end] for end in ways.keys() - {*circle}}
         ways = on
 
@@ -491,7 +491,7 @@ def ways_on(
     work.spend(sum(len(word) ** 2 for word in words))
     held = {tuple(word) for word in words}
     begun = {word[:n] for word in held for n in range(len(word))}
-    longest = max(map(len, held), default=0)
+    longest = max(map(len, held))
     ways: dict[Word, dict[int, Word]] = {}
     found: list[Word] = [()]
     while found:

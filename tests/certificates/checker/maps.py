@@ -786,10 +786,10 @@ statement asked/ends-by-ranks
 descent asked/descends-in-roots
 never 1 1
 never 2 2 1
-rank x + a*y
-word 1 2
 rank b - y
 word 2
+rank x + a*y
+word 1 2
 contraction asked/contracts
 word 1 1 1
 
@@ -812,6 +812,12 @@ map asked/faster
 settling asked/ends-in-roots
 word 1 2 1
 word 2
+
+statement asked/returns-by-ranks
+map asked/faster
+settling asked/ends-by-ranks
+word 1
+word 2 2
 
 statement asked/powers
 forall x y w n

@@ -327,7 +327,7 @@ def test_words_are_in_every_long_word_holds(words: set[Word]) -> None:
 
 
 @given(
-    st.sets(st.lists(st.integers(1, 2), min_size=1, max_size=3).map(tuple), max_size=3),
+    st.sets(st.lists(st.integers(1, 2), min_size=1, max_size=3).map(tuple), min_size=1, max_size=3),
     st.lists(st.integers(1, 2), min_size=1, max_size=3).map(tuple),
 )
 def test_words_are_in_every_long_word_but_a_repeated_one_holds(
@@ -404,6 +404,11 @@ def test_words_are_in_every_long_word(texts: str, letters: int, expected: bool) 
     [
         ([[1], [1] * 1200], 1),  # the ends of a word, and then the words that are read
         ([[1] * 200 + [2] * 200, [1] * 200, [2] * 201], 2),
+        ([[1] * 200 + [2] * 200, [1] * 200, [2] * 201, [3]], 3),
+        # each letter leads to the next alone, so that 130 ends go one at a time
+        ([[k, n] for k in range(1, 131) for n in range(1, 131) if n != k + 1], 130),
+        # a circle of 335 letters, which is turned
+        ([[k, n] for k in range(1, 336) for n in range(1, 336) if n != k % 335 + 1], 335),
     ],
 )
 def test_rejects_words_that_take_too_much_work(words: list[list[int]], letters: int) -> None:
