@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import ANYWHERE
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
@@ -18,7 +19,6 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.by_sign import proof_by_signs
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     conjuncts,
 )
 

@@ -11,6 +11,7 @@ from itertools import compress, islice
 
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.algebraic import MOST_DEGREE, Renamed, by_its_point
 from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
@@ -43,7 +44,6 @@ from juggleproof.proofs.stability.functions.norms import local_rules
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
-    conjunction,
     expression,
     negation,
     renamed,

@@ -14,6 +14,7 @@ from itertools import product
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
@@ -22,12 +23,10 @@ from juggleproof.proofs.stability.functions.values import (
     inverse,
 )
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     Expr,
     as_factor,
     atoms,
     column,
-    conjunction,
     conjuncts,
     expression,
     holds,

@@ -18,6 +18,7 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.templates import Function, squares_of
 from juggleproof.proofs.stability.given import (
@@ -25,7 +26,6 @@ from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     column,
-    conjunction,
     expression,
     holds,
     symbols,
