@@ -38,6 +38,8 @@ def with_cases(rule: MapRule) -> MapRule:
     stage x >= -x and x <= 1 or -x > x and -x <= 1
     """
     rows: list[tuple[str, str]] = []
+    if any([*map(type, row)] != [str, str] for row in rule.rows):
+        return rule  # whose reader says what is wanted
     for keyword, text in rule.rows:
         try:
             rows += [(keyword, one) for one in _lines(keyword, text)]

@@ -91,10 +91,10 @@ def _power(text: str, exponent: int) -> str:
 
 
 def bounded_below(
-    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2
+    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2, share: float = 0.75
 ) -> list[tuple[float, str]]:
-    """Terms in the parameters that are positive and below what is least at each of these; those
-    first that follow it closely and are simple, which a small number beside each says.
+    """Terms in the parameters that are positive and at most this share of what is least at each of
+    these; those first that follow it closely and are simple, which a small number beside each says.
     """
     used = np.isfinite(least)
     if not used.any() or least[used].min() <= 0:
@@ -109,7 +109,7 @@ def bounded_below(
             ranked.append((rank, text, float(np.exp(worst))))
     found = []
     for rank, text, number in sorted(ranked)[:most]:
-        constant = _floor(number * 0.75)
+        constant = _floor(number * share)
         found.append((rank, text if constant == 1 else _times(constant, text)))
     return found
 
