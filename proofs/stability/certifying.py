@@ -29,6 +29,7 @@ STEP_BUDGET = 1_000_000  # of a descent
 EFFORTS = (1, 2, SQUARED)
 LONG_SEARCH = 300_000  # units of work, before which Z3 is asked for a counter-model
 QUICK = Votes(rlimit=20_000)  # some 20 ms
+FULL = Votes(rlimit=50_000)  # for the reason why a premise is open
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
 Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
@@ -139,7 +140,7 @@ class Proof:
             return ""
         kind, name, premise = self.open
         _, cut = self.sought.get(premise.text(), (0, True))
-        line = why(kind, name, premise, vote_and_model(premise), self.budget, cut)
+        line = why(kind, name, premise, vote_and_model(premise, budget=FULL), self.budget, cut)
         return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(
