@@ -25,7 +25,6 @@ from juggleproof.proofs.stability.given import (
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
 MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refutations and in part
-STEP_BUDGET = 1_000_000  # of a descent
 EFFORTS = (1, 2, SQUARED)
 LONG_SEARCH = 300_000  # units of work, before which Z3 is asked for a counter-model
 QUICK = Votes(rlimit=20_000)  # some 20 ms
@@ -122,7 +121,7 @@ class Proof:
                 budget = BUDGET // 4 if searches else ENVELOPE_BUDGET
                 fault = tried(self, rule, efforts, budget, report, signs, searches)
             else:
-                fault = self.add(rule, efforts, STEP_BUDGET)
+                fault = self.add(rule)
             if fault:
                 self.keep(count)
                 return False
