@@ -18,6 +18,7 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.by_sign import proof_by_signs
+from juggleproof.proofs.stability.few_facts import proof_without_next
 from juggleproof.proofs.stability.given import (
     conjuncts,
 )
@@ -75,6 +76,9 @@ class Proof:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
+                if name.startswith("stage"):
+                    proof = self.proof_of(premises[name], (1, 2), work)
+                    proof = proof or proof_without_next(premises[name], self.known)
                 proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]

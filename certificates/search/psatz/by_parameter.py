@@ -188,7 +188,7 @@ def seen_to_contradict(
         for sign in (1, -1):
             positive = (sign * minors > SMALLEST).all(axis=1)
             seen |= positive & alone & (sign * sums[:, -1] < ROUNDING)
-    return seen.tolist()
+    return [bool(one) for one in seen]
 
 
 def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[fmpq_poly] | None:
