@@ -23,8 +23,12 @@ import numpy as np
 
 from juggleproof.benchmarks.generated import DOCS, Generated
 from juggleproof.benchmarks.processes import cpu_seconds
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
-from juggleproof.proofs.stability.given import ANYWHERE, Map, conjunction, read_file
+from juggleproof.proofs.stability.given import (
+    Map,
+    read_file,
+)
 from juggleproof.proofs.stability.samples import Floats, region
 
 ROOT = Path(__file__).resolve().parents[1]

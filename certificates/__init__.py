@@ -7,6 +7,7 @@ In reading order:
 - `nodes`: the shape of certificates;
 - `formulas`: terms and formulas as values, and their text;
 - `language`: statements as values, and their text; all names of the language stand here;
+- `cases`: lines about maps as a person writes them, brought to those that the checker takes;
 - `definitions`: the names by which a file of statements is shorter;
 - `algebra`: arithmetic that the search and the votes share;
 - `work`: counted work, and statements unfolded once;

@@ -12,6 +12,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict, TypeVar, Union, get_args
 
+from juggleproof.certificates.cases import with_cases
 from juggleproof.certificates.language import (
     AnyStatement,
     ClaimError,
@@ -351,7 +352,8 @@ def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[A
             raise ClaimError(
                 f"{claim_id}: {full!r} is no name for a statement; use letters, digits, - and ."
             )
-        named.append(replace(part, name=full))
+        part = replace(part, name=full)
+        named.append(with_cases(part) if isinstance(part, MapRule) else part)
     return named
 
 

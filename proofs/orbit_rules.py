@@ -561,9 +561,11 @@ def premises_of(
     except checker.Rejected as reason:
         kind, _, name = reason.offender.rpartition(" ")
         if reason.kind is checker.Kind.EARLIER and name in known:
-            raise ClaimError(
-                f"{rule.name}: {name} is a rule `{known[name].kind}`; name one of the kind `{kind}`"
-            ) from None
+            own = known[name].kind
+            mend = f"name one of the kind `{kind}`"
+            if {own, kind} == {"map", "relation"}:
+                mend = f"write the line `{own} {name}`"
+            raise ClaimError(f"{rule.name}: {name} is a rule `{own}`; {mend}") from None
         raise ClaimError(f"{rule.name}: {reason}") from None
 
 

@@ -303,7 +303,11 @@ def lemma_atoms(context: checker.Context, text: str) -> list[checker.Atom]:
     """The atoms of a lemma, which are about the variables, and what is named, of a statement."""
     atoms: list[checker.Atom] = []
     for part in checker.conjuncts(context.formula(checker.parse(text))):
-        if isinstance(part, bool) or part[0] != "atom":
+        if part is True:  # as of what is named: it says nothing new
+            continue
+        if part is False:
+            raise checker.Rejected(checker.Kind.FORMULA, f"{text}, as a lemma, which is false")
+        if part[0] != "atom":
             raise checker.Rejected(checker.Kind.FORMULA, f"{text}, as a lemma without `or`")
         atoms.append(part)
     return atoms

@@ -11,9 +11,9 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     HIGH,
     LOW,
     Expr,
@@ -21,7 +21,6 @@ from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     column,
-    conjunction,
     conjuncts,
     ends_of_space,
     expression,

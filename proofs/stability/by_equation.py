@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.algebraic import (
     MOST_DEGREE,
     NAMES,
@@ -25,12 +26,10 @@ from juggleproof.proofs.stability.algebraic import (
     zeros_inside,
 )
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     Expr,
     Map,
     as_factor,
     column,
-    conjunction,
     conjuncts,
     holds,
     renamed,

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import ANYWHERE
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.nodes import Proof as Premise
@@ -17,18 +18,18 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
 from juggleproof.proofs.stability.by_sign import proof_by_signs
+from juggleproof.proofs.stability.few_facts import proof_without_next
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     conjuncts,
 )
 
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
 MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refutations and in part
-STEP_BUDGET = 1_000_000  # of a descent
 EFFORTS = (1, 2, SQUARED)
 LONG_SEARCH = 300_000  # units of work, before which Z3 is asked for a counter-model
 QUICK = Votes(rlimit=20_000)  # some 20 ms
+FULL = Votes(rlimit=50_000)  # for the reason why a premise is open
 SQUARES_COST = 8  # of a unit of work at the effort of squares
 Report = Callable[[str], None]
 Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
@@ -75,6 +76,9 @@ class Proof:
                     proof = proof_by_signs(premises[name], self.known, signs[name])
                 work = budget * self.budget // BUDGET
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
+                if name.startswith("stage"):
+                    proof = self.proof_of(premises[name], (1, 2), work)
+                    proof = proof or proof_without_next(premises[name], self.known)
                 proof = proof or self.proof_of(premises[name], list(dict.fromkeys(each)), work)
                 if proof is None:
                     self.open = statement.kind, name, premises[name]
@@ -121,7 +125,7 @@ class Proof:
                 budget = BUDGET // 4 if searches else ENVELOPE_BUDGET
                 fault = tried(self, rule, efforts, budget, report, signs, searches)
             else:
-                fault = self.add(rule, efforts, STEP_BUDGET)
+                fault = self.add(rule)
             if fault:
                 self.keep(count)
                 return False
@@ -139,7 +143,7 @@ class Proof:
             return ""
         kind, name, premise = self.open
         _, cut = self.sought.get(premise.text(), (0, True))
-        line = why(kind, name, premise, vote_and_model(premise), self.budget, cut)
+        line = why(kind, name, premise, vote_and_model(premise, budget=FULL), self.budget, cut)
         return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(

@@ -11,12 +11,12 @@ from fractions import Fraction
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import bounds_of
 from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     atoms,
-    conjunction,
     expression,
     holds,
     symbols,

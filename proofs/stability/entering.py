@@ -12,6 +12,7 @@ from itertools import product
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
@@ -22,7 +23,6 @@ from juggleproof.proofs.stability.given import (
     Side,
     atoms,
     column,
-    conjunction,
     conjuncts,
     ends_of_space,
     expression,

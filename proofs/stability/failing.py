@@ -11,6 +11,7 @@ from itertools import islice
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.certificates.definitions import term_of
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
@@ -18,9 +19,7 @@ from juggleproof.proofs.stability.entering import entering_rules
 from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     Map,
-    conjunction,
     conjuncts,
     negation,
     written,

@@ -8,7 +8,6 @@ import ast
 import operator
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
@@ -20,6 +19,15 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import (
+    ANYWHERE,
+    FUNCTIONS,
+    Piece,
+    checker_text,
+    exact,
+    short,
+    taken_apart,
+)
 from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.formulas import RESERVED as WORDS
 from juggleproof.certificates.language import ClaimError, MapRule
@@ -28,18 +36,13 @@ from juggleproof.proofs.encoding import from_sympy
 Expr = Any  # of SymPy, which has no types
 Value = Any  # a float array, a Fraction or an Expr: whatever a text is evaluated in
 Point = Mapping[str, Value]
-Piece = tuple[str, tuple[str, ...]]  # guard, images
 Side = tuple[int, int]  # the number of a state variable, LOW or HIGH
 
 ORDER = ("over", "domain", "state", "space", "piece", "point")
-ANYWHERE = "0 < 1"  # a formula that always holds, as text
 LOW, HIGH = -1, 1
-FUNCTIONS = ("abs", "max", "min")
 SIGNS = "names, 3/10 or 0.3, + - * / ^, abs max min, < <= = != >= >, and or not"
 RESERVED = re.compile(r"value|level|distance|root_\d+|.*_(next|gap|point)")
-MOST_PIECES = 64  # after absolute values are taken apart
 MOST_POWER = 100  # what is above takes SymPy without end
-LONGEST = 60  # characters of a text in a message
 
 
 @dataclass(frozen=True)
@@ -270,24 +273,12 @@ def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
     return found[LOW], found[HIGH]
 
 
-def checker_text(node: ast.AST) -> str:
-    """The text of a syntax tree."""
-    return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
-
-
 def conjuncts(text: str) -> list[str]:
     """The parts of a conjunction, or the formula itself."""
     node = checker.parse(text)
     if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
         return [inner for part in node.values for inner in conjuncts(checker_text(part))]
     return [str(formula_of(node))]
-
-
-def conjunction(*parts: str) -> str:
-    """All of these formulas, without those that always hold or stand twice."""
-    kept = list(dict.fromkeys(part for part in parts if part and part != ANYWHERE))
-    one = [f"({part})" if " or " in part else part for part in kept]
-    return " and ".join(one) or ANYWHERE
 
 
 def as_factor(text: str) -> str:
@@ -377,12 +368,6 @@ def read_rows(
     return system
 
 
-def short(text: str) -> str:
-    """The text in one line, or its beginning where it is long."""
-    text = " ".join(text.split())
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 2]}.."
-
-
 def _with_line(system: Map, keyword: str, text: str) -> Map:
     """The map with what one more line says."""
     if keyword in ("over", "state"):
@@ -412,7 +397,7 @@ def _with_line(system: Map, keyword: str, text: str) -> Map:
     if keyword == "point":
         return replace(system, point=tuple(map(_term, each)))
     where = checker_text(_tree(guard, names, keyword)) if guard.strip() else ""
-    cases = _taken_apart(where, tuple(map(checker_text, each)))
+    cases = taken_apart(where, tuple(map(checker_text, each)))
     pieces = [
         (_formula(checker.parse(guard)), tuple(_term(checker.parse(one)) for one in after))
         for guard, after in cases
@@ -441,7 +426,7 @@ def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
         strange = next(one for one in text if not one.isascii())
         raise ClaimError(f"{strange} in a formula; write {SIGNS}")
     try:
-        node = checker.parse(_readable(text))
+        node = checker.parse(exact(text))
     except checker.Rejected:
         raise ClaimError(f"unreadable: {short(text) or 'no text'}; write {SIGNS}") from None
     calls = [inner for inner in ast.walk(node) if isinstance(inner, ast.Call)]
@@ -534,70 +519,6 @@ def pairs_of(rule: MapRule) -> list[tuple[str, str]]:
             raise ClaimError(f"{row!r} is no line of a rule; write a pair (keyword, text)")
         rows.append((row[0], row[1]))
     return rows
-
-
-def _readable(text: str) -> str:
-    """Decimals as exact fractions."""
-    return re.sub(r"(?<![\w.])\d*\.\d+(?![\w.])", lambda number: f"({Fraction(number[0])})", text)
-
-
-# -------------------------------------------------------------------------------------------------
-# Absolute values, maxima and minima: one piece for each of their cases.
-
-
-def _taken_apart(guard: str, images: tuple[str, ...]) -> list[Piece]:
-    """The pieces without abs, max and min; where there are several, each has a guard of its own."""
-    texts = [*([guard] if guard else []), *images]
-    call = next(filter(None, (_inmost(checker.parse(text)) for text in texts)), None)
-    if call is None:
-        return [(guard or ANYWHERE, images)]
-    pieces: list[Piece] = []
-    for condition, term in _cases(call):
-        put = [_replaced(checker.parse(text), ast.unparse(call), term) for text in texts]
-        rest = put[1:] if guard else put
-        pieces += _taken_apart(conjunction(*put[: len(put) - len(rest)], condition), tuple(rest))
-        if len(pieces) > MOST_PIECES:
-            raise ClaimError(f"more than {MOST_PIECES} cases of abs, max and min in one piece")
-    return pieces
-
-
-def _inmost(node: ast.expr) -> ast.Call | None:
-    """A call of abs, max or min with no such call in it."""
-    for inner in ast.walk(node):
-        if isinstance(inner, ast.Call) and ast.unparse(inner.func) in FUNCTIONS:
-            return next(filter(None, map(_inmost, inner.args)), None) or inner
-    return None
-
-
-def _cases(call: ast.Call) -> list[tuple[str, str]]:
-    """(condition, what the call is there), of which one holds at each state."""
-    arguments = [checker_text(argument) for argument in call.args]
-    if not arguments or ast.unparse(call.func) == "abs" and len(arguments) > 1:
-        raise ClaimError(f"{short(checker_text(call))}: abs takes one term, max and min more")
-    if ast.unparse(call.func) == "abs":
-        (one,) = arguments
-        return [(f"{one} >= 0", one), (f"{one} < 0", f"-({one})")]
-    strict, weak = (">", ">=") if ast.unparse(call.func) == "max" else ("<", "<=")
-    cases = []
-    for i, one in enumerate(arguments):
-        order = [
-            f"{one} {strict if k < i else weak} {other}"
-            for k, other in enumerate(arguments)
-            if k != i
-        ]
-        cases.append((" and ".join(order), one))
-    return cases
-
-
-def _replaced(node: ast.expr, call: str, term: str) -> str:
-    class Put(ast.NodeTransformer):
-        def visit_Call(self, one: ast.Call) -> ast.AST:
-            if ast.unparse(one) == call:
-                return checker.parse(f"({term})")
-            self.generic_visit(one)
-            return one
-
-    return checker_text(Put().visit(deepcopy(node)))
 
 
 def symbols(names: Iterable[str]) -> list[Expr]:

@@ -12,6 +12,7 @@ from math import prod
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.functions.templates import Function
@@ -20,7 +21,6 @@ from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     column,
-    conjunction,
     expression,
     holds,
     symbols,

@@ -15,15 +15,14 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import checker_text, conjunction
 from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import bounds_of
 from juggleproof.proofs.stability.given import (
     Expr,
     Map,
     atoms,
-    checker_text,
     column,
-    conjunction,
     conjuncts,
     expression,
     holds,

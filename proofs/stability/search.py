@@ -11,9 +11,10 @@ from itertools import compress, islice
 
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.algebraic import MOST_DEGREE, Renamed, by_its_point
-from juggleproof.proofs.stability.attracting import attracted, enveloped, in_boxes
+from juggleproof.proofs.stability.attracting import attracted, by_shape, enveloped
 from juggleproof.proofs.stability.by_equation import by_an_equation
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
@@ -43,7 +44,6 @@ from juggleproof.proofs.stability.functions.norms import local_rules
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
-    conjunction,
     expression,
     negation,
     renamed,
@@ -343,7 +343,7 @@ def settled(
             if not middle:
                 return None
             smaller = setting_of(system, fixed, conjunction(inner, *middle), by_samples=True)
-            if not in_boxes(proof, smaller, log):
+            if not by_shape(proof, smaller, log):
                 return None
             where = beyond(given, smaller.domain, system.parameters)
             return "stable", f"{name} is stable and attracts every state at least where {where}"

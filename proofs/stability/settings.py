@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.functions.values import Setting
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
-    conjunction,
     expression,
     renamed,
     symbols,

@@ -520,6 +520,10 @@ def test_a_lemma_is_proved_first_and_used_holds(lemma: str, tmp_path: Path) -> N
     assert proof[0] == "proof" and proof[2][0] == "sign"
 
 
+def test_a_lemma_that_says_nothing_new_is_none_that_fails_holds(tmp_path: Path) -> None:
+    assert certify(file_of(tmp_path, (*NEAR, ("lemma", "closer-1: x_next <= a*x")))) == 0
+
+
 @pytest.mark.parametrize("lemma", ["x_next <= a*distance/2", "x = 0", "x != 0", "a < 0", "0 > x"])
 def test_a_false_lemma_proves_no_false_premise_holds(
     lemma: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -539,6 +543,26 @@ def test_rejects_the_name_of_another_kind_of_rule(
     assert certify(path) == 2
     err = capsys.readouterr().err
     assert "mine/more: mine/map is a rule `map`; name one of the kind `descends`" in err
+
+
+def test_rejects_a_relation_on_the_line_of_a_map(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    of_map = (*MAP[:3], ("input", "u"), SPACE, ("piece", "0 <= u and u <= a -> u*x"))
+    assert certify(file_of(tmp_path, of_map=of_map)) == 2
+    said = "mine/near: mine/map is a rule `relation`; write the line `relation mine/map`"
+    assert said in capsys.readouterr().err
+    relation = (("relation", "mine/map"), *NEAR[1:])
+    assert certify(file_of(tmp_path, relation, of_map)) == 0
+
+
+def test_decimals_and_cases_are_read_as_in_a_map_file_holds(tmp_path: Path) -> None:
+    of_map = put(put(MAP, "piece", "max(0, a*x - 0.1*abs(x - 0.5))"), "domain", "0.1 < a and a < 1")
+    near = put(put(NEAR, "on", "abs(2*x - 1) <= 1"), "domain", "0.5 < a and a < 0.75")
+    path = file_of(tmp_path, put(near, "rate", "a + 0.2"), of_map)
+    assert certify(path) == 0
+    text = (path.with_suffix(".certificates") / STATEMENTS).read_text(encoding="utf-8")
+    assert "rate a + (1/5)" in text and "abs(" not in text
 
 
 def test_the_theorem_is_explained_without_certificates_holds(

@@ -34,6 +34,7 @@ from juggleproof.certificates.search.psatz.facts import Factors
 from juggleproof.certificates.search.psatz.lifting import lift
 from juggleproof.certificates.search.psatz.linear import Products
 from juggleproof.certificates.search.psatz.problem import Problem
+from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -42,7 +43,7 @@ Points = Mapping[str, NDArray[np.float64]]
 MORE = (0, 1, 2)  # degrees than those of a factor
 MOST_COLUMNS, MOST_TERMS = 1500, 100_000  # of a program: products, and terms in them
 MOST_FACTOR = 60  # terms of a factor
-BUDGET = 1_000_000  # of counted work for a premise
+BUDGET, SQUARES = 1_000_000, 20_000  # of counted work for a premise, and a sum of squares
 VALUE = "value"
 CLOSE = 1e-9  # to 0, in floats
 
@@ -217,6 +218,7 @@ class Case:
             if unknown is not None:
                 return self.lemma(state, kept, bound, goal, problem, unknown)
             wrong = self.by_square(opposite, more, parts)
+        wrong = wrong or self.by_squares(opposite, more)
         if wrong is None:
             return None
         number = len(state.facts)
@@ -256,6 +258,19 @@ class Case:
         last = firsts.index(len(kept) - 1)
         node = self.written(problem, [(parts[0], last), *((one, None) for one in parts[1:])], facts)
         return None if node is None else renumbered(node, kept)
+
+    def by_squares(self, state: State, kept: list[int]) -> Node | None:
+        """A node that the last fact is false, by sums of squares times facts in its variables."""
+        ring = Ring(tuple(state.context.index))
+        inside = variables_of(ring.read(state.facts[kept[-1]][0]))
+        few = [k for k in kept if variables_of(ring.read(state.facts[k][0])) <= inside]
+        problem = Problem(with_facts(state, few), self.ring, True)
+        try:
+            part = self.budget.part(SQUARES)
+            node = search_squares(programs_of_facts(problem, part), part)
+        except Exhausted:
+            return None
+        return None if node is None else renumbered(node, few)
 
     def sum_of_products(self, state: State, kept: list[int]) -> Node | None:
         """A node that the last fact is false: its opposite is a sum of products of the others."""

@@ -16,6 +16,7 @@ from fractions import Fraction
 from itertools import combinations, islice
 from math import comb, prod
 
+import numpy as np
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
 from juggleproof.certificates.algebra.numbers import bernstein, exact, fraction
@@ -32,6 +33,7 @@ MOST_OTHERS = 4  # variables beside the parameter
 MOST_SETS = 20_000  # of facts that are tried
 TO_FIND_A_FORM = 20  # units of work
 HIGHER = 12  # degrees beyond that of a polynomial, in which its form may have no negative numbers
+SMALLEST, ROUNDING = 1e-12, 1e-7  # minor, and sum of them, of numbers that are 1 at most
 INSIDE = tuple(Fraction(k, 8) for k in (1, 4, 7))  # where signs are looked at first
 
 
@@ -132,13 +134,16 @@ def contradiction(
 ) -> tuple[Used, list[fmpz_mpoly]] | None:
     """A sum of products that vanishes, by as few facts as there are."""
     inside = [exact(between.low + (between.high - between.low) * part) for part in INSIDE]
-    sets = (
-        chosen
-        for size in range(2, len(next(iter(rows.values()), ())) + 1)
-        for chosen in combinations(rows, size)
-    )
-    for chosen in islice(sets, MOST_SETS):
+    left = MOST_SETS
+    sets: list[tuple[tuple[int, ...], bool]] = []
+    for size in range(2, len(next(iter(rows.values()), ())) + 1):
+        some = [*islice(combinations(rows, size), left)]
+        left -= len(some)
+        sets += zip(some, seen_to_contradict(rows, some, between) if some else ())
+    for chosen, seen in sets:
         budget.spend(1)
+        if not seen:
+            continue
         multiples = multiples_of([rows[k] for k in chosen], inside)
         if multiples is None:
             continue
@@ -158,6 +163,32 @@ def contradiction(
             ]
             return used, [problem.ring.ctx.gen(between.axis.variable) ** power for power in powers]
     return None
+
+
+def seen_to_contradict(
+    rows: dict[int, Coefficients], sets: Sequence[tuple[int, ...]], between: Interval
+) -> list[bool]:
+    """For each of these sets of as many facts, whether floats see multiples that are positive, with
+    a sum that is a number and not positive, at the middle of the parameter: exact minors take long.
+    """
+    middle = exact((between.low + between.high) / 2)
+    values = np.array([[float(fraction(one(middle))) for one in row] for row in rows.values()])
+    values /= np.abs(values).max(axis=1, keepdims=True)
+    place = {fact: k for k, fact in enumerate(rows)}
+    matrices = values[np.array([[place[fact] for fact in chosen] for chosen in sets])]
+    count, size, width = matrices.shape
+    seen = np.zeros(count, dtype=bool)
+    for columns in combinations(range(width - 1), size - 1):
+        part = matrices[:, :, columns]
+        others = [[j for j in range(size) if j != k] for k in range(size)]
+        minors = np.stack([np.linalg.det(part[:, rest]) for rest in others], axis=1)
+        minors *= (-1.0) ** np.arange(size)
+        sums = np.einsum("ck,ckv->cv", minors, matrices)
+        alone = (np.abs(sums[:, :-1]) < ROUNDING).all(axis=1)
+        for sign in (1, -1):
+            positive = (sign * minors > SMALLEST).all(axis=1)
+            seen |= positive & alone & (sign * sums[:, -1] < ROUNDING)
+    return [bool(one) for one in seen]
 
 
 def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[fmpq_poly] | None:

@@ -16,6 +16,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import (
@@ -35,7 +36,6 @@ from juggleproof.proofs.stability.functions.values import (
 from juggleproof.proofs.stability.given import (
     as_factor,
     column,
-    conjunction,
     expression,
     holds,
     symbols,

@@ -20,6 +20,7 @@ from itertools import combinations, product
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search, beyond
 from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
@@ -42,7 +43,6 @@ from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     column,
-    conjunction,
     ends_of_space,
     expression,
     holds,

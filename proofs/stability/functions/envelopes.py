@@ -14,6 +14,7 @@ from itertools import product
 import numpy as np
 import sympy
 
+from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.values import (
@@ -22,12 +23,10 @@ from juggleproof.proofs.stability.functions.values import (
     inverse,
 )
 from juggleproof.proofs.stability.given import (
-    ANYWHERE,
     Expr,
     as_factor,
     atoms,
     column,
-    conjunction,
     conjuncts,
     expression,
     holds,
@@ -47,6 +46,7 @@ from juggleproof.proofs.stability.samples import (
 )
 
 SLOPES = (0, 1, 2, 3)  # of the involutions that are tried for all maps
+ROUNDING = 1e-11
 STATES = 200  # samples for each of the parameters
 SIZES = np.logspace(-3, 3, 48)  # of distances, relative to those of the point from the bounds
 
@@ -170,6 +170,12 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     return tuple(lines)
 
 
+def below(setting: Setting, least: Floats, most: int) -> list[tuple[float, str]]:
+    """Terms in the parameters below what is least, of higher powers where no others are."""
+    found = bounded_below(least, setting.products, most)
+    return found or bounded_below(least, setting.higher_products, most)
+
+
 def spare_domain(setting: Setting) -> str:
     """The domain without conditions that follow from the others at samples: each fact more makes
     proofs harder to find.
@@ -211,20 +217,22 @@ def lyapunov_rules(
     function = envelope.function(state)
     samples = states_of(setting, envelope)
     here, there = function.along(setting.system, samples.points, len(samples.which))
+    clear = np.abs(here - there) > ROUNDING * here  # else floats do not tell
+    here, there, samples = here[clear], there[clear], samples.where(clear)
     square = samples.points[f"{state}_gap"] ** 2
     if not len(here) or not (there < here).all() or closed and envelope.upper == "1":
         return
     bounded = envelope.upper != "1"
     shares = (here - there) / here / (square if closed else 1)
     sizes = here / square
-    count, products = setting.count, setting.products
+    count = setting.count
     order, size = (4, f"{state}_gap^2*value") if closed else (2, "value")
     near = room(setting, envelope) / 2
     wide = f"1/(2*{as_factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
     for (_, radius), (_, least), (_, loss) in product(
-        bounded_below(near, products, 1),
-        bounded_below(samples.least(sizes, count), products, 1) if bounded else [(0.0, wide)],
-        bounded_below(samples.least(shares, count), products),
+        below(setting, near, 1),
+        below(setting, samples.least(sizes, count), 1) if bounded else [(0.0, wide)],
+        below(setting, samples.least(shares, count), 2),
     ):
         far = f"{as_factor(loss)}*{as_factor(least)}*distance^{order}"
         rows = [
@@ -247,7 +255,7 @@ def steepness(setting: Setting, function: Function, radius: str) -> str:
     for gap in (size, -size):
         points = known | {state: known[f"{state}_point"] + gap, f"{state}_gap": gap}
         least = np.minimum(least, size / function.at(points, setting.count))
-    found = bounded_below(least, setting.products, 1)
+    found = below(setting, least, 1)
     return inverse(found[0][1]) if found else ""
 
 
@@ -300,15 +308,17 @@ def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
     samples = states_of(setting, envelope)
     outside = samples.where(~holds(f"{envelope.upper} > 0", samples.points))
     at_end = setting.constants | {state: zero_of(setting, envelope.upper)}
+    (image,) = system.images[setting.piece]
+    fall = written(sympy.factor(symbols([state])[0] - image))  # a difference of floats is rounded
     falls = [
-        points[state] - system.next({name: points[name] for name in system.names})[0]
-        for points in (outside.points, at_end)
+        column(fall, points, count)
+        for points, count in ((outside.points, len(outside.which)), (at_end, setting.count))
     ]
     steps = [(0.0, "")]
     if len(falls[0]):
         least = np.minimum(outside.least(falls[0], setting.count), falls[1])
-        steps = bounded_below(least, setting.products, 1)
-    radii = bounded_below(room(setting, envelope) / 2, setting.products, 1)
+        steps = below(setting, least, 1)
+    radii = below(setting, room(setting, envelope) / 2, 1)
     if not radii or not steps:
         return []
     rank = f"{as_factor(envelope.lower)}*{as_factor(inverse(steps[0][1]))}" if steps[0][1] else "0"

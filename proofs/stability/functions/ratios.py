@@ -22,6 +22,7 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.equations import (
@@ -46,7 +47,6 @@ from juggleproof.proofs.stability.given import (
     atoms,
     bounds,
     column,
-    conjunction,
     expression,
     holds,
     symbols,

@@ -20,6 +20,7 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import Search
 from juggleproof.proofs.stability.functions.equations import at_parameters, point_names
@@ -39,7 +40,6 @@ from juggleproof.proofs.stability.functions.values import Setting, bounded_below
 from juggleproof.proofs.stability.given import (
     Expr,
     as_factor,
-    conjunction,
     symbols,
     written,
 )

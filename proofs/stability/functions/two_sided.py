@@ -22,6 +22,7 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Proof
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
@@ -41,7 +42,6 @@ from juggleproof.proofs.stability.given import (
     Expr,
     as_factor,
     atoms,
-    conjunction,
     expression,
     holds,
     renamed,

@@ -18,6 +18,7 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.templates import Function, squares_of
 from juggleproof.proofs.stability.given import (
@@ -25,7 +26,6 @@ from juggleproof.proofs.stability.given import (
     as_factor,
     atoms,
     column,
-    conjunction,
     expression,
     holds,
     symbols,
@@ -39,6 +39,7 @@ FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a num
 ORDERS = (2, 4)  # of the loss in the distance: 4 at a multiplier on the unit circle
 SMALLEST = 1e-5  # of a constant
 LIMITS = ((3, (2, 4)), (6, (1, 4)), (9, (1, 2)), (math.inf, (0, 0)))  # of powers, and of their sum
+HIGHER = ((2, (6, 6)), (math.inf, (0, 0)))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -68,12 +69,15 @@ def positive_factors(system: Map, facts: str, parameters: Arrays) -> list[str]:
 
 
 def power_products(
-    factors: Sequence[str], parameters: Arrays, size: int
+    factors: Sequence[str],
+    parameters: Arrays,
+    size: int,
+    limits: Sequence[tuple[float, tuple[int, int]]] = LIMITS,
 ) -> list[tuple[str, Floats]]:
     """Products of powers of the factors, the simplest first, as text and at the parameters."""
     values = [column(f, parameters, size) for f in factors]
     found = []
-    limit, total_limit = next(limits for most, limits in LIMITS if len(factors) <= most)
+    limit, total_limit = next(limits for most, limits in limits if len(factors) <= most)
     every = itertools.product(range(-limit, limit + 1), repeat=len(factors))
     few = (powers for powers in every if sum(map(abs, powers)) <= total_limit)
     for powers in sorted(few, key=lambda p: (sum(map(abs, p)), sum(p) < 0, p)):
@@ -91,10 +95,10 @@ def _power(text: str, exponent: int) -> str:
 
 
 def bounded_below(
-    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2
+    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2, share: float = 0.75
 ) -> list[tuple[float, str]]:
-    """Terms in the parameters that are positive and below what is least at each of these; those
-    first that follow it closely and are simple, which a small number beside each says.
+    """Terms in the parameters that are positive and at most this share of what is least at each of
+    these; those first that follow it closely and are simple, which a small number beside each says.
     """
     used = np.isfinite(least)
     if not used.any() or least[used].min() <= 0:
@@ -109,7 +113,7 @@ def bounded_below(
             ranked.append((rank, text, float(np.exp(worst))))
     found = []
     for rank, text, number in sorted(ranked)[:most]:
-        constant = _floor(number * 0.75)
+        constant = _floor(number * share)
         found.append((rank, text if constant == 1 else _times(constant, text)))
     return found
 
@@ -160,11 +164,22 @@ class Setting:
     @cached_property
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
+        return self._products(LIMITS)
+
+    @cached_property
+    def higher_products(self) -> list[tuple[str, Floats]]:
+        """The same, for what is small to a higher power at an end of the parameters."""
+        return self._products(HIGHER)
+
+    def _products(
+        self, limits: Sequence[tuple[float, tuple[int, int]]]
+    ) -> list[tuple[str, Floats]]:
         known = self.constants
         if not self.have:
             known = {k: v for k, v in known.items() if not k.endswith("_point")}
         facts = conjunction(self.domain, *self.have)
-        return power_products(positive_factors(self.system, facts, known), known, self.count)
+        factors = positive_factors(self.system, facts, known)
+        return power_products(factors, known, self.count, limits)
 
     @cached_property
     def head(self) -> list[str]:

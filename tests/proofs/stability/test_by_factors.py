@@ -8,6 +8,8 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.states import proves
+from juggleproof.proofs.stability.given import read_rows
+from juggleproof.proofs.stability.search import search_stability
 
 TEXT = """statement newton/falls
 forall e x_gap value
@@ -55,3 +57,13 @@ def test_a_premise_with_a_root_holds() -> None:
 def test_rejects_a_fall_that_is_too_large() -> None:
     shown = "3*x_gap^2 <= value*(e + x_gap)"
     assert proof_by_factors(premise(shown), {}, (), "x_gap", POINTS) is None
+
+
+def test_a_factor_that_squares_alone_tell_the_sign_of_holds() -> None:
+    """M. C. Mackey, L. Glass, "Oscillation and chaos in physiological control systems", Science
+    197, 1977, without delay: (2 - 5 d/4)(1 + x^2) > d e (x + e), as d e (1 + e^2) < 1.
+    """
+    rows = [("over", "d p"), ("domain", "0 < d and d < 1 and 0 < p and p < 1"), ("state", "x")]
+    rows += [("space", "x >= 0"), ("piece", "(1 - d)*x + p/(1 + x^2)")]
+    found = search_stability(read_rows("mackey-glass", rows))
+    assert found.sentence.startswith("e is stable and attracts every state; here p = ")

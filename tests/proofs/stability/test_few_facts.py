@@ -6,7 +6,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.states import proves
-from juggleproof.proofs.stability.few_facts import proof_from_few_facts
+from juggleproof.proofs.stability.few_facts import proof_from_few_facts, proof_without_next
 
 BELOW = """statement m/below
 forall x_point x_gap other distance
@@ -42,3 +42,26 @@ def test_a_proof_fails_without_a_bound_on_the_distance() -> None:
         BELOW.format("2").replace("given distance <= x_point/2\n", "")
     )["m/below"]
     assert proof_from_few_facts(premise, {}, USED, ["2*x_gap + x_point"]) is None
+
+
+STAGE = """statement m/stage
+forall e x
+range e > 0 and 1 - e > 0
+given x > 0
+given 1 + x^4 > 0
+given 3*e - 2*x > 0
+let x_next = x*(e^4 + 1)/(1 + x^4)
+given x_next > 0
+show {}*e - 2*x_next > 0
+"""
+
+
+def test_what_is_given_of_the_next_state_is_left_out_holds() -> None:
+    premise = checker.read_statements(STAGE.format("3"))["m/stage"]
+    proof = proof_without_next(premise, {})
+    assert proof is not None and proves(premise, proof, {})
+
+
+def test_rejects_a_stage_that_orbits_leave() -> None:
+    premise = checker.read_statements(STAGE.format("2"))["m/stage"]
+    assert proof_without_next(premise, {}) is None

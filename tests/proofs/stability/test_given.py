@@ -100,7 +100,7 @@ REJECTED = {
         "{file}:3: 2 terms for 1 state variables; write a term for each of x"
     ),
     "state x\npiece " + " + ".join(f"abs(x - {k})" for k in range(7)): (
-        "{file}:2: more than 64 cases of abs, max and min in one piece"
+        "{file}:2: more than 64 cases of abs, max and min in one line"
     ),
 }
 

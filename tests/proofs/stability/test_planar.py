@@ -32,6 +32,13 @@ SETTLED = {  # name: (text, exit code, first line)
         1,
         f"refuted  saddle: (0, 0, 0) {AWAY}",
     ),
+    "henon": (
+        "over a b\ndomain 0 < a and a <= 1/10 and 0 < b and b <= 3/10\nstate x y\n"
+        "space -2 <= x and x <= 2 and -1 <= y and y <= 1\npiece 1 - a*x^2 + y, b*x",
+        0,
+        "proved   henon: ((b + sqrt(4*a + b^2 - 2*b + 1) - 1)/(2*a),"
+        f" b*(b + sqrt(4*a + b^2 - 2*b + 1) - 1)/(2*a)) {STABLE}",
+    ),
     "coexistence": (
         COMPETITION.replace("C", "(1/4)"),
         0,
