@@ -35,7 +35,7 @@ SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "gr
 TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
-PARTED, RETURNED = "parted/ends", "returned/orbits"
+PARTED, NEARER, RETURNED = "parted/ends", "nearer/ends", "returned/orbits"
 ALONE = (SHARP,)  # compiled as it is written; tests of examples do that as well
 
 
@@ -71,6 +71,9 @@ CONCLUSIONS = {
     " /\\ States.stable (Map.space a) (Map.f a) (End_2.Contraction.point a)) /\\ forall of_s,"
     " Map.space a of_s -> exists of_e, In of_e (Settling.points a) /\\ Rules.converges (Map.f a)"
     " States.coordinate (fun of_j => States.coordinate of_j of_e) of_s.",
+    NEARER: "Descent.domain a -> (States.stable (Map.space a) (Map.f a) (End_1.Contraction.point a)"
+    ") /\\ forall of_s, Map.space a of_s -> exists of_e, In of_e (Settling.points a) /\\"
+    " Rules.converges (Map.f a) States.coordinate (fun of_j => States.coordinate of_j of_e) of_s.",
     RETURNED: "Inner.Descent.domain a -> ((Rules.iterate (Map.f a) 2 (Inner.End_1.Contraction.point"
     " a) = Inner.End_1.Contraction.point a /\\ Returns.orbit_stable States.coordinate (Map.f a)"
     " (Map.space a) (Inner.End_1.Contraction.point a))) /\\ forall of_s, Map.space a of_s -> exists"
@@ -78,9 +81,9 @@ CONCLUSIONS = {
     " of_s.",
     NAMED: f"Descent.domain {WORDS} -> {settles('Contraction.point', WORDS)} /\\",
 }
-# A contraction, a Lyapunov function, one of instability, an escape, the orbits of a relation, and
-# those of a map by one that makes two of its steps at once.
-COMPILED = [*CONCLUSIONS] if MANY else [SHARP, SHIFTED, TURNED, CYCLE, INPUT, RETURNED]
+# A contraction, a Lyapunov function, one of instability, an escape, the orbits of a relation, those
+# that repeat a word while a rank falls, and those of a map by one that makes two steps at once.
+COMPILED = [*CONCLUSIONS] if MANY else [SHARP, SHIFTED, TURNED, CYCLE, INPUT, NEARER, RETURNED]
 
 
 def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
@@ -240,6 +243,12 @@ def test_rejects_a_forged_certificate(
             (SHARP, "then image_1 a of_s\n  else of_s", "then of_s\n  else image_1 a of_s"),
             (PLANE, "(x / 4, (x + y) / 4)", "(x / 4, (x - y) / 4)"),
             (CYCLE, "(a + 1 - u) / (2 * a)", "(a + 1 + u) / (3 * a)"),
+            (
+                NEARER,
+                "rank_1 (a : R) (x : State) : R :=\n  x.",
+                "rank_1 (a x : R) : R :=\n  x / 2.",
+            ),
+            (NEARER, "(1 :: nil)%nat 0%nat 0%nat 1%nat", "(1 :: nil)%nat 0%nat 0%nat 0%nat"),
             (RETURNED, "9 + 10 / x", "9 + 9 / x"),
             (RETURNED, "1%nat => (1 :: 2 :: nil)%nat", "1%nat => (1 :: nil)%nat"),
             (INPUT, "- a <= u /\\ u <= a /\\ x < 1.", "u <= a /\\ x < 1."),
