@@ -14,7 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
@@ -34,6 +34,10 @@ from juggleproof.proofs.stability.samples import Floats, region
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "examples"
 TABLE = Generated(DOCS / "stability.md", "stability")
+PEERS: dict[str, Callable[[], bool]] = {  # each fills a column, which is empty without it
+    "coqc": lambda: shutil.which("coqc") is not None,
+    "cvxpy": lambda: find_spec("cvxpy") is not None,
+}
 HEADS = ("map", "parameters", "outcome", "CPU s", "bytes", "check", "coqc", "SDP")
 SAMPLES = 20  # of the parameters, for the semidefinite program
 MARGIN = 1e-6  # by which it asks for less than P
@@ -89,7 +93,7 @@ def settled(path: Path) -> Settled:
         size = (store / "certificates.jsonl").stat().st_size
         checked, _ = ran(sys.executable, "-I", "-S", ROOT / "certificates/checker", store)
         compiled = None
-        if shutil.which("coqc") and not printed.startswith("unknown"):
+        if PEERS["coqc"]() and not printed.startswith("unknown"):
             ran(*ours, "export", "coq", claims, "-o", folder)
             compiled = 0.0
             for theorem in sorted(folder.glob("S_*.v")):
@@ -150,7 +154,7 @@ def row(path: Path) -> tuple[str, ...]:
         f"{done.size}",
         f"{done.checked:.2g}",
         "" if done.compiled is None else f"{done.compiled:.2g}",
-        quadratic(system) if find_spec("cvxpy") else "",
+        quadratic(system) if PEERS["cvxpy"]() else "",
     )
 
 
@@ -178,6 +182,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.only and options.accept:
         parser.error("--accept goes with the whole table")
+    missing = [name for name, found in PEERS.items() if not found()]
+    if missing and options.accept:
+        parser.error(f"--accept: install {' and '.join(missing)}, of which the table has a column")
     lines = [line(HEADS), line(["---"] * len(HEADS))]
     print("\n".join(lines))
     for path in examples():

@@ -84,3 +84,12 @@ def test_an_example_is_settled_as_the_page_says_holds(
         )
         assert accepted.returncode == 0, accepted.stderr
         assert accepted.stdout.startswith("Axioms:\n")
+
+
+def test_rejects_a_table_with_a_column_that_nothing_fills(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(stability.PEERS, "cvxpy", lambda: False)
+    with pytest.raises(SystemExit):
+        stability.main(["--accept"])
+    assert "install cvxpy, of which the table has a column" in capsys.readouterr().err
