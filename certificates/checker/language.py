@@ -359,6 +359,13 @@ def mapping(text: str, read: Reader) -> tuple[list[str], list[str]]:
     return listed(left, read), listed(right, read)
 
 
+def pieces(text: str, read: Reader) -> list[int]:
+    """Numbers of pieces, each as it is written in one way only."""
+    numbers = [int(k) for k in text.split()]
+    require(text == " ".join(map(str, numbers)), Kind.LINE_SHAPE, text)
+    return numbers
+
+
 def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
     """TERMS, or GUARD -> TERMS, as text."""
     return mapping(text, read) if " -> " in text else ([], listed(text, read))
@@ -388,7 +395,7 @@ LINES = {  # how what follows each keyword is read
     ),
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
     **dict.fromkeys(("value", "rank"), guarded),
-    **dict.fromkeys(("word", "never"), lambda text, read: [int(k) for k in text.split()]),
+    **dict.fromkeys(("word", "never"), pieces),
     **dict.fromkeys(NAMED, lambda text, read: text),
     **dict.fromkeys(
         ("space", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),

@@ -466,7 +466,8 @@ def require_no_other(
     """
     ways, again = ways_on(words, letters, work), {tuple(word) for word in repeated}
     while ways:
-        work.spend(len(ways) * letters)
+        # ends are looked up by each letter, and twice more
+        work.spend((letters + 2) * sum(len(end) // 8 + 4 for end in ways))
         on = {e: {k: to for k, to in way.items() if to in ways} for e, way in ways.items()}
         on = {end: way for end, way in on.items() if way}
         if on == ways:
