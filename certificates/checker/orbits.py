@@ -14,6 +14,7 @@ from .rules import Hint, prove
 from .text import names_in, put
 
 Word = tuple[int, ...]  # pieces of a map, by their numbers from 1 on
+Words = Sequence[Sequence[int]]
 
 
 def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
@@ -450,13 +451,7 @@ def premises_of_return(statement: Statement, known: Known, work: Work) -> Premis
     return premises
 
 
-def require_no_other(
-    words: Sequence[Sequence[int]],
-    repeated: Sequence[Sequence[int]],
-    letters: int,
-    name: str,
-    work: Work,
-) -> None:
+def require_no_other(words: Words, repeated: Words, letters: int, name: str, work: Work) -> None:
     """A sequence without an end, of letters from 1 on, that holds none of the words repeats at last
     one of those that may be repeated.
 
@@ -480,9 +475,7 @@ def require_no_other(
         ways = on
 
 
-def ways_on(
-    words: Sequence[Sequence[int]], letters: int, work: Work
-) -> dict[Word, dict[int, Word]]:
+def ways_on(words: Words, letters: int, work: Work) -> dict[Word, dict[int, Word]]:
     """How sequences that hold none of the words are read a letter at a time: {end: {letter: the end
     that it leads to}}.
 
