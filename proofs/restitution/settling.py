@@ -305,11 +305,11 @@ def every_orbit_but_seven_tends_to_one_of_five() -> list[AnyStatement]:
 
 @claim("restitution-beyond-five-sevenths", "restitution", "5/7 < alpha < a_c", parameters=())
 def every_orbit_tends_to_one_of_six() -> list[AnyStatement]:
-    """For 5/7 < alpha < a_c = 0.7286.. every orbit of H tends to the orbit of one of e_1, .., e_6;
-    all of these are stable.
+    """For alpha between 5/7 and an algebraic number, 0.72863.., every orbit of H tends to the orbit
+    of one of e_1, .., e_6; all of these are stable.
 
-    Between 5/7 and 7287/10000 alpha < a_c just where the impact after 8 flights of the orbit in
-    restitution-unequal would be below the table, so that it exists from a_c on.
+    From 5/7 to 7287/10000 alpha is below that number just where the impact after 8 flights of the
+    orbit in restitution-unequal would be below the table, so that it exists from there on.
     """
     chosen = RANGES["restitution-beyond-five-sevenths"]
     below = term(on_the_orbit(BORN).entries[0]) < 0
