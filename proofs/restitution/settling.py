@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from sympy import Expr, fraction
+from sympy import Expr
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
@@ -27,7 +27,7 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs.paper.names import alpha, always, at, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import RADIUS, WEIGHTS
-from juggleproof.proofs.restitution.unequal import BORN, FLIGHTS, on_the_orbit
+from juggleproof.proofs.restitution.unequal import BORN, cleared, on_the_orbit, turned
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     IMPACT,
@@ -39,7 +39,6 @@ from juggleproof.proofs.theorem.definition import (
     Descent,
     contracts,
     descends,
-    positive,
     spaced,
     the_map,
     tidied,
@@ -48,7 +47,6 @@ from juggleproof.proofs.theorem.definition import (
 )
 from juggleproof.proofs.theorem.orbits import strikes
 from juggleproof.proofs.theorem.stability import is_none_of
-from juggleproof.symbolic.algebra import lowest_terms
 
 STRUCK, FLOWN = PIECES
 
@@ -85,9 +83,7 @@ class Restitutions:
         """
         if not self.repeated:
             return self.of_alpha()
-        above, below = fraction(lowest_terms(self.depth()))
-        sign = 1 if below.subs(symbolic.alpha, self.least) > 0 else -1
-        return self.of_alpha() & positive(sign * above)
+        return self.of_alpha() & cleared(lambda back: -back[0], self.repeated)
 
     def depth(self) -> Expr:
         """How far below the table is the point that the repeated flights bring back."""
@@ -250,7 +246,7 @@ RANGES = {
         "13 14 15 16 24 25 26 34 35 36 45 46 56 121 212 231 232 323 331 2223 2333 3221 11122"
         " 21112 211222 332222 3222111 3321122 32233223 33211112 211221122 332221122 3321123322"
         " 332112332112 12332221123322",
-        FLIGHTS[BORN:] + FLIGHTS[:BORN],
+        turned(BORN),
     ),
 }
 

@@ -74,9 +74,14 @@ def derived_along(name: str, flights: tuple[int, ...], *arguments: int) -> Vecto
     return found
 
 
+def turned(count: int) -> tuple[int, ...]:
+    """The flights that follow one another after so many."""
+    return FLIGHTS[count:] + FLIGHTS[:count]
+
+
 def on_the_orbit(count: int) -> Vector:
     """The impact after so many flights from the start: the first of those that then follow."""
-    return derived_along("normal_periodic_impact", FLIGHTS[count:] + FLIGHTS[:count])
+    return derived_along("normal_periodic_impact", turned(count))
 
 
 START = on_the_orbit(0)
@@ -102,11 +107,10 @@ def divides() -> Formula:
     return found
 
 
-def cleared(margin: Callable[[State], Expr], count: int) -> Formula:
-    """The formula margin > 0 of the impact after so many flights, times its denominator, which has
-    one sign.
+def cleared(margin: Callable[[State], Expr], flights: tuple[int, ...]) -> Formula:
+    """The formula margin > 0 of the impact that the flights bring back, times its denominator,
+    which has one sign.
     """
-    flights = FLIGHTS[count:] + FLIGHTS[:count]
     above, below = fraction(lowest_terms(margin(symbolic.normal_periodic_impact(flights))))
     sign = 1 if below.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
     found: Formula = made_by(Origin("normal_periodic_impact", (flights,)), positive(sign * above))
@@ -129,8 +133,8 @@ def moved(count: int, times: int = 0) -> Term:
 
 
 DOMAIN = divides()
-EXISTS = opposite(cleared(lambda born: -born[0], BORN)) & cleared(
-    lambda dies: dies[1] - dies[0], DIES
+EXISTS = opposite(cleared(lambda born: -born[0], turned(BORN))) & cleared(
+    lambda dies: dies[1] - dies[0], turned(DIES)
 )
 BESIDE = replace(
     NORMAL,

@@ -177,6 +177,15 @@ def two(old: str, new: str) -> str:
     return edited(up_to(TWO, "two/settles"), "settles", old, new)
 
 
+def assert_fails_at(premise: str, text: str, whole: str, name: str) -> None:
+    """The premise of the statement has no proof in the text, and the proof in the whole is none."""
+    found = searched(text)
+    assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
+    outcome, reason = checked(text, {**found, name: searched(whole)[name]})[name]
+    assert outcome == "rejected" and reason is not None
+    assert reason.place == f"premise {premise} of {name}" or reason.kind is Kind.PREMISES
+
+
 def test_every_orbit_tends_to_one_of_two_points_holds() -> None:
     results = checked(TWO, searched(TWO))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
@@ -194,12 +203,7 @@ def test_one_attractor_is_enough_holds() -> None:
 def test_two_points_attract_every_state_fails_without_its_premise(
     kind: str, old: str, new: str, premise: str
 ) -> None:
-    text, name = edited(up_to(TWO, "two/settles"), kind, old, new), "two/settles"
-    found = searched(text)
-    assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, {**found, name: searched(TWO)[name]})[name]
-    assert outcome == "rejected" and reason is not None
-    assert reason.place == f"premise {premise} of {name}" or reason.kind is Kind.PREMISES
+    assert_fails_at(premise, edited(up_to(TWO, "two/settles"), kind, old, new), TWO, "two/settles")
 
 
 @pytest.mark.parametrize(("old", "new", "expected"), MALFORMED)
@@ -223,12 +227,7 @@ def test_words_that_no_orbit_repeats_for_ever_are_enough_holds() -> None:
 def test_one_point_attracts_every_state_fails_without_its_premise(
     old: str, new: str, premise: str
 ) -> None:
-    text, name = edited(NEARER, "settles", old, new), "near/settles"
-    found = searched(text)
-    assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, {**found, name: searched(NEARER)[name]})[name]
-    assert outcome == "rejected" and reason is not None
-    assert reason.place == f"premise {premise} of {name}" or reason.kind is Kind.PREMISES
+    assert_fails_at(premise, edited(NEARER, "settles", old, new), NEARER, "near/settles")
 
 
 @pytest.mark.parametrize(("old", "new", "expected"), OTHER_RANKS)
