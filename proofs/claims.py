@@ -24,6 +24,7 @@ from juggleproof.certificates.language import (
     Statement,
     Term,
 )
+from juggleproof.proofs.conclusions import PROVED, REFUTED
 from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
 from juggleproof.proofs.reading import meaning
 from juggleproof.proofs.reading.values import Matrix, Vector
@@ -144,7 +145,7 @@ class CheckedApart:
         for name in (*lost, *self.sentences):
             outcome, reason = found.get(name, ("unknown", "it is not stored"))
             if outcome == "refuted":
-                return Verdict("false", f"refuted by {self.checker}: {name}")
+                return Verdict("false", f"{REFUTED} by {self.checker}: {name}")
             if outcome != "certified":
                 why = f"{outcome}: {reason}" if reason else outcome
                 return Verdict("unknown", f"not certified by {self.checker}: {name}: {why}")
@@ -466,7 +467,15 @@ def claim_named(text: str, known: Collection[str]) -> str:
 # -------------------------------------------------------------------------------------------------
 # From the outcomes of statements, which the checker accepted, to the verdict on a print.
 
-VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "simulated", "unknown")
+VERDICTS = {  # and what each means
+    "holds": "true as printed, with a certificate",
+    "misprint": "false as printed, certified with some marks of the print changed",
+    "false": f"{REFUTED}; where a true assertion nearby is known, it stands beside",
+    "gap": f"a step of the argument is {REFUTED}; the conclusion may stand by another route",
+    "ambiguous": "can be read in several ways, and not all of them are true",
+    "simulated": f"what a simulation shows, with its figures; nothing is {PROVED}",
+    "unknown": "open: not settled, or not stated, which says nothing",
+}
 
 
 @dataclass(frozen=True)
@@ -547,7 +556,7 @@ def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str)
     broken = [name for name, one in steps.items() if one == "false"]
     if conclusion == "false":
         return Verdict(
-            "false", "its conclusion is refuted" + (f", and step {broken[0]}" if broken else "")
+            "false", f"its conclusion is {REFUTED}" + (f", and step {broken[0]}" if broken else "")
         )
     if broken:
         if conclusion == "holds":

@@ -315,8 +315,8 @@ class Judge:
         for name in lemmas:
             if name not in premises or premises[name].get("exists"):
                 raise ClaimError(
-                    f"{rule.name}: the line `lemma {name}: ..` names no premise that is proved;"
-                    f" name one of {', '.join(one for one in premises if one != 'possible')}"
+                    f"{rule.name}: the line `lemma {name}: ..` names no premise; name one"
+                    f" of {', '.join(one for one in premises if one != 'possible')}"
                 )
         answers: dict[str, tuple[Vote, Model | None]] = {}
 

@@ -29,7 +29,7 @@ from .algebra import (
     BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, number,
     variable,
 )
-from .text import Definitions, names_in, parse, rational
+from .text import Definitions, names_in, parse, put, rational
 from .language import (
     NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
     read_statements, univariate, variables_of,
@@ -51,6 +51,6 @@ __all__ = [
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "NAMED", "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
-    "join", "names_in", "negate", "number", "parse", "rational", "read_statements",
+    "join", "names_in", "negate", "number", "parse", "put", "rational", "read_statements",
     "univariate", "variable", "variables_of",
 ]

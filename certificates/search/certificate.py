@@ -191,7 +191,7 @@ def with_point(
         point = point_or_counterexample(statement, "point", known, budget, depth, roles)
         if point is not None:
             return {"certified": proof, "point": point}
-    return {"unknown": "proved, but no point was found that meets the hypotheses"}
+    return {"unknown": "shown, but no point was found that meets the hypotheses"}
 
 
 def point_or_counterexample(

@@ -15,10 +15,10 @@ from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs import paper
 from juggleproof.proofs.claims import CheckedApart, Claim, claim_named
 from juggleproof.proofs.command.outputs import busy
+from juggleproof.proofs.conclusions import REFUTED, RULES, conclusion
 from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
-from juggleproof.proofs.orbit_rules import RULES, conclusion
 from juggleproof.proofs.reports.errata import counterexample, words_of
 from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
@@ -128,7 +128,7 @@ def _statement(
         print(f"    {line}")
     if outcome == "refuted":
         refuted = certificate["refuted"]
-        print(f"    -> refuted at {counterexample(refuted)}")
+        print(f"    -> {REFUTED} at {counterexample(refuted)}")
         words = words_of(text, refuted, of_paper)
         if words:
             print(f"       {words}")

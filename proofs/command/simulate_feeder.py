@@ -159,7 +159,7 @@ def _written(result: Shown, path: Path | None) -> None:
 
 def _told(result: Shown) -> None:
     """Title and columns."""
-    print(f"{result.title()}.  Simulated, not proved.")
+    print(f"{result.title()}.  Simulated: no certificate.")
     columns = result.columns()
     rows = [
         [f"{value:.6g}" if isinstance(value, float) else str(value) for value in row]
@@ -218,7 +218,7 @@ def _trajectory(options: FeederOptions, executor: Executor | None) -> int:
         else np.array(axis(options.times, "--times", MOST_TIMES))
     )
     found = trajectories(setting, _named(options, setting), times, executor)
-    print(f"{found.title()}.  Simulated, not proved.")
+    print(f"{found.title()}.  Simulated: no certificate.")
     draw(
         ("part", "theta at first", "theta at last", "X at last", "at last"),
         _ends(found),

@@ -99,7 +99,7 @@ def _add_juggler(scenes: Commands) -> None:
         default="exact",
         metavar="A",
         help=(
-            "exact, enclosed (balls), mp (mpmath) or fast (float64 with proved bounds); default:"
+            "exact, enclosed (balls), mp (mpmath) or fast (float64 with error bounds); default:"
             " exact"
         ),
     )
@@ -165,7 +165,7 @@ def _add_juggler(scenes: Commands) -> None:
     words.add_argument(
         "--word",
         metavar="W",
-        help="flights such as 1,2: the periodic orbit, for which alpha it exists and attracts",
+        help="flights such as 1,2: the periodic orbit, and for which alpha it exists",
     )
     words.add_argument(
         "--hard-cases", action="store_true", help="the cases at which floats go wrong or might"
@@ -182,7 +182,7 @@ def add_part(scenes: Commands) -> None:
         "part",
         help=(
             "the part-orienting scene of section 2.1: table I, figure 2, the still table"
-            " (simulated, not proved)"
+            " (simulated)"
         ),
     )
     wish = part.add_argument_group("what is computed (default: table I, beside the paper's)")

@@ -35,6 +35,7 @@ from juggleproof.certificates.sine.search import find_certificate, line_of
 from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, fault_of_folder, now_and_then
+from juggleproof.proofs.conclusions import STABLE
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import exact
 from juggleproof.scenes import table
@@ -206,7 +207,7 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
     if not low:
         raise ClaimError(f"--gamma {gamma}: a table at rest drives nothing; begin above 0")
     return (
-        f"the period-one bounce is stable and {EVERY} to it for all"
+        f"the period-one bounce is {STABLE} and {EVERY} to it for all"
         f" alpha in [{a_low}, {a_high}] and Gamma in [{low}, {high}]"
     )
 

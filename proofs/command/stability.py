@@ -11,28 +11,21 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.certificates.store import certificate_lines, comment, write_file, write_store
 from juggleproof.proofs.command.outputs import busy
-from juggleproof.proofs.orbit_rules import conclusion
+from juggleproof.proofs.conclusions import conclusion
 from juggleproof.proofs.run import claims_of_file
 from juggleproof.proofs.stability.claiming import as_claims
+from juggleproof.proofs.stability.findings import MapVerdict
 from juggleproof.proofs.stability.given import Map, of_rule, pairs_of, read_file
 from juggleproof.proofs.stability.search import Outcome, search_stability
 
-HEADS = {
-    "exactly": "proved",
-    "stable": "proved",
-    "refuted": "refuted",
-    "region": "in part",
-    "unknown": "unknown",
-}
-
 
 def command(parsed: argparse.Namespace) -> int:
-    """Settles every map of the file; 0 where each has a fixed point that is certified to be stable
-    and to attract every state, else 1.
+    """Settles every map of the file; the exit code is that of the verdict that says least: 0 where
+    all are proved for the whole domain and space, 3 where some are in part, else 1.
 
     Raises ClaimError, one line, for what cannot be read or written.
     """
-    code = 0
+    codes = set()
     for count, system in enumerate(maps_of(parsed.file)):
         if count:
             print()
@@ -41,8 +34,8 @@ def command(parsed: argparse.Namespace) -> int:
         print("\n".join(lines_of(system, found, parsed.tried)))
         if parsed.output is not None and found.proof.rules:
             write(parsed.output, system.name, found)
-        code = max(code, int(HEADS[found.verdict] != "proved"))
-    return code
+        codes.add(found.finding.verdict.exit_code)
+    return next(code for code in (1, 3, 0) if code in codes)
 
 
 def maps_of(path: Path) -> list[Map]:
@@ -86,15 +79,16 @@ def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
     """What was found, as lines."""
     name = system.name
     texts = {rule.name: MapRule(rule.name, rule.rows).text() for rule in found.proof.rules}
-    sentence = found.sentence or "no fixed point was certified to be stable, or not to be"
-    yield f"{HEADS[found.verdict]:8} {name}: {sentence}"
+    verdict = found.finding.verdict
+    yield f"{verdict:8} {name}: {found.finding.sentence}"
     for rule in found.proof.rules:
         kind = found.proof.known[rule.name].kind
         yield f"  {rule.name.rpartition('/')[2]}: {conclusion(kind, rule.name, texts)}"
-    if found.tried and (tried or found.verdict == "unknown"):
+    if found.tried and (tried or verdict is MapVerdict.UNKNOWN):
         yield "tried"
         yield from (textwrap.indent(line, "  ") for line in found.tried)
-    if HEADS[found.verdict] in ("unknown", "in part") and system.parameters and texts:
+    less = verdict is MapVerdict.UNKNOWN or found.finding.attracted
+    if less and system.parameters and texts:
         yield f"advice   with numbers in place of {', '.join(system.parameters)} more may be found"
     size = len(certificate_lines(found.proof.certificates))
     count = f"{len(texts)} statement{'' if len(texts) == 1 else 's'}"
@@ -108,7 +102,7 @@ def write(folder: Path, name: str, found: Outcome) -> None:
     """
     path = folder / f"{name.replace('-', '_')}.py"
     write_file(path, as_claims(name, found).encode())
-    blocks = [comment(found.sentence), *(rule.text() for rule in found.proof.rules)]
+    blocks = [comment(found.finding.sentence), *(rule.text() for rule in found.proof.rules)]
     statements = "\n\n".join(block for block in blocks if block) + "\n"
     store = path.with_suffix(".certificates")
     write_store(store, statements, {name: found.proof.certificates})

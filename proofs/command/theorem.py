@@ -6,9 +6,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates.language import ClaimError, term
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.claims import claims_in
+from juggleproof.proofs.conclusions import ATTRACTS, STABLE
 from juggleproof.proofs.paper.names import derived_vector
 from juggleproof.proofs.reports.tables import DIGITS, components, exact, shown
-from juggleproof.proofs.theorem import quantities
+from juggleproof.proofs.run import judge_some
+from juggleproof.proofs.theorem import quantities, stability
 from juggleproof.proofs.theorem.definition import (
     FIXED,
     NEARBY,
@@ -257,8 +261,20 @@ def explain_state(alpha_text: str, state_text: str) -> int:
     return 0
 
 
+def _confirm(*ids: str) -> None:
+    """Has the checker read the certificates of these claims.
+
+    Raises ClaimError, one line, where one does not hold.
+    """
+    claims = claims_in([stability.__name__])
+    for one in judge_some([claim for claim in claims if claim.id in ids], claims, DEFAULT):
+        if one.verdict.word != "holds":
+            raise ClaimError(f"{DEFAULT}: {one.id} is not certified; run `juggleproof certify`")
+
+
 def _certified(state: State) -> None:
     claim = "theorem" if quantities.attracted(state.alpha) else "theorem-one-third"
+    _confirm(claim, "theorem-sharper", "theorem-closed-form")
     plain, sharper, best = (
         quantities.by_the_theorem(state),
         quantities.best_way(state),
@@ -375,6 +391,7 @@ def later(state: State, periods: int) -> State:
 
 
 def _not_certified(state: State) -> None:
+    _confirm("theorem", "theorem-one-third", "theorem-nearby")
     other = state.moved(OTHER)
     print(
         "certified   theorem/escapes: from alpha = 1/3 on e_1 is not globally attracting, for the"
@@ -383,13 +400,13 @@ def _not_certified(state: State) -> None:
     print(f"      x = {shown(other.x)}, w = {shown(other.w)}, an impact and a flight by turns")
     if quantities.is_exception(state):
         print(
-            "  theorem-one-third/attracts: at alpha = 1/3 e_1 is stable and attracts all states but"
-            " three, of which this is one"
+            f"  theorem-one-third/attracts: at alpha = 1/3 e_1 is {STABLE} and {ATTRACTS} all"
+            " states but three, and this is one of them"
         )
     radii = (shown(value_of(weight * NEARBY.radius, state.point())) for weight in NEARBY.weights)
     print(
-        "  theorem-nearby/contracts: e_1 is stable, and attracts all states within {} in x and {}"
-        " in w of it".format(*radii)
+        f"  theorem-nearby/contracts: e_1 is {STABLE}, and {ATTRACTS} all states within"
+        f" {next(radii)} in x and {next(radii)} in w of it"
     )
     print()
     orbit, turn, end = follow(state)

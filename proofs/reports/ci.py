@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import PurePath
 from xml.etree import ElementTree
 
+from juggleproof.proofs.conclusions import PROVED, REFUTED
 from juggleproof.proofs.register import FIELDS, Change
 from juggleproof.proofs.reports.contents import Contents, results_of
 from juggleproof.proofs.reports.errata import GROUPS, WRONG
@@ -47,7 +48,7 @@ def message_of(results: Results) -> tuple[str, str]:
             f"{holds} of {count} {'holds' if holds == 1 else 'hold'}, {unknown} unknown",
             BAD if results.exit else GOOD,
         )
-    words = [f"theorem {'' if results.is_proved else 'NOT '}proved", claims]
+    words = [f"theorem {'' if results.is_proved else 'NOT '}{PROVED}", claims]
     if results.changes and not results.accepted:
         words.append(f"{len(results.changes)} changed")
     if results.rejected:
@@ -164,7 +165,7 @@ def _failure(one: Result, change: Change | None, results: Results) -> tuple[str,
     return "", ""
 
 
-NEITHER = "neither proved nor refuted"
+NEITHER = f"neither {PROVED} nor {REFUTED}"
 
 
 def verdict_line(one: Result) -> str:
@@ -319,7 +320,7 @@ def _head(results: Results) -> list[str]:
 
 def _title(results: Results) -> str:
     if not results.own:
-        return "The theorem is proved" if results.is_proved else "The theorem is NOT proved"
+        return f"The theorem is {'' if results.is_proved else 'NOT '}{PROVED}"
     holds = results.verdicts()["holds"]
     return f"{holds} of {_many(len(results.claims), 'claim')} {'holds' if holds == 1 else 'hold'}"
 
@@ -337,7 +338,7 @@ def _unknown(results: Results) -> list[str]:
     if not open_claims:
         return []
     return [
-        f"## Unknown ({len(open_claims)}): neither proved nor refuted",
+        f"## Unknown ({len(open_claims)}): {NEITHER}",
         "",
         *(
             f"- **{escaped(one.id)}**{_place(one)}:"

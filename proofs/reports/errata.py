@@ -15,7 +15,8 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
-from juggleproof.proofs.claims import Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.proofs.claims import VERDICTS, Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.proofs.conclusions import REFUTED
 from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.evaluating import numbers_at, value_at
 from juggleproof.proofs.judgement import Correction, Finding
@@ -27,13 +28,12 @@ from juggleproof.proofs.reports.in_words import in_words
 
 THEOREM = "theorem-in-units"  # the claim on which those of section 4 rest
 ERRORS = ("misprint", "false", "gap")
-HEAD = """\
+LEGEND = "\n".join(f"  {word:8}  {VERDICTS[word]}" for word in ERRORS)
+HEAD = f"""\
 What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
 values at which it fails,
 with what is so there in words.
-  misprint  false as printed, certified with some marks of the print changed
-  false     refuted; where a true assertion nearby is known, it stands beside
-  gap       a step of the argument is refuted; the conclusion may stand by another route
+{LEGEND}
 alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
 ball's height and velocity when the table is
 at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
@@ -357,7 +357,7 @@ def what_is_wrong(
             for name, word in readings.items()
         ]
     for pattern, wording in (
-        (r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"),
+        (rf"^its conclusion is {REFUTED}(, and)?", r"the conclusion is false\1"),
         (r", and (step .*)", r", and so is \1"),
         (r"^step (.*,.*) is false", r"steps \1 are false"),
         ("conclusion open", "the conclusion stays open"),

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
+from juggleproof.proofs.claims import VERDICTS
+from juggleproof.proofs.conclusions import RULES
 from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.ledger.places import place_of
@@ -41,30 +43,7 @@ if TYPE_CHECKING:
 # characters: a longer certificate is shown in the theorem's tree only, and else named by where
 # it stands
 LONGEST = 300
-VERDICTS = {  # word -> symbol, and what it means
-    "holds": ("✓", "true as printed, with a certificate"),
-    "misprint": ("✎", "false as printed, certified with some marks of the print changed"),
-    "false": ("✗", "refuted; where a true assertion nearby is known, it stands beside"),
-    "gap": ("⋯", "a step of the argument is refuted; the conclusion may stand by another route"),
-    "ambiguous": ("⇄", "can be read in several ways, and not all of them are true"),
-    "simulated": ("≈", "what a simulation shows, with its figures; nothing is proved"),
-    "unknown": ("?", "open: not settled, or not stated, which says nothing"),
-}
-KINDS = {  # kind of rule -> what it says, in a few words
-    "exactly": "stable and attracting for these alpha only",
-    "attracts": "every orbit tends to the point",
-    "escapes": "a periodic orbit stays away",
-    "settles": "every orbit tends to one of several points",
-    "returns": "every orbit tends to one of several orbits",
-    "descends": "a falling rank leads to the trap",
-    "into": "a falling rank leads to a smaller space, where every orbit tends to the point",
-    "contracts": "orbits in the trap close in on the point",
-    "lyapunov": "a function falls along every orbit to the point",
-    "unstable": "a function grows near the point, which is not stable",
-    "iterates": "the iterates of a map",
-    "map": "a map of the space into itself, piece by piece",
-    "relation": "the next states of each state, piece by piece",
-}
+MARKS_OF_VERDICTS = dict(zip(VERDICTS, "✓✎✗⋯⇄≈?"))
 
 
 @dataclass(frozen=True)
@@ -390,7 +369,7 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
         Node(
             rule.name,
             rule.name,
-            KINDS.get(rule.kind, rule.kind),
+            RULES[rule.kind].label,
             f"#rule-{rule.name}",
             rule.outcome,
             tuple(
@@ -563,8 +542,8 @@ def _shown(
         "impact_law": [
             entry.verdict for entry in contents.entries if entry.claim.section == "part"
         ],
-        "verdicts": VERDICTS,
-        "kinds": KINDS,
+        "verdicts": {word: (MARKS_OF_VERDICTS[word], means) for word, means in VERDICTS.items()},
+        "kinds": {kind: rule.label for kind, rule in RULES.items()},
         "section_title": section_title,
         "headline": headline[:1].upper() + headline[1:],
         "further": list(map(markup.line, further)),

@@ -14,6 +14,7 @@ from pathlib import Path
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, CheckedApart, Claim
+from juggleproof.proofs.conclusions import REFUTED
 from juggleproof.proofs.judgement import Finding
 from juggleproof.proofs.ledger.ledger import UNPRINTED
 from juggleproof.proofs.ledger.places import place_of
@@ -40,7 +41,7 @@ def summary() -> str:
         f"{len(register)} claims: "
         + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
         + f".\n{outcomes.total()} statements: {outcomes['certified']} certified,"
-        f" {outcomes['refuted']} refuted, {outcomes['unknown']} open."
+        f" {outcomes[REFUTED]} {REFUTED}, {outcomes['unknown']} open."
         f" The paper does not print {len(register.keys() & UNPRINTED)} of the claims."
     )
 

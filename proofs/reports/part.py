@@ -104,7 +104,7 @@ def table(computed: Table, setting: Scene, amplitudes: str) -> None:
     count = len(computed.rows[0].chaotic)
     print(
         f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks,"
-        f" {computed.rows[0].horizon:g} s each.  Simulated, not proved."
+        f" {computed.rows[0].horizon:g} s each.  Simulated: no certificate."
     )
     draw(
         ("along the table", "paper", "median", "16 to 84 %", "chaotic", "censored"),

@@ -38,7 +38,7 @@ from juggleproof.proofs.reports.errata import (
     words_of,
 )
 from juggleproof.proofs.reports.tables import plain
-from juggleproof.proofs.reports.tree import theorem_line
+from juggleproof.proofs.reports.tree import STANDS, theorem_line
 from juggleproof.proofs.run import Run
 
 # -------------------------------------------------------------------------------------------------
@@ -243,7 +243,6 @@ def summary(judgements: Sequence[Judgement]) -> str:
 # same for both.
 
 OUTCOMES = ("certified", "refuted", "unknown", "rejected")
-PROVED = "theorem: proved "
 NO_VALUES = "every value: the negation is certified"
 
 
@@ -332,7 +331,7 @@ class Results:
     @property
     def is_proved(self) -> bool:
         """Whether the theorem is proved."""
-        return self.theorem.startswith(PROVED)
+        return self.theorem.startswith(STANDS)
 
     @property
     def exit(self) -> int:

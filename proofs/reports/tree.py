@@ -11,9 +11,10 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote
+from juggleproof.proofs.conclusions import PROVED
 from juggleproof.proofs.theorem import DIGEST, SENTENCE, THEOREM
 
-LOST = "theorem: NOT proved"
+STANDS, LOST = f"theorem: {PROVED}", f"theorem: NOT {PROVED}"
 
 
 def rules_of(store: Store) -> dict[str, checker.Statement]:
@@ -80,7 +81,7 @@ def theorem_line(
     count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
     kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
     return (
-        f"theorem: proved by exact certificates: {SENTENCE};\n         {THEOREM} rests on"
+        f"{STANDS} by exact certificates: {SENTENCE};\n         {THEOREM} rests on"
         f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
         f" {kinds}"
         + (

@@ -23,6 +23,7 @@ from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.first.stages import certificates_in_turn
 from juggleproof.certificates.store import Store, write_store
 from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.conclusions import REFUTED
 from juggleproof.proofs.smtlib.script import Problem, problems_of_file
 from juggleproof.proofs.smtlib.statements import denial, givens, statement_of
 
@@ -186,7 +187,7 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
 # beside each.
 
 TITLE = (
-    "What the problems of {} come to: certified says unsat, refuted says sat;"
+    f"What the problems of {{}} come to: certified says unsat, {REFUTED} says sat;"
     " certificates/checker reads this file and believes nothing else."
 )
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.certifying import beyond, is_certified
+from juggleproof.proofs.stability.findings import Meaning
 from juggleproof.proofs.stability.given import (
     HIGH,
     LOW,
@@ -52,14 +53,13 @@ class Renamed:
     parameter: str
     term: str
 
-    def sentence(self) -> str:
-        """What the old parameter is."""
-        return f"here {self.parameter} = {self.term}"
-
-    def doubt(self, before: Map) -> str:
-        """What samples alone say."""
-        each = f"each {self.parameter} has one such {self.name()}"
-        return "" if has_one_point(before, self) else f", where samples alone say that {each}"
+    def meaning(self, before: Map) -> Meaning:
+        """What the old parameter is, and whether each of its values has a point."""
+        says, one = f"here {self.parameter} = {self.term}", f"one such {self.name()}"
+        if has_one_point(before, self):
+            return Meaning(says, certified=True)
+        doubt = f"where samples alone say that each {self.parameter} has {one}"
+        return Meaning(f"{says}, {doubt}", certified=False)
 
     def name(self) -> str:
         """The parameter that the old one makes room for."""

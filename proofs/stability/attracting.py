@@ -85,15 +85,19 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     """Whether the point is certified to be stable and to attract every state, of the space or of a
     box that all orbits enter.
     """
-    boxes = boxes_of(setting.system)
+    boxes, count = boxes_of(setting.system), len(proof.rules)
     part = within(setting, boxes[-1]) if boxes else setting
     if not by_shape(proof, part, log):
         if not boxes and any(in_entered(proof, setting, far, log) for far in (False, True)):
             return True
         if not by_samples(proof, part, log):
             return False
-    rules = entering_rules(setting, boxes, setting.system.name) if boxes else []
-    return proof.add_all(rules, EFFORTS, log)
+    if boxes:
+        setting = replace(setting, domain=proof.domain())
+        if not proof.add_all(entering_rules(setting, boxes, setting.system.name), EFFORTS, log):
+            proof.keep(count)
+            return False
+    return True
 
 
 def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
@@ -105,7 +109,8 @@ def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
     part = replace(part, have=known_of(part))
     if not proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
         if by_shape(proof, part, log):
-            if proof.add_all(rules_into(setting, spaces), EFFORTS, log):
+            inside = replace(setting, domain=proof.domain())
+            if proof.add_all(rules_into(inside, spaces), EFFORTS, log):
                 return True
     proof.keep(count)
     return False
@@ -178,7 +183,8 @@ def certified_on(
     inside = replace(rule, rows=(("map", name), *rule.rows[1:]))
     if not setting.outer and not proof.add(part.system.rule(name)):
         if not tried(proof, inside, (1, 2), BOX_BUDGET, log, searches=searches):
-            if proof.add_all(rules_into(setting, [space]), EFFORTS, log):
+            licensed = replace(setting, domain=proof.domain())
+            if proof.add_all(rules_into(licensed, [space]), EFFORTS, log):
                 return True
     proof.keep(count)
     return False

@@ -25,6 +25,7 @@ from juggleproof.proofs.stability.algebraic import (
     without_divisors,
     zeros_inside,
 )
+from juggleproof.proofs.stability.findings import Meaning
 from juggleproof.proofs.stability.given import (
     Expr,
     Map,
@@ -50,14 +51,13 @@ class WithEquation:
     polynomial: Expr
     where: str  # what tells it from the other zeros
 
-    def sentence(self) -> str:
-        """What the name stands for."""
+    def meaning(self, before: Map) -> Meaning:
+        """What the name stands for, and whether there is such a zero for all parameters."""
         which = "" if self.where == ANYWHERE else f" with {self.where}"
-        return f"here {self.name} is the zero of {written(self.polynomial)}{which}"
-
-    def doubt(self, before: Map) -> str:
-        """What samples alone say."""
-        return "" if has_a_zero(before, self) else ", where samples alone say that there is one"
+        says = f"here {self.name} is the zero of {written(self.polynomial)}{which}"
+        if has_a_zero(before, self):
+            return Meaning(says, certified=True)
+        return Meaning(f"{says}, where samples alone say that there is one", certified=False)
 
 
 def by_an_equation(system: Map) -> WithEquation | Renamed | None:

@@ -105,8 +105,9 @@ class Proof:
         return f"{name}-{count + 1}" if count else name
 
     def domain(self) -> str:
-        """For which parameters the last statement holds."""
-        return dict(self.rules[-1].rows)["domain"]
+        """For which parameters the last statement with a domain holds."""
+        rows = (dict(rule.rows) for rule in reversed(self.rules))
+        return next(each["domain"] for each in rows if "domain" in each)
 
     def add_all(
         self,
@@ -230,12 +231,6 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
         if not is_certified([f"forall {' '.join(parameters)}", *facts, f"show {condition}"]):
             open_.append(condition)
     return " and ".join(open_)
-
-
-def where_open(given: str, domain: str, parameters: Sequence[str]) -> str:
-    """The same as the beginning of a sentence."""
-    where = beyond(given, domain, parameters)
-    return f"at least where {where}, " if where else ""
 
 
 def is_certified(lines: Sequence[str], budget: int = BUDGET) -> bool:

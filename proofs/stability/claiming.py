@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from juggleproof.certificates.language import ClaimError, MapRule
+from juggleproof.proofs.stability.findings import MapVerdict
 from juggleproof.proofs.stability.given import of_rule
 from juggleproof.proofs.stability.search import Outcome, search_stability
 
@@ -16,8 +17,8 @@ def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
     found: what a claim returns whose map alone is given.
 
     The map has the name of the claim, since the statements refer to each other by it; `point` names
-    the fixed point by its terms, where there are several.  Raises ClaimError, one line, where the
-    point is not found to be stable.
+    the fixed point by its terms, where there are several.  Raises ClaimError, one line, where that
+    is not certified for the whole domain and space of the map.
 
     >>> from juggleproof.proofs.stability.claiming import stability
     >>> tent = MapRule("tent", (("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x"),
@@ -26,9 +27,11 @@ def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
     ['map', 'lyapunov']
     """
     found = search_stability(of_rule(rule, point=point))
-    if found.verdict not in ("exactly", "stable"):
-        what = found.sentence or "no fixed point was found to be stable"
-        raise ClaimError(f"{rule.name}: {what}; `juggleproof stability` tells what was tried")
+    verdict, sentence = found.finding.verdict, found.finding.sentence
+    if verdict is not MapVerdict.PROVED:
+        raise ClaimError(
+            f"{rule.name}: {verdict}: {sentence}; `juggleproof stability` tells what was tried"
+        )
     return [replace(one, name=one.name.rpartition("/")[2]) for one in found.proof.rules]
 
 
@@ -39,7 +42,7 @@ def as_claims(name: str, found: Outcome) -> str:
         rows += [f'        MapRule("{rule.name.rpartition("/")[2]}", (']
         rows += [f"            {line!r}," for line in rule.rows]
         rows += ["        )),"]
-    says = found.sentence.replace('"', "'") or "What is known of the map."
+    says = found.finding.sentence.replace('"', "'")
     return "\n".join(
         [
             "from juggleproof import MapRule, claim",

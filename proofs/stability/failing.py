@@ -8,22 +8,16 @@ import ast
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
-import sympy
-
 from juggleproof.certificates import checker
-from juggleproof.certificates.cases import ANYWHERE, conjunction
+from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.definitions import term_of
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report, is_certified
+from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report
 from juggleproof.proofs.stability.entering import entering_rules
+from juggleproof.proofs.stability.findings import is_fixed_point
 from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
 from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import (
-    Map,
-    conjuncts,
-    negation,
-    written,
-)
+from juggleproof.proofs.stability.given import Map, conjuncts, negation
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.refuting import (
     escape_rules,
@@ -35,7 +29,7 @@ from juggleproof.proofs.stability.settings import setting_of
 
 GROWTH_ROUNDS, GROWTH_WORK = (((1, 2), 50_000), (EFFORTS, 400_000)), 2_000_000  # for instability
 MOST_RATES = 6  # of growth
-Way = Callable[[Proof, Setting, Report], str]
+Way = Callable[[Proof, Setting, Report], bool]
 COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
 
 
@@ -96,51 +90,45 @@ def sharp(
     return True
 
 
-def by_orbit(proof: Proof, setting: Setting, log: Report) -> str:
-    """An orbit that samples tend to, or another fixed point, that the point does not attract, or
-    nothing.
+def by_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether an orbit is certified that the point does not attract: one that samples tend to, or
+    another fixed point.
     """
     fixed = [(k,) for k in range(len(setting.system.pieces))]
     return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
 
 
-def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> str:
-    """A short periodic orbit, stable or not, or nothing."""
+def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
+    """The same of a short periodic orbit, which may repel."""
     return escaped(proof, setting, short_words(setting), log)
 
 
-def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> str:
-    """A periodic orbit along one of these words, or nothing."""
+def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> bool:
+    """Whether a periodic orbit along one of these words is certified."""
     name = proof.free_name(f"{setting.system.name}/escapes")
     for count, rule in enumerate(escape_rules(setting, name, words)):
         if not count and not is_fixed(setting):
             log("it is not certified that the point is a fixed point")
-            return ""
+            return False
         fault = proof.add(rule)
         said = dict(rule.rows)
         roots = "".join(f", {text}" for keyword, text in rule.rows if keyword == "root")
         log(f"orbit of {said['start']}{roots}, along {said['word']}: {fault or 'certified'}")
         if not fault:
-            what = "periodic" if " " in said["word"] else "a fixed point"
-            return f"does not attract {in_brackets(said['start'])}, which is {what}"
-    return ""
+            return True
+    return False
 
 
 def is_fixed(setting: Setting) -> bool:
-    """Whether the checker accepts that the point is in the space, and a fixed point: what the rule
-    `escapes` concludes holds of any other state too.
+    """Whether it is certified that the point is a fixed point: what the rule `escapes` concludes
+    holds of any other state too.
     """
-    system, (guard, _) = setting.system, setting.system.pieces[setting.piece]
-    shown = []
-    for name, image in zip(system.state, system.images[setting.piece]):
-        above, below = map(written, sympy.fraction(sympy.together(image)))
-        shown += [f"{below} != 0", f"{above} = {name}*({below})"]
-    known = [f"have {system.space}"] if system.space != ANYWHERE else []  # guards may divide
-    return is_certified([*setting.head, *known, f"show {conjunction(guard, *shown)}"])
+    system, (guard, images) = setting.system, setting.system.pieces[setting.piece]
+    return is_fixed_point(setting.head, system.space, guard, images, system.state)
 
 
-def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
-    """That orbits leave a neighbourhood of the point, or nothing."""
+def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether it is certified that orbits leave a neighbourhood of the point."""
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
     before = proof.work
@@ -150,29 +138,19 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> str:
     for efforts, budget in GROWTH_ROUNDS:
         for rule in found:
             if proof.work - before > GROWTH_WORK:
-                return ""
+                return False
             fault = proof.add(rule, efforts, budget)
             log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
             if not fault:
-                return "is not stable"
-    return ""
+                return True
+    return False
 
 
-def in_brackets(text: str) -> str:
-    """The text, in brackets where it is a sum or a list, or has a sign."""
-    return f"({text})" if " " in text or text.startswith("-") else text
-
-
-def refuted(
-    proof: Proof,
-    setting: Setting,
-    log: Report,
-    ways: Sequence[Way],
-) -> str:
-    """How the point fails to be stable and to attract every state, for all parameters, or
-    nothing.
+def refuted(proof: Proof, setting: Setting, log: Report, ways: Sequence[Way]) -> bool:
+    """Whether it is certified in one of these ways, for all parameters, that the point is not
+    stable or does not attract every state.
     """
-    return next(filter(None, (way(proof, setting, log) for way in ways)), "")
+    return any(way(proof, setting, log) for way in ways)
 
 
 WAYS: tuple[Way, ...] = (by_orbit, by_growth, by_short_orbit)

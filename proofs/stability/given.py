@@ -299,9 +299,7 @@ def negation(text: str) -> str:
     return f"not ({text})"
 
 
-def renamed(text: str, names: Mapping[str, str]) -> str:
-    """The text with other names in place of some."""
-    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
+renamed = checker.put  # the text with other names in place of some
 
 
 # -------------------------------------------------------------------------------------------------

@@ -5,14 +5,12 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import compress, islice
 
-import sympy
-
 from juggleproof.certificates.cases import conjunction
-from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.conclusions import STABLE
 from juggleproof.proofs.stability.algebraic import MOST_DEGREE, Renamed, by_its_point
 from juggleproof.proofs.stability.attracting import attracted, by_shape, enveloped
 from juggleproof.proofs.stability.by_equation import by_an_equation
@@ -26,7 +24,6 @@ from juggleproof.proofs.stability.certifying import (
     beyond,
     is_certified,
     tried,
-    where_open,
 )
 from juggleproof.proofs.stability.domains import middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
@@ -34,27 +31,24 @@ from juggleproof.proofs.stability.failing import (
     by_growth,
     by_orbit,
     complement,
-    in_brackets,
     outsides,
     parts_refuted,
     refuted,
     sharp,
 )
+from juggleproof.proofs.stability.findings import (
+    Finding,
+    MapVerdict,
+    Meaning,
+    finding_of,
+    in_brackets,
+    without_fixed_point,
+)
 from juggleproof.proofs.stability.functions.norms import local_rules
 from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import (
-    Map,
-    expression,
-    negation,
-    renamed,
-    written,
-)
+from juggleproof.proofs.stability.given import Map, conjuncts, negation
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
-from juggleproof.proofs.stability.samples import (
-    divides,
-    region,
-    with_licences,
-)
+from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.settings import setting_of
 
 HEAD = "fixed point "  # of the lines on what was tried for one
@@ -67,75 +61,67 @@ EMPTY_BUDGET = 20_000  # of counted work for a piece that none of them is in
 
 @dataclass
 class Outcome:
-    """What was found: the statements with certificates, what they come to, and what was tried.
-
-    verdict: `exactly` (stable and attracting for these parameters and no others), `stable` (for
-    all, or at least for these parameters), `refuted`, `region` (stable and attracting a
-    neighbourhood at least) or `unknown`.
-    """
+    """What was found: the statements with certificates, what they say, and what was tried."""
 
     proof: Proof
-    verdict: str
-    sentence: str
+    finding: Finding
     tried: list[str]
 
 
 def search_stability(
-    system: Map, report: Report = lambda text: None, budget: int = BUDGET
+    system: Map,
+    report: Report = lambda text: None,
+    budget: int = BUDGET,
+    meaning: Meaning | None = None,
 ) -> Outcome:
-    """What `outcome_of` finds, with the roots written out in its sentence."""
-    found = outcome_of(system, report, budget)
-    rows = [row for rule in found.proof.rules for row in rule.rows]
-    roots = (text.split(" = ", 1) for keyword, text in rows if keyword == "root")
-    found.sentence = renamed(found.sentence, dict(roots))
-    return found
-
-
-def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
     """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
-    comes nearest to either.
+    comes nearest to either.  `meaning`: of a parameter that stands for another one.
     """
-    given, guards, original = system.domain, [guard for guard, _ in system.pieces], system
-    system = without_empty_pieces(with_licences(system))
-    parameters = region(system.domain, system.parameters, PARAMETERS)
-    proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
-    if not all(map(len, parameters.values())):
-        hint = "; put in what an equation fixes" if " = " in given else ""
-        none = f"no parameters were found in the domain {given}{hint}"
-        if is_certified([f"forall {' '.join(system.parameters)}", f"show {negation(given)}"]):
-            none = f"the domain {given} is empty"
-        return Outcome(proof, "unknown", none, [])
     lines: list[str] = []
+    proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
 
     def log(text: str) -> None:
         note(lines, text)
         report(text)
 
+    found = search_proof_of(system, proof, log)
+    if isinstance(found, Outcome):
+        return found
+    finding = finding_of(system, proof.rules, proof.known, meaning)
+    return Outcome(proof, finding or Finding(MapVerdict.UNKNOWN, found), lines)
+
+
+def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
+    """Adds what is certified of the map to the proof, and returns why there is nothing; or returns
+    the outcome for the map with a coordinate of its point as a parameter.
+    """
+    given, original = system, system
+    system = without_empty_pieces(with_licences(system))
+    parameters = region(system.domain, system.parameters, PARAMETERS)
+    if not all(map(len, parameters.values())):
+        hint = "; put in what an equation fixes" if " = " in given.domain else ""
+        none = f"no parameters were found in the domain {given.domain}{hint}"
+        shown = [f"forall {' '.join(system.parameters)}", f"show {negation(given.domain)}"]
+        return f"the domain {given.domain} is empty" if is_certified(shown) else none
     fault = proof.add(system.rule(f"{system.name}/map"))
     if fault:
         line, _, text = (proof.why() or fault).partition("\n")
-        if guards != [guard for guard, _ in system.pieces]:
+        if [guard for guard, _ in given.pieces] != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
-        where = lines_named(system, line)
-        return Outcome(proof, "unknown", f"the map{where}: {line}", [text] if text else [])
+        log(text)
+        return f"the map{lines_named(system, line)}: {line}"
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     other = None if every else by_its_point(original) or by_an_equation(original)
     if other:
-        outcome = outcome_of(other.system, report, budget)
-        if outcome.sentence:
-            outcome.sentence += f"; {other.sentence()}{other.doubt(original)}"
-        return outcome
+        return search_stability(other.system, log, proof.budget, other.meaning(original))
     if not every:
-        if not system.point and not proof.add(without_fixed_point(system)):
-            return Outcome(proof, "refuted", "no state of the space is a fixed point", lines)
-        what = ", ".join(system.point)
-        none = f"{what} is no fixed point in the space"
-        if not what:
-            none = (
+        if not system.point:
+            proof.add(without_fixed_point(system))
+            return (
                 "no isolated fixed point in square roots, or by an equation of degree"
                 f" {MOST_DEGREE} at most, was found in the space"
             )
-        return Outcome(proof, "unknown", none, lines)
+        return f"{', '.join(system.point)} is no fixed point in the space"
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
         if not fixed.stable_share(system, parameters):
             break
@@ -148,29 +134,24 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
                 found = settled(proof, system, fixed, closed, given, log, closed=True)
                 proof.most = proof.work + left  # for the open condition, or what is outside
                 if found:
-                    return Outcome(proof, *found, lines)
+                    return ""
         log(head_of(fixed, split))
-        found = settled(proof, system, fixed, split, given, log)
-        if found:
-            return Outcome(proof, *found, lines)
-    faults = []
+        if settled(proof, system, fixed, split, given, log):
+            return ""
+    count = len(proof.rules)
     proof.grant(MORE_WORK)
     # of several fixed points it says little that one does not attract another
     ways = (by_growth, by_orbit) if len(every) > 1 else WAYS
     for fixed in every[:MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             log(head_of(fixed))
-            setting = setting_of(system, fixed, system.domain)
-            fault = refuted(proof, setting, log, ways)
-            if fault:
-                at = where_open(given, proof.domain(), system.parameters)
-                faults.append(f"{at}{name_of(fixed)} {fault}")
-    if faults:
-        return Outcome(proof, "refuted", "; ".join(faults), lines)
+            refuted(proof, setting_of(system, fixed, system.domain), log, ways)
+    if len(proof.rules) > count:
+        return ""
     other = by_its_point(original, several=True) if len(every) > 1 else None
-    none_attracts = of_several(other, budget, log) if other else None
-    if none_attracts:
-        return Outcome(*none_attracts, lines)
+    outcome = of_several(other, proof.budget, log) if other else None
+    if outcome:
+        return outcome
     proof.grant(MORE_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
@@ -180,16 +161,12 @@ def outcome_of(system: Map, report: Report, budget: int) -> Outcome:
             middle = conjunction(inner, *middle_of(system, inner))
             for domain in dict.fromkeys((inner, middle)):
                 setting = setting_of(system, fixed, domain)
-                if not setting.count:
-                    continue
-                near = near_by(proof, setting, name_of(fixed), given, log)
-                if near:
-                    sentence = f"{near}; of other states nothing was found"
-                    return Outcome(proof, "region", sentence, lines)
-    return Outcome(proof, "unknown", "", lines)
+                if setting.count and near_by(proof, setting, log):
+                    return ""
+    return f"no fixed point was certified to be {STABLE}, or not to be"
 
 
-def of_several(other: Renamed, budget: int, log: Report) -> tuple[Proof, str, str] | None:
+def of_several(other: Renamed, budget: int, log: Report) -> Outcome | None:
     """That none of several fixed points attracts another, with one of them as a parameter: a domain
     knows no roots, and an orbit may divide by what has them.
     """
@@ -198,12 +175,12 @@ def of_several(other: Renamed, budget: int, log: Report) -> tuple[Proof, str, st
     if not proof.add(system.rule(f"{system.name}/map")):
         for fixed in fixed_points(system):
             log(head_of(fixed))
-            fault = by_orbit(proof, setting_of(system, fixed, system.domain), log)
-            if fault:
-                (e,), old = system.point, other.parameter
-                at = where_open(system.domain, proof.domain(), system.parameters)
-                where = f"here {old} = {other.term}, where samples alone say that each {old} has"
-                return proof, "refuted", f"{at}{e} {fault}; {where} such {e}"
+            if by_orbit(proof, setting_of(system, fixed, system.domain), log):
+                old, e = other.parameter, other.name()
+                says = f"here {old} = {other.term}, where samples alone say that each {old} has"
+                meaning = Meaning(f"{says} such {e}", certified=False)
+                found = finding_of(other.system, proof.rules, proof.known, meaning)
+                return Outcome(proof, found, []) if found else None
     return None
 
 
@@ -253,60 +230,19 @@ def lines_named(system: Map, fault: str) -> str:
     return f", line{'s' * (len(rows) > 1)} {', '.join(map(str, rows))}" if rows else ""
 
 
-def without_fixed_point(system: Map) -> MapRule:
-    """The map with guards that say of each state that its image is another."""
-    pieces = []
-    for guard, images in system.pieces:
-        moved = [
-            f"{image} != {name}"
-            if not divides(image)
-            else f"{written(sympy.numer(sympy.together(expression(f'{image} - {name}'))))} != 0"
-            for image, name in zip(images, system.state)
-        ]
-        pieces.append((conjunction(guard, " or ".join(moved)), images))
-    return replace(system, pieces=tuple(pieces)).rule(f"{system.name}/no-fixed-point")
-
-
-def near_by(proof: Proof, setting: Setting, name: str, given: str, log: Report) -> str:
-    """What is certified of states close to the point, or nothing."""
-    pairs = zip(setting.system.state, setting.point.terms)
-    gaps = {f"{one}_gap": one if e == "0" else f"{one} - {in_brackets(e)}" for one, e in pairs}
+def near_by(proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether something is certified of states close to the point."""
     rules = local_rules(setting, f"{setting.system.name}/lyapunov")
-    for rule in islice(rules, LOCAL_TRIED):
-        if not tried(proof, rule, (1, 2), LOCAL_BUDGET, log):
-            at = where_open(given, setting.domain, setting.system.parameters)
-            on = with_bars(dict(rule.rows)["on"])
-            for one, gap in gaps.items():
-                on = on.replace(f"|{one}|", f"|{gap}|")
-            on = renamed(on, {one: in_brackets(gap) for one, gap in gaps.items()})
-            return f"{at}{name} is stable, and attracts every state with {on}"
-    return ""
+    return any(
+        not tried(proof, rule, (1, 2), LOCAL_BUDGET, log) for rule in islice(rules, LOCAL_TRIED)
+    )
 
 
 def head_of(fixed: FixedPoint, split: Sequence[str] = ()) -> str:
     """The line above what was tried for a fixed point, with the roots in it and the conditions."""
     roots = [f", {name} = sqrt({under})" for name, under in fixed.point.roots]
-    return f"{HEAD}{name_of(fixed)}{''.join(roots)}" + "".join(f", where {one}" for one in split)
-
-
-def name_of(fixed: FixedPoint) -> str:
-    """The point as a person reads it."""
-    return in_brackets(", ".join(fixed.point.terms))
-
-
-def with_bars(formula: str) -> str:
-    """The formula with |t| <= r in place of t <= r and -t <= r."""
-    rows = [part.split(" <= ") for part in formula.split(" and ")]
-    if any(len(row) != 2 for row in rows):
-        return formula
-    known = [(expression(left), right) for left, right in rows]
-    lines = []
-    for k, ((left, right), (term, _)) in enumerate(zip(rows, known)):
-        if (-term, right) not in known:
-            lines.append(f"{left} <= {right}")
-        elif (-term, right) not in known[:k]:
-            lines.append(f"|{left}| <= {right}")
-    return " and ".join(lines)
+    point = in_brackets(", ".join(fixed.point.terms))
+    return f"{HEAD}{point}{''.join(roots)}" + "".join(f", where {one}" for one in split)
 
 
 def settled(
@@ -314,76 +250,60 @@ def settled(
     system: Map,
     fixed: FixedPoint,
     split: Sequence[str],
-    given: str,
+    given: Map,
     log: Report,
     closed: bool = False,
-) -> tuple[str, str] | None:
-    """Verdict and sentence for one fixed point, where something is certified; `given` is the domain
-    as the user gives it; `closed`: by envelopes alone, the multiplier being -1 at the end.
+) -> bool:
+    """Whether something is certified of one fixed point, and of the parameters for which that says
+    nothing; `given` is the map as the user gives it; `closed`: by envelopes alone, the multiplier
+    being -1 at the end.
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
     if not setting.count:
-        return None
-    where = beyond(given, setting.domain, system.parameters)
-    name = name_of(fixed)
-    if not split:
-        fault = by_orbit(proof, setting, log)
-        if fault:
-            at = where_open(given, proof.domain(), system.parameters)
-            more = near_by(proof, setting, name, given, log)
-            return "refuted", f"{at}{name} {fault}" + (f"; {more}" if more else "")
+        return False
+    if not split and by_orbit(proof, setting, log):
+        near_by(proof, setting, log)
+        return True
     if closed:
         if not enveloped(proof, setting, log, closed):
-            return None
+            return False
     elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
         if smaller.domain == setting.domain or not attracted(proof, smaller, log):
             middle = middle_of(system, inner)
             if not middle:
-                return None
+                return False
             smaller = setting_of(system, fixed, conjunction(inner, *middle), by_samples=True)
-            if not by_shape(proof, smaller, log):
-                return None
-            where = beyond(given, smaller.domain, system.parameters)
-            return "stable", f"{name} is stable and attracts every state at least where {where}"
-        setting, where = smaller, beyond(given, smaller.domain, system.parameters)
-    if not where:
-        return "stable", f"{name} is stable and attracts every state"
+            return by_shape(proof, smaller, log)
+        setting = smaller
+    found = finding_of(given, proof.rules, proof.known)
+    if found and found.condition:
+        # what a function divides by, or multiplies with, may ask for more than was sought
+        domain = conjunction(setting.domain, *conjuncts(found.condition))
+        setting = replace(setting, domain=domain)
+        search_outside(proof, setting, fixed, system, found.condition, log)
+    return True
+
+
+def search_outside(
+    proof: Proof, setting: Setting, fixed: FixedPoint, system: Map, where: str, log: Report
+) -> None:
+    """Adds how the point fails where these conditions do not hold; and that it is stable and
+    attracts every state nowhere else, if that comes of it.
+    """
     proof.grant(MORE_WORK)
-    licences, count, kinds = beyond(given, system.domain, system.parameters), len(proof.rules), []
+    count, kinds = len(proof.rules), []
     for parts, ways in outsides(where):
         kinds = parts_refuted(proof, system, fixed, parts, ways, log)
         if kinds and sharp(proof, setting, kinds, log):
-            inside = beyond(system.domain, setting.domain, system.parameters)
-            of = f", of all parameters with {licences}" if licences else ""
-            sentence = f"{name} is stable and attracts every state if and only if {inside}{of}"
-            return "exactly", sentence
+            return
         proof.keep(count)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
-    if not kinds and not licences and not proof.add(without_fixed_point(outside)):
-        sentence = f"{name} is stable and attracts every state where {where}"
-        return "exactly", f"{sentence}; elsewhere no state of the space is a fixed point"
-    sentence = f"{name} is stable and attracts every state at least where {where}"
+    if not kinds and not proof.add(without_fixed_point(outside)):
+        return
     inside = beyond(system.domain, setting.domain, system.parameters)
-    return "stable", "; ".join([sentence, *said_outside(proof, system, fixed, inside, log)])
-
-
-def said_outside(
-    proof: Proof, system: Map, fixed: FixedPoint, inside: str, log: Report
-) -> Iterator[str]:
-    """Of each part of the domain outside of these conditions that has parameters, how the point
-    fails there, or that nothing is known; nothing where it is not known to fail on any part.
-    """
-    lines, known = [], False
     for part in complement(inside) if inside else []:
         setting = setting_of(system, fixed, conjunction(system.domain, part))
         if setting.count:
-            fault = refuted(proof, setting, log, WAYS)
-            if fault:
-                more = beyond(conjunction(system.domain, part), proof.domain(), system.parameters)
-                lines.append(f"where {conjunction(part, more)}, it {fault}")
-                known = True
-            else:
-                lines.append(f"where {part}, nothing is known")
-    yield from lines if known else []
+            refuted(proof, setting, log, WAYS)

@@ -190,10 +190,10 @@ TABLE = (
         "",
         "fig-attractors",
         "What orbits come to, for every restitution",
-        "The closing speeds w at the impacts of orbits that attract. Shaded: every orbit is proved"
-        " to tend to the orbit of some e_K, but for few states at the open circles. Solid: proved"
-        " to attract a box of states; the short lines are one orbit of 12 unequal flights. Dashed:"
-        " orbits that simulations end in.",
+        "The closing speeds w at the impacts of orbits to which others tend. Shaded: it is"
+        " certified that every orbit tends to that of some e_K, but for few states at the open"
+        " circles. Solid: it is certified that all states of a box tend to it; the short"
+        " lines are one orbit of 12 unequal flights. Dashed: orbits that simulations end in.",
         "Over alpha from 0 to 1 there are nine falling curves, e_1 to e_9; e_K begins at an open"
         " circle at alpha = (K - 1)/(K + 1), at closing speed K + 1. All is shaded up to 0.7286."
         " From there up to about 0.8 there are bundles of short lines between the curves.",

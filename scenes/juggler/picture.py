@@ -202,7 +202,7 @@ def how(found: Limits) -> str:
     """How the limits were found, in one line."""
     undecided = int((found.which == UNDECIDED).sum())
     return (
-        f"{found.which.size} orbits in float64 with proved bounds, {found.exact} of them also in"
+        f"{found.which.size} orbits in float64 with error bounds, {found.exact} of them also in"
         f" exact rationals; undecided: {undecided}"
     )
 

@@ -18,8 +18,9 @@ from juggleproof.certificates.votes.vote import Vote
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.claims import place_in_file
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.conclusions import RULES, conclusion, meaning
 from juggleproof.proofs.evaluating import is_true_at, value_at
-from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
+from juggleproof.proofs.orbit_rules import why
 from tests.certificates.checker.maps import (
     ASKED,
     COUNT,
@@ -55,7 +56,7 @@ CONCLUSIONS = {
     "demo/descends": "for 0 < a < 1: f^N(s) is in the last stage {x < 1} for every state s of the"
     " space and every integer N >= rank(s), where rank = x",
     "demo/contracts": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
-    " `on` {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
+    " {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
     " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all"
     " states of the space with |s - e| <= 1/2 are in it",
     "demo/attracts": "for 0 < a < 1: e = 0 is stable and attracts every state s of the space:"
@@ -66,12 +67,11 @@ CONCLUSIONS = {
     "demo/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
     " only if 0 < a < 1",
     "demo/settles": "for 0 < a < 1: e = 0 is stable and attracts every state of the space",
-    "flip/lyapunov": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
-    " `on` of all states, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and"
-    " |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s of the"
-    " space in the set and every distance > 0, where V(s) = the greatest of x where x >= 0;"
-    " (a - 3)*x/4 where x < 0; least = (1 - a)*distance/8 with level = V(s); |s - e| is the"
-    " largest of all |s_j - e_j|; all states of the space with |s - e| <= 1 are in the set",
+    "flip/lyapunov": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts every"
+    " state of the space: V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most"
+    " V(s)/least integers n >= 0, for every state s of the space and every distance > 0, where V(s)"
+    " = the greatest of x where x >= 0; (a - 3)*x/4 where x < 0; least = (1 - a)*distance/8 with"
+    " level = V(s); |s - e| is the largest of all |s_j - e_j|",
     "flip/unstable": "for a > 1: e = 0 is not stable: for"
     " 0 < distance <= 1 the state s = distance has |s - e| <= distance, and |f^n(s) - e| > 1 for"
     " some integer n >= 0, where |s - e| is the largest of all |s_j - e_j|",
@@ -98,8 +98,8 @@ CONCLUSIONS = {
     " e_2 = -2 = f(e_2): f^(N + n)(s) - f^n(e) tends to 0, for every state s of the space, with"
     " such an e and an integer N >= 0; and each such orbit is stable: |f^n(s) - f^n(e)| is small"
     " for all n >= 0 where |s - e| is",
-    "asked/ends-in-roots": "for a > 9, every b: f^n(s) tends to e = (c, b) for every state s of the"
-    " space, and e is stable; c = sqrt(a)",
+    "asked/ends-in-roots": "for a > 9, every b: f^n(s) tends to e = (sqrt(a), b) for every state s"
+    " of the space, and e is stable",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",
@@ -165,6 +165,30 @@ def test_names_of_the_point_in_a_value_are_concluded_with_their_meaning_holds() 
     }
     said = conclusion("lyapunov", "demo/lyapunov", changed)
     assert "V(s) = x_gap, x_gap = x - e; least = (1 - a)*distance with" in said
+
+
+def test_letters_that_are_names_of_the_statement_give_way_holds() -> None:
+    """A parameter e is not the point e, nor a state f_1 the map f at 1."""
+
+    def put(text: str) -> str:
+        return checker.put(text, {"a": "e", "x": "f_1"})
+
+    changed = {name: put(text) for name, text in TEXTS.items() if name.startswith("demo/")}
+    said = conclusion("contracts", "demo/contracts", changed)
+    assert said.startswith("for 0 < e < 1: p = 0 is a fixed point, is stable, and attracts the set")
+    assert "{f_1 < 1}: |F^n(s) - p| <= e^n |s - p| <= e^n for every state s" in said
+
+
+def test_roots_of_one_name_in_two_statements_are_told_apart_holds() -> None:
+    """Each point has the root of its own statement."""
+    texts = dict(TEXTS)
+    for under, row in zip((2, 3), re.findall("contraction .*", texts["two/settles"])):
+        name = row.removeprefix("contraction ")
+        new = rf"\nroot c = sqrt({under})\g<1>\npoint c"
+        texts[name], count = re.subn(r"(\non .*)\npoint .*", new, texts[name])
+        assert count == 1
+    said = conclusion("settles", "two/settles", texts)
+    assert "tends to one of e_1 = sqrt(2), e_2 = sqrt(3) for every state" in said
 
 
 def test_the_roots_of_a_conclusion_are_defined_below_it_holds() -> None:
@@ -482,7 +506,7 @@ FAULTS: dict[str, tuple[Rows, str]] = {
     ),
     "a lemma for none": (
         (*NEAR, ("lemma", "closer-2: x <= 1")),
-        "the line `lemma closer-2: ..` names no premise that is proved; name one of inside,",
+        "the line `lemma closer-2: ..` names no premise; name one of inside,",
     ),
     "a lemma for values": ((*NEAR, ("lemma", "possible: x <= 1")), "`lemma possible: ..` names no"),
     "a lemma with or": (

@@ -33,11 +33,11 @@ from juggleproof.scenes.juggler.tables import (
 )
 
 MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
-PROVED = {
+ACCURACY = {
     "exact": "exact",
-    "enclosed": "enclosed: the true state differs by the error at most, proved",
-    "mp": "mp: rounded to {} digits, nothing proved",
-    "fast": "fast: the true state differs from the floats by the error at most, proved",
+    "enclosed": "enclosed: the true state differs by the error at most",
+    "mp": "mp: rounded to {} digits, without a bound of the error",
+    "fast": "fast: the true state differs from the floats by the error at most",
 }
 MARKS = {
     "": "not at its end",
@@ -106,7 +106,7 @@ def orbits(run: Orbits, units: str) -> None:
     print(
         f"alpha = {_short(setting.alpha)}, {len(run)} start{'s' * (len(run) != 1)},"
         f" {run.goal.steps} {run.goal.unit}{' or until the trap' * run.goal.until_trap};"
-        f" {PROVED[run.arithmetic].format(run.precision)}"
+        f" {ACCURACY[run.arithmetic].format(run.precision)}"
     )
     names = NAMES[units]
     heads = ("start", "periods", "impacts", names[0], names[1], "error", "")
@@ -194,7 +194,7 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
     for one in cycles:
         name = f"e_{one.word[0]}" if len(one.word) == 1 else ""
         verdict = (
-            "attracts near states" if one.attracts else "on x = w: the affine map does not tell"
+            "near states tend to it" if one.attracts else "on x = w: the affine map does not tell"
         )
         rows.append(
             (
@@ -223,11 +223,11 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
     )
     print("exists for " + ("; ".join(map(str, exists)) if exists else "no alpha in (0, 1)"))
     if attracts:
-        print(f"attracts near states for {'; '.join(map(str, attracts))}")
+        print(f"near states tend to it for {'; '.join(map(str, attracts))}")
     if exists != attracts:
         print(
             "for the other alpha of these a state of it lies on x = w, where the affine map does"
-            " not tell whether it attracts"
+            " not tell whether near states tend to it"
         )
     if alpha is None and exists:
         _draw(
@@ -242,7 +242,7 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
     elif at is not None:
         print(
             f"at alpha = {_short(at.alpha)}, exactly;"
-            f" {'attracts near states' if at.attracts else 'a state lies on x = w'}"
+            f" {'near states tend to it' if at.attracts else 'a state lies on x = w'}"
         )
         rows = [(str(k + 1), *map(_number, place)) for k, place in enumerate(at.impacts)]
         _draw(("impact", "x", "w"), rows)
@@ -259,8 +259,8 @@ def _formula(expression: Expr) -> str:
 def hard_cases() -> int:
     """The hard cases: what floats say, what is true, and what the bounded arithmetics say."""
     print(
-        "float64: plain floats, period by period; exact: the truth; fast: float64 with a proved"
-        " bound; enclosed: balls"
+        "float64: plain floats, period by period; exact: the truth; fast: float64 with a bound"
+        " of its error; enclosed: balls"
     )
     rows = []
     for case in CASES:
