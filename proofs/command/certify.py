@@ -16,6 +16,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, write_file
 from juggleproof.proofs.claims import CheckedApart, Claim
 from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
+from juggleproof.proofs.index import write_index
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
@@ -169,6 +170,7 @@ def _accept(
     after = {one.id: one.registered() for one in results.claims}
     write_register({**before, **after} if options.only else after, register)
     if options.store is None and register == PATH:
+        write_index(paper_claims())
         pages.update()
 
 

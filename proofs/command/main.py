@@ -19,7 +19,7 @@ from juggleproof.proofs.command.simulate_options import add_simulate
 MODULES = {
     "certify": "juggleproof.proofs.command.certify",
     "check": "juggleproof.proofs.command.check",
-    "list": "juggleproof.proofs.command.show",
+    "list": "juggleproof.proofs.command.listing",
     "explain": "juggleproof.proofs.command.explain",
     "errata": "juggleproof.proofs.command.show",
     "bound": "juggleproof.proofs.command.bound",

@@ -1,28 +1,23 @@
-"""`juggleproof list`, `errata` and `export`."""
+"""`juggleproof errata` and `export`."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-
-from rich.console import Console
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten, export
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file, write_store
+from juggleproof.certificates.store import DEFAULT, Store, write_file, write_store
 from juggleproof.certificates.votes.smtlib import script
-from juggleproof.proofs.claims import VERDICTS, claim_named
+from juggleproof.proofs.claims import claim_named
 from juggleproof.proofs.command.outputs import busy, show
-from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import entries_of, errata_text
-from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
 from juggleproof.proofs.run import claims_of_files, judge_some, refuse_duplicates, store_of
 from juggleproof.proofs.smtlib.answering import answer_files, folder_of
@@ -31,7 +26,7 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 SCRIPT = ".smt2"
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof list` and `errata`: what is stored, without a search.
+# `juggleproof errata`: what is stored, without a search.
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -41,70 +36,10 @@ def command(parsed: argparse.Namespace) -> int:
         if own and parsed.format != "coq":
             raise ClaimError(f"{own[0]}: claims of your own are exported to coq only")
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
-    if parsed.command == "list":
-        return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
     with busy("judging what the errata name"):
         text = errata_text()
     show(text)
     return 0
-
-
-def list_claims(
-    section: str = "", verdict: str = "", with_lines: bool = False, as_json: bool = False
-) -> int:
-    """One line a claim: id, place, registered verdict, what it says; a table on a terminal.
-
-    Only the claims of a section, such as 4.2, or A with all below it, and of one verdict, where
-    these are asked for; places are lines of the transcription where these are.  Raises ClaimError
-    for a section or verdict that is none.
-    """
-    everything = list(_listed(with_lines))
-    listed = [
-        one
-        for one in everything
-        if (not section or in_section(one["section"], section))
-        and (not verdict or one["verdict"] == verdict)
-    ]
-    if verdict and verdict not in VERDICTS:
-        raise ClaimError(f"--verdict {verdict}: choose from {', '.join(VERDICTS)}")
-    if section and not any(in_section(one["section"], section) for one in everything):
-        raise ClaimError(f"--section {section}: no claim is of it; `juggleproof list` shows all")
-    if as_json:
-        print(canonical([*listed]).decode(), end="")
-        return 0
-    heads = ("id", "place", "verdict", "says")
-    rows = [tuple(one[head] for head in heads) for one in listed]
-    if sys.stdout.isatty():
-        console = Console()
-        with console.capture() as captured:
-            draw(heads, rows, console)
-        show(captured.get())
-        return 0
-    for name, place, word, says in rows:
-        print(f"{name:32} {place:34} {word:12} {says}")
-    return 0
-
-
-def in_section(own: str, wanted: str) -> bool:
-    """Whether a section is the wanted one, or below it.
-
-    >>> in_section("A.3.2", "A"), in_section("4.2", "4.2"), in_section("4.2", "4.21")
-    (True, True, False)
-    """
-    return f"{own}.".startswith(f"{wanted}.")
-
-
-def _listed(with_lines: bool) -> Iterator[dict[str, str]]:
-    register = load_register()
-    for claim in paper_claims():
-        place = f"{claim.section} {claim.place}" if with_lines else place_of(claim)
-        yield {
-            "id": claim.id,
-            "section": claim.section,
-            "place": place.removeprefix("section "),
-            "verdict": register[claim.id]["verdict"] if claim.id in register else "not judged",
-            "says": claim.says,
-        }
 
 
 # -------------------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -25,6 +26,8 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.samples import Arrays
+
+MOST_ENDS = 81  # three values of each of four parameters
 
 
 def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tuple[Expr, bool]]:
@@ -98,9 +101,41 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
     """The conditions that fail for some of the parameters, as formulas: products of the factors
     that change their sign there.
     """
-    rows = []
     every = [*conditions(system, fixed, closed), *without_cycles(system, parameters)]
-    for term, strict in every:
+    return needed(list(failing_for(every, parameters)), parameters)
+
+
+def failing_at_ends(system: Map, fixed: FixedPoint, parameters: Arrays) -> list[str]:
+    """The conditions that fail at ends of the domain alone, which samples miss."""
+    every, ends = conditions(system, fixed), ends_of_domain(system)
+    inside = set(failing_for(every, parameters))
+    return [row for row in failing_for(every, parameters, ends) if row not in inside]
+
+
+def ends_of_domain(system: Map) -> list[dict[Expr, Expr]]:
+    """Parameters of the domain of which some are at an end of their range that belongs to it, the
+    others in the middle; MOST_ENDS at most.
+    """
+    ranges = []
+    for name in system.parameters:
+        low, high = bounds_of(system.domain, name) or (None, None)
+        values = [Fraction(one[0]) for one in (low, high) if one and one[1] == "<="]
+        inner = [Fraction(one[0]) for one in (low, high) if one]
+        middle = sum(inner) / len(inner) if inner else Fraction(0)
+        ranges.append([*values, middle + (len(inner) < 2)])
+    points = (dict(zip(system.parameters, each)) for each in itertools.product(*ranges))
+    inside = (one for one in itertools.islice(points, MOST_ENDS) if holds(system.domain, one))
+    return [
+        {symbol: sympy.Rational(value) for symbol, value in zip(symbols(one), one.values())}
+        for one in inside
+    ]
+
+
+def failing_for(
+    terms: Iterable[tuple[Expr, bool]], parameters: Arrays, ends: Sequence[dict[Expr, Expr]] = ()
+) -> Iterator[str]:
+    """Those of the conditions term > 0, or >= 0, that fail at samples or at these ends."""
+    for term, strict in terms:
         term = without_root(term, parameters)
         if term is None or not term.free_symbols:
             continue
@@ -112,16 +147,17 @@ def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays, closed: bool = 
         for poly, power in [*sympy.factor_list(above)[1], *sympy.factor_list(below)[1]]:
             with np.errstate(all="ignore"):
                 at = np.asarray(value(written(poly), parameters), float)
-            if (at > 0).all() or (at < 0).all():
-                sign *= 1 if (at > 0).all() or power % 2 == 0 else -1
+            turn = 1 if (at > 0).all() else -1
+            at_ends = [turn * poly.subs(end) for end in ends]
+            if (turn * at > 0).all() and all(one > 0 or not strict and one == 0 for one in at_ends):
+                sign *= turn if power % 2 else 1
             elif power % 2:
                 parts.append(poly)
         constant = sympy.factor_list(above)[0] / sympy.factor_list(below)[0]
         sign *= 1 if constant > 0 else -1
         if parts:
             product = sympy.expand(sign * sympy.prod(parts))
-            rows.append(f"{written(product)} {'>' if strict else '>='} 0")
-    return needed(list(dict.fromkeys(rows)), parameters)
+            yield f"{written(product)} {'>' if strict else '>='} 0"
 
 
 def without_root(term: Expr, parameters: Arrays) -> Expr | None:
@@ -158,7 +194,7 @@ def needed(rows: list[str], parameters: Arrays) -> list[str]:
     """The conditions without those that hold at all samples where the others do, the longest
     first.
     """
-    kept = list(rows)
+    kept = list(dict.fromkeys(rows))
     for row in sorted(rows, key=len, reverse=True):
         rest = [one for one in kept if one != row]
         inside = np.logical_and.reduce([holds(one, parameters) for one in rest]) if rest else None

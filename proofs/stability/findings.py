@@ -210,8 +210,11 @@ def of_attraction(
     others = [one for one in failing if one.point == fact.point]
     where = [(one.domain, f"it {one.failure()}") for one in others]
     where += [(domain, NO_FIXED_POINT) for domain in nowhere]
-    lines = [f"where {asked_beyond(given, domain)}, {fails}" for domain, fails in where]
-    if lines and not is_covered(given, [fact.domain, *(domain for domain, _ in where)]):
+    lines = [*dict.fromkeys(f"where {asked_beyond(given, one)}, {fails}" for one, fails in where)]
+    covered = is_covered(given, [fact.domain, *(domain for domain, _ in where)])
+    if len(where) == 1 and covered:
+        lines = [f"elsewhere {where[0][1]}"]
+    elif lines and not covered:
         lines.append("elsewhere nothing is known")
     at = "where" if lines else "at least where"
     says = "; ".join([f"{says} {at} {readable(fact.condition)}", *lines])

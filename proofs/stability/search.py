@@ -25,7 +25,7 @@ from juggleproof.proofs.stability.certifying import (
     is_certified,
     tried,
 )
-from juggleproof.proofs.stability.domains import middle_of, narrowed
+from juggleproof.proofs.stability.domains import failing_at_ends, middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
     WAYS,
     by_growth,
@@ -108,7 +108,8 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
         line, _, text = (proof.why() or fault).partition("\n")
         if [guard for guard, _ in given.pieces] != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
-        log(text)
+        for premise in (text,) if text else ():
+            log(premise)
         return f"the map{lines_named(system, line)}: {line}"
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
     other = None if every else by_its_point(original) or by_an_equation(original)
@@ -135,6 +136,9 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
                 proof.most = proof.work + left  # for the open condition, or what is outside
                 if found:
                     return ""
+        ends = failing_at_ends(system, fixed, parameters)
+        if ends and fails_outside(proof, system, fixed, ends, log):
+            split = [*split, *ends]
         log(head_of(fixed, split))
         if settled(proof, system, fixed, split, given, log):
             return ""
@@ -284,6 +288,18 @@ def settled(
         setting = replace(setting, domain=domain)
         search_outside(proof, setting, fixed, system, found.condition, log)
     return True
+
+
+def fails_outside(
+    proof: Proof, system: Map, fixed: FixedPoint, conditions: Sequence[str], log: Report
+) -> bool:
+    """Whether it is certified that the point fails where one of these conditions does not hold."""
+    count, where = len(proof.rules), conjunction(*conditions)
+    outside = replace(system, domain=conjunction(system.domain, negation(where)))
+    fails = parts_refuted(proof, system, fixed, complement(where), WAYS, log)
+    nowhere = not fails and not proof.add(without_fixed_point(outside))
+    proof.keep(count)
+    return bool(fails) or nowhere
 
 
 def search_outside(

@@ -15,7 +15,8 @@ from rich.text import Text
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.command.show import export_smt2, list_claims
+from juggleproof.proofs.command.listing import list_claims
+from juggleproof.proofs.command.show import export_smt2
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.tables import draw

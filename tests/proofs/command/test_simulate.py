@@ -40,9 +40,9 @@ def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
         capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--steps", "4", "--arithmetic", "fast"
     )
     assert "undecided: 0 (period 1)" in floats and "branch undecided" in floats
-    assert "nothing proved" in output(capsys, *START, "--arithmetic", "mp") and "unknown" in output(
+    assert "without a bound of the error" in output(
         capsys, *START, "--arithmetic", "mp"
-    )
+    ) and "unknown" in output(capsys, *START, "--arithmetic", "mp")
     physical = output(
         capsys,
         "--alpha",
@@ -84,7 +84,7 @@ def test_decimals_are_exact_and_so_is_what_an_exact_orbit_prints_holds(
 
 def test_words_hold(capsys: pytest.CaptureFixture[str]) -> None:
     found = output(capsys, "--alpha", "1/2", "--words", "--longest", "4")
-    assert "e_2" in found and "on x = w" in found and found.count("attracts near") == 2
+    assert "e_2" in found and "on x = w" in found and found.count("near states tend") == 2
     assert "exists for no alpha" in output(capsys, "--word", "1,2")
 
 
@@ -94,7 +94,7 @@ def test_a_word_is_told_with_its_orbit_where_it_exists_and_where_it_attracts_hol
     found = output(capsys, "--word", "2")
     assert (
         "exists for 1/3 <= alpha < 1\n" in found
-        and "attracts near states for 1/3 < alpha < 1\n" in found
+        and "near states tend to it for 1/3 < alpha < 1\n" in found
     )
     assert "2*(3*alpha - 1)/(alpha + 1)^2" in found and "4/(alpha + 1)" in found
     assert "1       4/9  8/3" in output(capsys, "--word", "2", "--alpha", "1/2")
@@ -193,7 +193,7 @@ def test_bifurcation_tells_from_which_alpha_on_holds(
         *["--picture", "bifurcation", "--alpha", "1/60:1/2:30", "--grid", "x=0:4:12,w=-2:4:12"],
         *["-o", str(tmp_path / "b.svg")],
     ).splitlines()
-    assert told[0].startswith("30 alpha, from 1/60 to 1/2: 4320 orbits in float64 with proved")
+    assert told[0].startswith("30 alpha, from 1/60 to 1/2: 4320 orbits in float64 with error")
     assert told[0].endswith("undecided: 0")
     lines = {line.split()[0]: line.split()[2:] for line in told[2:]}
     assert lines["e_1"] == ["1/60", "1/2"] and Fraction(lines["e_2"][0]) > Fraction(1, 3)

@@ -66,4 +66,4 @@ def test_a_factor_that_squares_alone_tell_the_sign_of_holds() -> None:
     rows = [("over", "d p"), ("domain", "0 < d and d < 1 and 0 < p and p < 1"), ("state", "x")]
     rows += [("space", "x >= 0"), ("piece", "(1 - d)*x + p/(1 + x^2)")]
     found = search_stability(read_rows("mackey-glass", rows))
-    assert found.sentence.startswith("e is stable and attracts every state; here p = ")
+    assert found.finding.sentence.startswith("e is stable and attracts every state; here p = ")

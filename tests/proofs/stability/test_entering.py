@@ -53,14 +53,14 @@ def test_every_orbit_is_in_each_box_after_as_many_steps_holds(images: str) -> No
 def test_a_filter_that_saturates_comes_to_rest_wherever_the_linear_one_does_holds() -> None:
     """P. M. Ebert, J. E. Mazo and M. G. Taylor (1969), in the whole triangle."""
     outcome = search_stability(read_file(EXAMPLES / "saturated-filter.map"))
-    assert outcome.verdict == "stable"
-    assert outcome.sentence == "(0, 0) is stable and attracts every state"
+    assert outcome.finding.verdict == "proved"
+    assert outcome.finding.sentence == "(0, 0) is stable and attracts every state"
     assert "saturated-filter/descends" in outcome.proof.known
 
 
 def test_rejects_a_filter_beyond_the_triangle() -> None:
     outcome = search_stability(planar(f"{CLIPPED}, x", "1/4 < a and a < 1 and 1 - a < b and b < 1"))
-    assert outcome.verdict == "refuted"
+    assert outcome.finding.verdict == "refuted"
 
 
 def rational(images: str, state: str, space: str, domain: str) -> Map:
@@ -98,5 +98,5 @@ def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:
 def test_the_part_that_orbits_enter_carries_the_proof_holds() -> None:
     """A. M. Amleh, E. A. Grove, G. Ladas and D. A. Georgiou (1999), in the whole range."""
     found = search_stability(rational("a + y/x, x", "x y", "x > 0 and y > 0", "a > 1"))
-    assert found.sentence == "(a + 1, a + 1) is stable and attracts every state"
+    assert found.finding.sentence == "(a + 1, a + 1) is stable and attracts every state"
     assert [one.name for one in found.proof.rules][-1] == "rational/attracts"

@@ -46,7 +46,7 @@ SETTLED = {  # name: (text, first line)
     ),
     "harvest": (
         HARVEST.format("0 < h and h < 1"),
-        f"proved   harvest: (-h*r + r - 1) {STABLE} where -h*r + r - 1 > 0; elsewhere no state of"
+        f"in part  harvest: (-h*r + r - 1) {STABLE} where -h*r + r - 1 > 0; elsewhere no state of"
         " the space is a fixed point",
     ),
     "all-harvested": (
@@ -76,7 +76,7 @@ SETTLED = {  # name: (text, first line)
     ),
     "momentum": (
         MOMENTUM.format("0 < h and h < 2"),
-        f"proved   momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0",
+        f"in part  momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0",
     ),
     "too-long-steps": (
         MOMENTUM.format("7/4 <= h and h < 2 and m >= 1/2"),
@@ -84,9 +84,8 @@ SETTLED = {  # name: (text, first line)
     ),
     "border": (
         BORDER.format("-3 < a and a < 0"),
-        f"proved   border: (-1/(b - 1)) {STABLE} at least where -a*b + 1 > 0; where -a*b + 1 = 0,"
-        " nothing is known; where -a*b + 1 < 0, it does not attract ((-b - 1)/(a*b - 1)), which is"
-        " periodic",
+        f"in part  border: (-1/(b - 1)) {STABLE} where -a*b + 1 > 0; where -a*b + 1 < 0, it does"
+        " not attract ((-b - 1)/(a*b - 1)), which is periodic; elsewhere nothing is known",
     ),
     "cycle": (
         BORDER.format("-3 < a and a < -2 and a*b > 1"),

@@ -36,8 +36,8 @@ def rule(piece: str, over: str, domain: str) -> MapRule:
 
 def test_a_delayed_map_that_turns_is_stable_holds() -> None:
     found = search_stability(of_rule(rule(*PIELOU)))
-    assert found.verdict == "stable"
-    assert found.sentence == "(r - 1, r - 1) is stable and attracts every state"
+    assert found.finding.verdict == "proved"
+    assert found.finding.sentence == "(r - 1, r - 1) is stable and attracts every state"
     values = [text for key, text in found.proof.rules[-1].rows if key == "value"]
     assert len(values) == 6  # those of x, y and x/y, and of their inverses
 
@@ -48,9 +48,9 @@ def test_a_condition_with_a_root_is_found_holds() -> None:
     (fixed,) = (one for one in fixed_points(system) if one.exists(system, parameters).any())
     assert narrowed(system, fixed, parameters) == ["q - 1 > 0"]
     found = search_stability(of_rule(rule(*RATIONAL)))
-    assert found.verdict == "stable"
+    assert found.finding.verdict == "proved"
     assert "at least where q - 1 > 0; where q - 1 = 0, it does not attract (2, 1/2)" in (
-        found.sentence
+        found.finding.sentence
     )
 
 
@@ -73,7 +73,7 @@ def test_rejects_a_loss_that_is_too_large() -> None:
 
 def test_a_point_whose_coordinates_are_quotients_of_each_other_is_stable_holds() -> None:
     leslie = of_rule(rule("2*y/(1 + y), s*x", "s", "1/2 < s and s < 1"))
-    assert search_stability(leslie).sentence.endswith("is stable and attracts every state")
+    assert search_stability(leslie).finding.sentence.endswith("is stable and attracts every state")
 
 
 def test_what_a_bound_of_an_eliminated_parameter_says_of_the_point_is_known_holds() -> None:

@@ -36,7 +36,7 @@ SLOPE = "over b\ndomain 1/2 <= b and b <= 1\nstate x\n" + "\n".join(
 SETTLED = {  # name: (text, first line)
     "unstable-cycle": (
         CYCLE.format("0 < a and a < 2"),
-        f"proved   unstable-cycle: (1/(a + 1)) {STABLE} if and only if 1 - a > 0",
+        f"in part  unstable-cycle: (1/(a + 1)) {STABLE} if and only if a < 1",
     ),
     "no-cycle": (CYCLE.format("0 < a and a < 1"), f"proved   no-cycle: (1/(a + 1)) {STABLE}"),
     "line": (
@@ -51,8 +51,8 @@ SETTLED = {  # name: (text, first line)
     "focus": (  # L. A. Metzler, Review of Economics and Statistics 23, 1941
         "over b k\ndomain 0 < b and b < 1 and 0 < k and k < 1\nstate y z\n"
         "piece (2 + k)*b*y - (1 + k)*b*z + 1, y",
-        f"proved   focus: (-1/(b - 1), -1/(b - 1)) {STABLE} at least where -b*k - b + 1 > 0;"
-        " where -b*k - b + 1 = 0, nothing is known; where -b*k - b + 1 < 0, it is not stable",
+        f"in part  focus: (-1/(b - 1), -1/(b - 1)) {STABLE} where -b*k - b + 1 > 0;"
+        " where -b*k - b + 1 < 0, it is not stable; elsewhere nothing is known",
     ),
     "quotient-in-a-guard": (  # of a divisor that is not 0 on the closed space
         "over h\ndomain 0 < h and h < 1\nstate x\nspace x >= 0\npiece max(0, 4*x/(1 + x) - h)",
@@ -69,7 +69,7 @@ SETTLED = {  # name: (text, first line)
         "state x y\npiece abs(x) - y, x",
         "refuted  period-nine: (0, 0) does not attract (-1/2, 1/4), which is periodic",
     ),
-    "boundary": (TENT.format("2"), f"proved   boundary: 0 {STABLE} if and only if 1 - m > 0"),
+    "boundary": (TENT.format("2"), f"in part  boundary: 0 {STABLE} if and only if m < 1"),
     "no-boundary": (TENT.format("1"), f"proved   no-boundary: 0 {STABLE}"),
     "nowhere": (PHASE.format("1/2"), f"refuted  nowhere: {NO_FIXED_POINT}"),
     "nowhere-in-quotients": (
