@@ -33,6 +33,7 @@ from juggleproof.proofs.theorem.definition import (
     NORMAL,
     WHOLE,
     Contraction,
+    Setting,
     contracts,
     escapes,
     opposite,
@@ -84,9 +85,6 @@ def on_the_orbit(count: int) -> Vector:
     return derived_along("normal_periodic_impact", turned(count))
 
 
-START = on_the_orbit(0)
-
-
 def beside(count: int) -> Vector:
     """The impact after so many flights, from (z1, z2) beside the start."""
     return derived_along("normal_impact_beside", FLIGHTS, count)
@@ -132,20 +130,28 @@ def moved(count: int, times: int = 0) -> Term:
     return (PERIODS + sum(FLIGHTS[:count]) + times) * alpha**count * rho
 
 
-DOMAIN = divides()
-EXISTS = opposite(cleared(lambda born: -born[0], turned(BORN))) & cleared(
-    lambda dies: dies[1] - dies[0], turned(DIES)
-)
-BESIDE = replace(
-    NORMAL,
-    parameters=(alpha, rho),
-    positive=(rho > 0,),
-    state=(z1, z2),
-    space=SMALL,
-    pieces=((equal(term(0), 0), change(COUNT)),),
-    fixed=Vector((0, 0)),
-    place=Vector((z1, z2)),
-)
+def exists() -> Formula:
+    """The orbit is one: the impact after BORN flights is above the table, and that after DIES
+    flights a collision.
+    """
+    above_table = opposite(cleared(lambda born: -born[0], turned(BORN)))
+    return above_table & cleared(lambda dies: dies[1] - dies[0], turned(DIES))
+
+
+def map_beside() -> Setting:
+    """What is left of (z1, z2) beside the start after all flights, as a map."""
+    return replace(
+        NORMAL,
+        parameters=(alpha, rho),
+        positive=(rho > 0,),
+        state=(z1, z2),
+        space=SMALL,
+        pieces=((equal(term(0), 0), change(COUNT)),),
+        fixed=Vector((0, 0)),
+        place=Vector((z1, z2)),
+    )
+
+
 CLOSER = Contraction(equal(term(0), 0), WEIGHTS, 2 * alpha**COUNT, rho, rho)
 WORD = " ".join("1" + " 2" * (periods - 1) for periods in FLIGHTS)
 
@@ -160,16 +166,17 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
     each rho from 0 to 1/2000 that the impacts after 8 and after 9 flights have room for: (x, w) of
     the one has 43 alpha^8 rho <= x, of the other 47 alpha^9 rho < w - x.
     """
+    start, domain, around = on_the_orbit(0), divides(), map_beside()
     return [
-        the_map("f", NORMAL, DOMAIN),
+        the_map("f", NORMAL, domain),
         always(
             equals(
-                START, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))
+                start, Vector((Fraction(7537860971672, 4060387774625), Fraction(6400424, 3249155)))
             ),
             in_range=[equal(alpha, Fraction(3, 4))],
             label="at-three-quarters",
         ),
-        always(term(START.entries[1]) < term(on_the_orbit(4).entries[1]), label="is-no-e-K"),
+        always(term(start.entries[1]) < term(on_the_orbit(4).entries[1]), label="is-no-e-K"),
         *(
             always(
                 is_impact(beside(count)),
@@ -192,14 +199,14 @@ def an_orbit_of_unequal_flights_attracts_a_box() -> list[AnyStatement]:
             given=[moved(DIES, times=1) < w - x, SMALL],
             label="still-strikes",
         ),
-        the_map("map", BESIDE, (alpha > 0) & WIDER[1]),
-        contracts("contracts", "restitution-unequal/map", BESIDE, RANGE, CLOSER),
+        the_map("map", around, (alpha > 0) & WIDER[1]),
+        contracts("contracts", "restitution-unequal/map", around, RANGE, CLOSER),
         # last, as the range that is told is that of the last map rule
         escapes(
             "comes-back",
             "restitution-unequal/f",
-            replace(NORMAL, other=START),
-            DOMAIN & EXISTS,
+            replace(NORMAL, other=start),
+            domain & exists(),
             WORD,
         ),
     ]

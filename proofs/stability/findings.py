@@ -340,7 +340,7 @@ def in_brackets(text: str) -> str:
 
 def named(lines: Lines, keyword: str) -> str:
     """The state that the line of this keyword names, its roots written out."""
-    return in_brackets(lines.without_roots(lines.one(keyword)))
+    return lines.without_roots(in_brackets(lines.one(keyword)))
 
 
 def with_bars(formula: str) -> str:

@@ -24,7 +24,6 @@ from juggleproof.proofs.restitution.unequal import (
     DIES,
     FLIGHTS,
     PERIODS,
-    START,
     on_the_orbit,
 )
 from juggleproof.proofs.theorem.definition import holds_at, value_of
@@ -200,7 +199,7 @@ def room_at(alpha: Fraction) -> Fraction:
 @pytest.mark.parametrize("alpha", [Fraction(3, 4), Fraction(72864, 10**5), Fraction(77649, 10**5)])
 def test_orbit_of_unequal_flights_comes_back_holds(alpha: Fraction) -> None:
     away = room_at(alpha)
-    start = state_at(alpha, START)
+    start = state_at(alpha, on_the_orbit(0))
     assert flights(start, len(FLIGHTS)) == (FLIGHTS, start)
     for count in range(len(FLIGHTS)):
         assert flights(start, count)[1] == state_at(alpha, on_the_orbit(count))

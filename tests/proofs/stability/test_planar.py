@@ -24,7 +24,7 @@ SETTLED = {  # name: (text, exit code, first line)
     ),
     "spirals": (
         "over b\ndomain 0 < b and b < 2\nstate x y\npiece x - b*y, x",
-        0,
+        3,
         f"in part  spirals: (0, 0) {STABLE} if and only if b < 1",
     ),
     "saddle": (

@@ -158,8 +158,9 @@ def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
             capture_output=True,
             env={**os.environ, "PYTHONPATH": str(running.ROOT), "PYTHONHASHSEED": seed},
             timeout=240,
-            check=True,
+            check=False,
         )
+        assert done.returncode == 3
         files = {one.name: one.read_bytes() for one in folder.rglob("*") if one.is_file()}
         results.append((done.stdout, files))
     assert results[0] == results[1] and len(results[0][1]) == 3
