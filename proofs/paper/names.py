@@ -409,8 +409,7 @@ def is_narrow(size: Term) -> tuple[Formula, ...]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The names that stand in the statement file for what the paper defines; each body is derived,
-# but that of the trap.
+# The names that stand in the statement file; each body is derived, but that of the trap.
 
 STATE = ("beta", "v")
 
@@ -439,8 +438,7 @@ def sets() -> tuple[tuple[str, tuple[str, ...], Term | Formula, str], ...]:
     """Sets and conditions that sentences name: name, parameters, body, and what it says.  A later
     one is put in place of a whole of which an earlier one is a part.
     """
-    trap = (term(0) <= x) & (x < w) & (alpha * w < 1)
-    narrow = is_narrow(eps)
+    trap, narrow = (term(0) <= x) & (x < w) & (alpha * w < 1), is_narrow(eps)
     return (
         ("in_R", STATE, R(b), "The region R, on or above the table."),
         ("in_B1", STATE, B1(b), "On or above the table, and an impact comes within the period."),
@@ -513,8 +511,7 @@ def sets() -> tuple[tuple[str, tuple[str, ...], Term | Formula, str], ...]:
             "in_trap",
             ("x", "w"),
             trap,
-            "The trap of the theorem, in normal form: the states of B1 whose closing speed is below"
-            " 1/alpha.",
+            "The trap, in normal form: B1 with a closing speed < 1/alpha.",
         ),
     )
 
