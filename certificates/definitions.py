@@ -172,14 +172,15 @@ def shortened(thing: Term, definitions: Sequence[Definition]) -> Term: ...
 @overload
 def shortened(thing: Formula, definitions: Sequence[Definition]) -> Formula: ...
 def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expression:
-    """The same term or formula with definitions by name; the first that fits, from the outside in.
+    """The same term or formula with definitions by name, from the outside in; the last that fits,
+    which may hold earlier ones.
 
     >>> x, y, g = map(real, "xyg")
     >>> E = Definition("E", ("x", "y"), g * x + y**2 / 2)
     >>> str(shortened(g * (1 - x) + (x + y) ** 2 / 2 >= 0, [E]))
     'E(1 - x, x + y) >= 0'
     """
-    for one in definitions:
+    for one in reversed(definitions):
         if isinstance(one.body, tuple):
             continue
         whole = _instance(one, thing, definitions)

@@ -17,6 +17,11 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs.claims import Argument, Assertion, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
+    B1_OUTSIDE,
+    BEYOND_R,
+    CLOSED_B1,
+    CORNER,
+    ON_R,
     H,
     R,
     alpha,
@@ -42,14 +47,9 @@ from juggleproof.proofs.paper.names import (
     value_of,
 )
 from juggleproof.proofs.paper.regions import (
-    B1_OUTSIDE,
-    BEYOND_R,
     BOUNDED,
-    CLOSED_B1,
-    CORNER,
     LEFT,
     NEAR,
-    ON_R,
     PRINTED_SUPREMUM,
     SUPREMAL,
     WITHIN_DELTA,
@@ -179,8 +179,8 @@ def parallel_or_on_the_ground() -> Statement:
     ),
 )
 def condition_on_the_boundary(printed: Printed) -> Statement:
-    """A state on R(b) = 0 that has the supremal energy change of the impacts outside R, at whose
-    edge it is, satisfies this for some multiplier: the one that fits the slopes with the height.
+    """A state with R(b) = 0, in B1 or on the line between B1 and B2, that has the energy change
+    Delta E_sup satisfies this for some multiplier: the one that fits the slopes with the height.
     """
     (down, along), (dR_down, dR_along) = GRADIENTS
     names: dict[str, Value] = {
@@ -274,8 +274,8 @@ ABOVE_THE_GROUND = (
     true_nearby=ABOVE_THE_GROUND,
 )
 def supremum_is_not_on_the_boundary(printed: Printed) -> Statement:
-    """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change,
-    which A.3.2 finds at such a state.
+    """No state with R(b) = 0, in B1 or on the line between B1 and B2, has the energy change Delta
+    E_sup, which A.3.2 finds at such a state.
     """
     return not_supremal(printed.formula(paper_names()))
 
@@ -438,8 +438,8 @@ def impacts_outside_take_more(printed: Printed) -> Statement:
 
 @claim("sA.4-distinct", "A.4", "line 716")
 def supremum_and_maximum_differ() -> Statement:
-    """The least loss outside R and the greatest gain are different: one is negative and the other
-    positive.
+    """Delta E_sup, the energy change at the corner of R, and Delta E_max are different: one is
+    negative and the other positive.
     """
     return always((dE_sup < 0) & (term(derived("delta_E_max")) > 0), given=SUPREMAL)
 
@@ -478,7 +478,7 @@ def supremum_is_at_the_left() -> list[Statement]:
     ),
 )
 def impacts_outside_are_open() -> list[Statement]:
-    """The states outside R whose impact comes are an open set in H."""
+    """The states of B1 outside R are an open set in H."""
     margins = {
         "collision": at(derived("collision_margin"), b),
         "energy": -term(at(derived("region_margin"), b)),
@@ -504,7 +504,9 @@ def impacts_outside_are_open() -> list[Statement]:
 
 @claim("sA.4-boundary", "A.4", "line 716", printed=r"R(\overline{b}) = 0", as_it_stands=r"R(b) = 0")
 def boundary_of_the_region(printed: Printed) -> list[Statement]:
-    """The boundary of R, as a set of states of H, is where R(b) = 0."""
+    """The boundary of R, as a set of states of H, is where R(b) = 0: there states of R and states
+    outside R lie as near as one likes.
+    """
     return is_boundary_of_R(printed.formula(paper_names()))
 
 
@@ -516,7 +518,9 @@ def boundary_of_the_region(printed: Printed) -> list[Statement]:
     true_nearby=ABOVE_THE_GROUND,
 )
 def supremum_is_not_on_the_boundary_of_the_region() -> Statement:
-    """The supremum does not belong to a state of the boundary R(b) = 0."""
+    """The supremum, Delta E_sup, is the energy change of no state with R(b) = 0 that is in B1 or on
+    the line between B1 and B2.
+    """
     return not_supremal(ON_R(b))
 
 
@@ -529,7 +533,9 @@ def supremum_is_not_on_the_boundary_of_the_region() -> Statement:
     repeats="sA.3.2-corner",
 )
 def supremum_is_on_the_edge_and_negative(printed: Printed) -> list[Statement]:
-    """The supremum belongs to a state on the edge of H, and is negative."""
+    """The supremum over the impacts outside R is the energy change of a state on the edge of H with
+    R(b) = 0, and is negative.
+    """
     there = [
         CLOSED_B1(b_0),
         ON_R(b_0),
@@ -543,7 +549,9 @@ def supremum_is_on_the_edge_and_negative(printed: Printed) -> list[Statement]:
 
 @claim("sA.4-each-impact", "A.4", "line 718")
 def each_impact_takes_the_least_loss() -> Statement:
-    """Each impact before R is entered changes the energy by Delta E_sup at most."""
+    """Each impact outside R changes the energy by Delta E_sup at most, which is the energy change
+    at the corner of R.
+    """
     return always(change <= least, given=[CORNER(b_0), B1_OUTSIDE(b)])
 
 
@@ -556,7 +564,7 @@ def each_impact_takes_the_least_loss() -> Statement:
     remark=OF_THE_LOSS,
 )
 def impacts_to_enter_the_region(printed: Printed) -> Readings:
-    """So many impacts, with the derived least loss, lead from b_0 into R, the number rounded down
-    or rounded up.
+    """So many impacts, with the derived least loss outside R, lead from b_0 into R, the number
+    rounded down or rounded up.
     """
     return is_enough(printed)

@@ -322,8 +322,8 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
 def map_on_b2_again(printed: Printed) -> Statement:
     """The dynamics on B2, which have to be what free flight makes of a state until the next bounce.
 
-    f1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
-    state.
+    f1 is the map of an impact, as the section has it; x, which it does not introduce, is taken for
+    the state.
     """
     names: dict[str, Value] = {
         r"\overline f_2": StateFunction(lambda state: ball_at(t, state)),
@@ -378,7 +378,7 @@ def map_on_all_of_h_again(printed: Printed) -> list[Statement]:
     r"\frac{-1(1-\alpha)\dot{\rho}_0}{1+\alpha} \end{bmatrix}",
 )
 def fixed_point_again(printed: Printed) -> Statement:
-    """The fixed point of the map on B1 has this height and this speed."""
+    """The fixed point of f1 has this height and this speed."""
     return is_fixed_point(printed)
 
 
@@ -421,9 +421,7 @@ def boundary_of_the_region(printed: Printed) -> list[Statement]:
     ),
 )
 def function_of_the_region_again(printed: Printed) -> Statement:
-    """The function R is what the energy of a state lacks to the sum of both bounds, in height and
-    speed.
-    """
+    """R(b) is what the energy of a state lacks to the sum of both bounds, in height and speed."""
     names: dict[str, Value] = {
         "R": only_at(b, margin),
         "E_{max}": greatest,

@@ -10,9 +10,11 @@ from juggleproof.certificates.language import Statement, equal, iff, term
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
+    B1_OUTSIDE,
     B1_PLUS,
     B1_ZERO,
     B2,
+    OUTSIDE,
     H,
     Placed,
     R,
@@ -21,6 +23,7 @@ from juggleproof.proofs.paper.names import (
     always,
     at,
     b,
+    c,
     claim,
     collision_time,
     derived,
@@ -34,18 +37,19 @@ from juggleproof.proofs.paper.names import (
     height,
     impact_energy_change,
     is_supremum,
+    leaves_R_at,
+    on_the_line,
     r,
     s,
     speed,
     v,
 )
-from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE, state_on_the_level
+from juggleproof.proofs.paper.regions import (
+    state_on_the_level,
+)
 from juggleproof.proofs.paper.states import (
     RANGE_21,
-    c,
-    leaves_R_at,
     narrow_band_stays,
-    on_the_line,
 )
 from juggleproof.proofs.reading.values import Region, Vector
 
@@ -167,9 +171,7 @@ def impacts_outside_lose_at_least() -> list[Statement]:
 
 @claim("region-p", "inclusions", "line 559")
 def point_p_lies_outside() -> Statement:
-    """The state that has the velocity of e_1 and meets the table just at its next bounce does not
-    belong to R.
-    """
+    """The state of the line between B1 and B2 that has the velocity of e_1 does not belong to R."""
     return always(~R(on_the_line(speed(e_1))), in_range=RANGE_21)
 
 

@@ -20,6 +20,7 @@ from juggleproof.certificates.language import (
     Number,
     Term,
     conjunction,
+    disjunction,
     equal,
     names_in,
     real,
@@ -57,7 +58,7 @@ from juggleproof.proofs.reading.values import (
 # `symbolic`, which derives them; none is typed here.
 
 alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
-x, w = reals("x w")
+x, w, c = reals("x w c")
 b = Vector((beta, v))
 
 ORDER = ("alpha", "r", "g", "K", "n", "eps", "beta", "v", "beta0", "v0", "x", "w", "t", "tau")
@@ -179,6 +180,16 @@ B1_PLUS = B1 & Region(lambda state: at(derived("energy_change_1") > 0, state))
 B1_MINUS = B1 & Region(lambda state: at(derived("energy_change_1") < 0, state))
 B1_ZERO = B1 & Region(lambda state: equal(at(derived("energy_change_1"), state), 0))
 R = H & Region(lambda state: at(derived("region_margin"), state) >= 0)
+# Where R(b) < 0; the states of H, and of B1, there.  B1 with the line between B1 and B2; where
+# R(b) = 0; the state of B1 there on the ground; the boundary of R as printed, with the edge of H.
+BEYOND_R = Region(lambda state: at(derived("region_margin"), state) < 0)
+OUTSIDE, B1_OUTSIDE = H & BEYOND_R, B1 & BEYOND_R
+CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0)
+ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
+CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
+BOUNDARY_OF_R = R & Region(
+    lambda state: equal(at(derived("region_margin"), state), 0) | equal(height(state), 0)
+)
 r_0 = derived_vector("launch_state")
 e_1 = derived_vector("e_1")
 I = Matrix(((1, 0), (0, 1)))  # noqa: E741  (the paper's name)
@@ -336,7 +347,69 @@ def value_of(printed: Printed, environment: Environment) -> Value:
 
 
 # -------------------------------------------------------------------------------------------------
-# The names that stand in the statement file for what the paper defines; each body is derived.
+# The band around e_1 of section 4.3.2, and where R leaves B1.
+
+
+def of_z(value: Placed) -> StateFunction[Placed]:
+    """A derived term or state of z = b - e_1, as a function of z."""
+    return StateFunction(lambda state: at(value, {"z1": height(state), "z2": speed(state)}))
+
+
+kinetic_energy = of_z(derived("relative_kinetic_energy"))
+
+
+def from_e_1(state: Vector) -> Term:
+    """K(b - e_1): the kinetic energy of the motion relative to e_1."""
+    return term(kinetic_energy(state - e_1))
+
+
+def on_the_line(velocity: Term) -> Vector:
+    """The state of this velocity from which ball and table meet just when the table bounces
+    next.
+    """
+    return Vector((at(derived("boundary_height"), {"v": velocity}), velocity))
+
+
+def leaves_R_at(velocity: Term) -> Formula:
+    """The line between B1 and B2 meets the boundary of R at this velocity, below the table's launch
+    speed.
+    """
+    return conjunction(
+        [velocity < r, equal(energy(on_the_line(velocity)), derived("region_energy"))]
+    )
+
+
+def band(size: Term) -> Region:
+    """The states of B1 and R whose kinetic energy relative to e_1 is at most `size`."""
+    return B1 & R & Region(lambda state: from_e_1(state) <= size)
+
+
+def boundary_of_band(size: Term) -> Region:
+    """What bounds the band: its closure, at height 0, on the line between B1 and B2, at the energy
+    of R, or at `size`.
+    """
+
+    def holds(state: Vector) -> Formula:
+        margins = (
+            height(state),
+            at(derived("collision_margin"), state),
+            at(derived("region_margin"), state),
+            size - from_e_1(state),
+        )
+        return conjunction([margin >= 0 for margin in margins]) & disjunction(
+            [equal(margin, 0) for margin in margins]
+        )
+
+    return Region(holds)
+
+
+def is_narrow(size: Term) -> tuple[Formula, ...]:
+    """The band of this size does not reach to the velocity c, at which R leaves B1."""
+    return leaves_R_at(c), from_e_1(on_the_line(c)) > size
+
+
+# -------------------------------------------------------------------------------------------------
+# The names that stand in the statement file; each body is derived, but that of the trap.
 
 STATE = ("beta", "v")
 
@@ -353,9 +426,94 @@ DERIVED: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("value_of_E_max", "E_max", ()),
     ("value_of_dE_max", "delta_E_max", ()),
     ("value_of_dE_sup", "delta_E_sup", ()),
+    ("level_of_R", "region_energy", ("r",)),
+    ("tau_c", "collision_time", STATE),
+    ("height_on_line", "boundary_height", ("v",)),
     ("collision_margin", "collision_margin", STATE),
     ("region_margin", "region_margin", STATE),
 )
+
+
+def sets() -> tuple[tuple[str, tuple[str, ...], Term | Formula, str], ...]:
+    """Sets and conditions that sentences name: name, parameters, body, and what it says.  A later
+    one is put in place of a whole of which an earlier one is a part.
+    """
+    trap, narrow = (term(0) <= x) & (x < w) & (alpha * w < 1), is_narrow(eps)
+    return (
+        ("in_R", STATE, R(b), "The region R, on or above the table."),
+        ("in_B1", STATE, B1(b), "On or above the table, and an impact comes within the period."),
+        ("in_B2", STATE, B2(b), "On or above the table, and no impact comes within the period."),
+        ("meet", (*STATE, "t"), meet(t), "Ball and table are at one height after this time."),
+        (
+            "on_line",
+            STATE,
+            meet(T),
+            "The line between B1 and B2: ball and table meet as the period ends.",
+        ),
+        ("in_closed_B1", STATE, CLOSED_B1(b), "B1 with the line between B1 and B2."),
+        ("in_B1_plus", STATE, B1_PLUS(b), "B1^+: the states of B1 whose impact gains energy."),
+        ("in_B1_minus", STATE, B1_MINUS(b), "B1^-: the states of B1 whose impact loses energy."),
+        ("in_B1_0", STATE, B1_ZERO(b), "B1^0: the states of B1 whose impact keeps the energy."),
+        ("outside_R", STATE, OUTSIDE(b), "The states of H outside R."),
+        (
+            "in_B1_outside_R",
+            STATE,
+            B1_OUTSIDE(b),
+            "The states of B1 outside R, whose impacts are those outside R.",
+        ),
+        (
+            "on_boundary_of_R",
+            STATE,
+            BOUNDARY_OF_R(b),
+            "The boundary of R: its states with R(b) = 0, and those on the ground.",
+        ),
+        (
+            "at_corner_of_R",
+            STATE,
+            CORNER(b),
+            "The corner of R: the state of B1 on the ground with R(b) = 0.",
+        ),
+        (
+            "K_from_e_1",
+            ("v",),
+            from_e_1(b),
+            "The kinetic energy of the motion relative to e_1, K(b - e_1) of equation 28.",
+        ),
+        (
+            "in_band",
+            (*STATE, "eps"),
+            band(eps)(b),
+            "The band around e_1: the states of B1 and R whose kinetic energy relative to e_1 is at"
+            " most eps (equation 32).",
+        ),
+        (
+            "on_boundary_of_band",
+            (*STATE, "eps"),
+            boundary_of_band(eps)(b),
+            "The boundary of the band: its closure on the ground, on the line between B1 and B2, at"
+            " the level of R, and where the kinetic energy relative to e_1 is eps.",
+        ),
+        (
+            "R_leaves_B1_at",
+            ("c",),
+            narrow[0],
+            "At this velocity, below the launch speed, the line between B1 and B2 meets the level"
+            " of R: there R leaves B1.",
+        ),
+        (
+            "narrow",
+            ("eps",),
+            narrow[1],
+            "The band of this size is narrow: it does not reach to the velocity c, at which R"
+            " leaves B1.",
+        ),
+        (
+            "in_trap",
+            ("x", "w"),
+            trap,
+            "The trap, in normal form: B1 with a closing speed < 1/alpha.",
+        ),
+    )
 
 
 def definitions() -> tuple[Definition, ...]:
@@ -383,16 +541,7 @@ def _definitions() -> tuple[Definition, ...]:
             says = ""
         if parameters:
             made.append(Definition(name, parameters, entries))
-    made += [
-        Definition("in_R", STATE, R(b), "The region R, on or above the table."),
-        Definition(
-            "in_B1", STATE, B1(b), "On or above the table, and an impact comes within the period."
-        ),
-        Definition(
-            "in_B2", STATE, B2(b), "On or above the table, and no impact comes within the period."
-        ),
-    ]
-    return tuple(made)
+    return (*made, *(Definition(*row) for row in sets()))
 
 
 def sentence(function: str) -> str:

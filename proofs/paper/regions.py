@@ -21,7 +21,11 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs import forms
 from juggleproof.proofs.claims import Assertion
 from juggleproof.proofs.paper.names import (
-    B1,
+    B1_OUTSIDE,
+    CLOSED_B1,
+    CORNER,
+    ON_R,
+    OUTSIDE,
     STANDING,
     H,
     R,
@@ -51,7 +55,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.reading import tree
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Region, Vector, scalar
+from juggleproof.proofs.reading.values import Vector, scalar
 
 beta0, v0, u, tau_w, dE_sup, n, m, j, tau, launch = reals(
     "beta0 v0 u tau_w dE_sup n m j tau launch"
@@ -66,14 +70,6 @@ WITH_INTEGERS = replace(
 always_counting = partial(forms.always, vocabulary=WITH_INTEGERS)
 exists_counting = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
-# Where E > E_max + Delta E_max; the states of H and of B1 there.
-BEYOND_R = Region(lambda state: at(derived("region_margin"), state) < 0)
-OUTSIDE, B1_OUTSIDE = H & BEYOND_R, B1 & BEYOND_R
-# B1 with the line between B1 and B2; where E = E_max + Delta E_max; its state in B1
-# at height 0.
-CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0)
-ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
-CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
 change, least = (
     impact_energy_change(b),
     impact_energy_change(b_0),

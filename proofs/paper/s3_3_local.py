@@ -286,7 +286,7 @@ def small_boxes_stay_in_b1() -> Statement:
 
 @claim("s3.3-takes-e1-as-limit", "3.3", "line 313")
 def neighbourhood_shrinks_to_the_fixed_point() -> Following:
-    """What starts in the neighbourhood tends to e_1."""
+    """What starts near e_1 tends to it: a period shrinks boxes around it to (1 + alpha)/2."""
 
     def box(state: Vector, scale: Term) -> Formula:
         height, speed = (term(entry) for entry in state - b_0)
@@ -410,8 +410,8 @@ def map_takes_h_into_itself() -> list[Statement]:
 
 @claim("s3.3.1-discontinuous", "3.3.1", "line 332")
 def map_jumps_between_b1_and_b2() -> list[Statement]:
-    """The map jumps between B1 and B2: from a state on the line to one that is ever so little
-    slower, the image's speed jumps.
+    """The map jumps at the line between B1 and B2: from a state on it that is slower than the
+    table's launch to one that is ever so little slower still, the image's speed jumps.
 
     The jump is no less than a fixed amount. It comes of the table's velocity: on the line, the two
     maps differ by the impact with the table as it comes down.

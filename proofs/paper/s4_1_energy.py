@@ -265,8 +265,8 @@ def sum_of_both_bounds(printed: Printed) -> Statement:
 
 @claim("s4.1-conservative", "4.1", "line 455")
 def smaller_region_attracts_too() -> Following:
-    """R is larger than need be: its states of energy at most E_max, which is below the level of R,
-    are mapped to such states, and attract every orbit.
+    """The level of R is higher than need be: the states of H of energy at most E_max, which is
+    below it, are mapped to such states, and attract every orbit.
 
     Every orbit tends to e_1, which has less energy than that.
     """

@@ -9,9 +9,11 @@ from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, R
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
+    B1_OUTSIDE,
     B1_PLUS,
     B1_ZERO,
     B2,
+    OUTSIDE,
     H,
     R,
     T,
@@ -37,10 +39,8 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.paper.regions import (
     ATTRACTION,
-    B1_OUTSIDE,
     LEVEL,
     NAMED,
-    OUTSIDE,
     always_counting,
     b_0,
     beta0,
@@ -207,8 +207,8 @@ def is_enough(printed: Printed) -> Readings:
     remark=OF_THE_LOSS,
 )
 def impacts_before_the_region_is_entered(printed: Printed) -> Readings:
-    """The energy above the level of R, over the derived least loss, tells how many impacts lead
-    into R: rounded down, or rounded up.
+    """The energy above the level of R, over the derived least loss outside R, tells how many
+    impacts lead into R: rounded down, or rounded up.
     """
     return is_enough(printed)
 
@@ -225,7 +225,10 @@ def longest_waits() -> Statement:
     true_nearby=("the longest of them is shorter for states of less energy", longest_waits),
 )
 def less_energy_makes_flights_shorter() -> Statement:
-    """Of two states, that of less energy has the shorter time to the next impact."""
+    """Of two states, that of less energy does not wait longer for the next impact.
+
+    The wait is read as the time until the ball is down on the ground, if nothing is in its way.
+    """
     less = [H(b), H(b_0), energy(b) < energy(b_0), lands(b, t)]
     return always(t <= tau, given=[*less, lands(b_0, tau)])
 
@@ -303,7 +306,8 @@ def worst_time_is_met(printed: Printed) -> Readings:
 
 @claim("s4.2-note9-otherwise", "4.2", "footnote 9", printed=r"\tau_w > \tau_c(\overline{b}_0)")
 def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
-    """In all other cases the time to collision is less than tau_w: that of (6), or the real one.
+    """In all other cases outside R the time to collision is less than tau_w: that of (6), or the
+    real one.
 
     In real time the ball is on or below the ground before tau_w, or, thrown from the ground,
     strikes the rising table.
@@ -370,7 +374,7 @@ def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
 )
 def longest_time_to_enter_the_region(printed: Printed) -> Readings:
     """Within this time b_0 enters R: one worst flight for each impact, their number, with the
-    derived least loss, rounded down or up.
+    derived least loss outside R, rounded down or up.
     """
     environment, count = with_rounding(printed, NAMED.extended({r"t_{\mathcal{R}}": t_R}))
     defined = printed.formula(environment)

@@ -18,11 +18,13 @@ from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, R
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
+    BOUNDARY_OF_R,
     R,
     T,
     alpha,
     always,
     b,
+    c,
     claim,
     collision_time,
     derived,
@@ -33,9 +35,13 @@ from juggleproof.proofs.paper.names import (
     exists_some,
     f1,
     f2,
+    from_e_1,
     height,
+    kinetic_energy,
+    leaves_R_at,
     meet,
     next_states,
+    on_the_line,
     paper_names,
     r,
     s,
@@ -44,18 +50,12 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.paper.states import (
     AROUND_E1,
-    BOUNDARY_OF_R,
     FALLS_FROM_IMPACT_TO_IMPACT,
     NEAR,
     RANGE_21,
     STABILITY,
-    c,
-    from_e_1,
-    kinetic_energy,
-    leaves_R_at,
     narrow_band_stays,
     next_image,
-    on_the_line,
     relative_step,
     within,
     z,
@@ -162,10 +162,11 @@ def slower_states_are_in_b1(
 
 @claim("s4.3.2-near-in-B1", "4.3.2", "line 559")
 def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
-    """The states of R whose kinetic energy is near that of e_1 lie in B1: of the motion relative to
-    e_1, or of the ball itself.
+    """The states of R whose kinetic energy is near that of e_1 lie in B1.
 
-    The velocity c is the one at which the boundary of R meets the line between B1 and B2.
+    Of the motion relative to e_1: the states of R that are slower than where R leaves B1 lie in B1,
+    and e_1 is slower than that. Of the ball itself: the states of R with the kinetic energy of e_1
+    lie in B1.
     """
     same_energy = always(B1(b), given=[R(b), is_just_as_fast()], in_range=RANGE_21)
     return Readings(
@@ -240,8 +241,8 @@ def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
     printed=r"\overline{f}_1(\partial \mathcal{K}) \subset \mathcal{K}",
 )
 def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
-    """f1 maps the boundary of the band into the band: of a band of every size, or of one so narrow
-    that its part of R lies in B1.
+    """f1 maps the boundary of the band into the band: of a band of every size, or of a narrow one,
+    which does not reach to where R leaves B1.
     """
     stays = printed.formula(AROUND_E1)
     return Readings(
@@ -302,8 +303,8 @@ def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     printed=r"\overline{f}(\mathcal{K}) \subseteq \mathcal{K}",
 )
 def band_is_mapped_into_itself(printed: Printed) -> Argument:
-    """Since f is continuous on the band and its boundary is mapped into it, the band is mapped into
-    itself.
+    """Since f is continuous on the band and its boundary is mapped into it, a narrow band is mapped
+    into itself.
 
     For continuous maps in general this does not follow: a quadratic map can keep the ends of an
     interval in it and lead a point between them out of it.

@@ -31,6 +31,8 @@ from juggleproof.proofs.paper.names import (
     equals,
     f1,
     f2,
+    from_e_1,
+    kinetic_energy,
     next_states,
     only_at,
     r,
@@ -44,8 +46,6 @@ from juggleproof.proofs.paper.states import (
     STABILITY,
     STEP,
     change,
-    from_e_1,
-    kinetic_energy,
     kinetic_energy_change,
     lies_around_e_1,
     narrow_band_stays,
@@ -83,8 +83,9 @@ def impact_shrinks() -> Statement:
 
 @claim("s4.3.1-approach-constant", "4.3.1", "line 500")
 def velocity_at_impacts_settles() -> Following:
-    """In R the kinetic energy at the impacts tends to a constant: the orbit tends to e_1, and each
-    impact multiplies K, the kinetic energy of the motion relative to e_1, by alpha squared.
+    """From every state of H the kinetic energy at the impacts tends to a constant: the orbit tends
+    to e_1, and each impact multiplies K, the kinetic energy of the motion relative to e_1, by alpha
+    squared.
     """
     return Following(STABILITY, Assertion((impact_shrinks(),)))
 
@@ -97,8 +98,8 @@ def coordinates_around_the_fixed_point(printed: Printed) -> Statement:
 
 @claim("s4.3.1-same-linear", "4.3.1", "line 504")
 def relative_motion_is_linear() -> Statement:
-    """On B1 the difference to e_1 is mapped by the linear part of the map f1 of the states; R is
-    not needed.
+    """On all of B1 the difference to e_1 is mapped by the linear part of the map f1 of the
+    states.
     """
     linear = Matrix(
         tuple(
@@ -384,7 +385,8 @@ def flight_in_the_region_approaches_too() -> Readings:
 
 @claim("s4.3.1-plain-english", "4.3.1", "line 543", repeats="s4.3.1-lim-b")
 def kinetic_energy_settles_in_the_region() -> Following:
-    """In R the kinetic energy of an orbit tends to that of the fixed point of f1, and each impact
-    multiplies K, the kinetic energy of the motion relative to e_1, by alpha squared.
+    """From every state of H the kinetic energy of an orbit tends to that of the fixed point of f1,
+    and each impact multiplies K, the kinetic energy of the motion relative to e_1, by alpha
+    squared.
     """
     return Following(STABILITY, Assertion((impact_shrinks(),)))

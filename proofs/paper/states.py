@@ -16,7 +16,6 @@ from juggleproof.certificates.language import (
     Term,
     conjunction,
     different,
-    disjunction,
     equal,
     iff,
     real,
@@ -35,14 +34,14 @@ from juggleproof.proofs.paper.names import (
     WITH_INTEGER_K,
     H,
     K,
-    Placed,
     R,
     T,
     alpha,
     always,
-    at,
     b,
     ball_at,
+    band,
+    boundary_of_band,
     collide,
     collision_time,
     derived,
@@ -56,12 +55,16 @@ from juggleproof.proofs.paper.names import (
     f2,
     flight,
     flight_matrix,
+    from_e_1,
     function,
     g,
     height,
     impact_energy_change,
+    is_narrow,
+    kinetic_energy,
     meanings,
     meet,
+    of_z,
     only_at,
     paper_names,
     r,
@@ -75,7 +78,7 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Meaning, Printed
-from juggleproof.proofs.reading.values import Matrix, Region, StateFunction, Value, Vector
+from juggleproof.proofs.reading.values import Matrix, StateFunction, Value, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Impacts that gain, keep or lose energy, the greatest energies that go with them, and how the
@@ -283,7 +286,7 @@ def is_the_map(printed: Printed) -> list[Statement]:
 #
 # K is a function here, the kinetic energy of section 4.3, and not the integer K of section 3.5.
 
-z1, z2, c, d, change = reals("z1 z2 c d change")
+z1, z2, d, change = reals("z1 z2 d change")
 z = Vector((z1, z2))
 next_image = Vector(
     reals("beta_next v_next")
@@ -297,44 +300,8 @@ RANGE_21 = (
 )  # (21): e_1 is the only fixed point
 
 
-def _of_z(value: Placed) -> StateFunction[Placed]:
-    return StateFunction(lambda state: at(value, {"z1": height(state), "z2": speed(state)}))
-
-
-kinetic_energy = _of_z(derived("relative_kinetic_energy"))
-kinetic_energy_change = _of_z(derived("relative_kinetic_energy_change"))
-relative_step = _of_z(derived_vector("relative_map"))
-
-
-def from_e_1(state: Vector) -> Term:
-    """K(b - e_1): the kinetic energy of the motion relative to e_1."""
-    return term(kinetic_energy(state - e_1))
-
-
-def on_the_line(velocity: Term) -> Vector:
-    """The state of this velocity from which ball and table meet just when the table bounces
-    next.
-    """
-    return Vector((at(derived("boundary_height"), {"v": velocity}), velocity))
-
-
-def leaves_R_at(velocity: Term) -> Formula:
-    """The line between B1 and B2 meets the boundary of R at this velocity, below the table's launch
-    speed.
-    """
-    return conjunction(
-        [velocity < r, equal(energy(on_the_line(velocity)), derived("region_energy"))]
-    )
-
-
-def band(size: Term) -> Region:
-    """The states of B1 and R whose kinetic energy relative to e_1 is at most `size`."""
-    return B1 & R & Region(lambda state: from_e_1(state) <= size)
-
-
-def is_narrow(size: Term) -> tuple[Formula, ...]:
-    """The band of this size does not reach to where R leaves B1."""
-    return leaves_R_at(c), from_e_1(on_the_line(c)) > size
+kinetic_energy_change = of_z(derived("relative_kinetic_energy_change"))
+relative_step = of_z(derived_vector("relative_map"))
 
 
 # The band of size eps is narrow.
@@ -382,30 +349,6 @@ def lies_around_e_1(size: Term) -> Statement:
         label="lies-around-e_1",
     )
 
-
-def boundary_of_band(size: Term) -> Region:
-    """What bounds the band: its closure, at height 0, on the line between B1 and B2, at the energy
-    of R, or at `size`.
-    """
-
-    def holds(state: Vector) -> Formula:
-        margins = (
-            height(state),
-            at(derived("collision_margin"), state),
-            at(derived("region_margin"), state),
-            size - from_e_1(state),
-        )
-        return conjunction([margin >= 0 for margin in margins]) & disjunction(
-            [equal(margin, 0) for margin in margins]
-        )
-
-    return Region(holds)
-
-
-# The boundary of R as printed: where E = E_max + Delta E_max, and the edge of H.
-BOUNDARY_OF_R = R & Region(
-    lambda state: equal(at(derived("region_margin"), state), 0) | equal(height(state), 0)
-)
 
 # The meanings of prints about z = b - e_1; about the step from z_k to z_{k+1}; and about the band
 # around e_1, the next state being an unknown.

@@ -118,7 +118,7 @@ DOMAIN = WHOLE & ABOVE
 @claim("restitution-flights", "restitution", "from impact to impact", parameters=())
 def an_impact_that_leads_to_an_impact_flies_between() -> list[Statement]:
     """Where T_K, an impact and then K periods of flight up to the next impact, leads from an impact
-    to a state of H, the K - 1 periods between are flight: T_K is f^K there.
+    to a state that is not below the table, the K - 1 periods between are flight: T_K is f^K there.
 
     After an impact and n periods of flight, states that were d apart are (n + 2) alpha d apart at
     most, in x as in w.

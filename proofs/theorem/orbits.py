@@ -457,8 +457,8 @@ def within(most: Term) -> Formula:
 
 @claim("theorem-closed-form", "theorem", "orbits in the trap")
 def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
-    """In the trap f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), at most (1 + n) alpha^n from
-    e_1 if (p, q) is at most 1.
+    """While impact follows impact, f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), at most (1 +
+    n) alpha^n from e_1 if (p, q) is at most 1.
 
     The step is an induction: c stands for (-alpha)^n, which is 1 for n = 0, and -alpha c for the
     next power.

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import reals
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.paper import names, regions
+from juggleproof.proofs.paper import names
 from juggleproof.proofs.paper import states as orbits
 from juggleproof.proofs.sine.bounces import TABLE as TABLE_VOCABULARY
 from tests.proofs.paper.search_needs import (
@@ -151,8 +151,8 @@ def meanings() -> dict[str, str]:
         names.R,
         names.B1_ZERO,
         names.B1_PLUS,
-        regions.CLOSED_B1,
-        regions.ON_R,
+        names.CLOSED_B1,
+        names.ON_R,
     )
     states = [region(state) for region in inside for state in (b, b_0)] + [
         names.H(f1(b)),
