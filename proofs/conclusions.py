@@ -23,11 +23,15 @@ AROUND = ("contraction", "lyapunov", "attraction")  # lines that name what holds
 ALWAYS = ("0 < 1", "0 = 0")  # what is written where nothing is asked
 
 
-LETTERS = ("epqzc", "fFgh", "sSuw", "nmij", "NMLJ", "klij", "VWUL")  # each, and what stands in
+LETTERS = (  # each, and what stands in for it
+    *map(tuple, ("epqzc", "fFgh", "sSuw", "nmij", "NMLJ", "klij", "VWUL")),
+    ("rank", "order", "rho"),
+    ("least", "lowest", "mu"),
+)
 
 
 class Letters(NamedTuple):
-    """The letters of a conclusion: point, map, state, three whole numbers, and function."""
+    """The names of a conclusion: point, map, state, three whole numbers, V, rank, least loss."""
 
     e: str
     f: str
@@ -36,6 +40,8 @@ class Letters(NamedTuple):
     N: str
     k: str
     V: str
+    rank: str
+    least: str
 
 
 class Lines:
@@ -153,11 +159,11 @@ def _steps(descent: Lines) -> str:
     if len(terms_of(descent.all("rank")[0].rpartition(" -> ")[2])) > 1:
         return f"{at.N} that is large enough for {at.s}"
     more = len(descent.all("stage")) - 1
-    return f"{at.N} >= rank({at.s})" + (f" + {more}" if more else "")
+    return f"{at.N} >= {at.rank}({at.s})" + (f" + {more}" if more else "")
 
 
 def _rank(descent: Lines) -> str:
-    return f"where rank = {_greatest(descent.all('rank'))}"
+    return f"where {descent.letters.rank} = {_greatest(descent.all('rank'))}"
 
 
 def _greatest(rows: Sequence[str]) -> str:
@@ -199,7 +205,7 @@ def _of_iterates(f: Lines) -> str:
     return (
         f"{at.f}^{count}({state}) = {_vector(powers)} for every integer {count} >= 0, where"
         f" {at.f}({state}) = {_vector(images)}"
-    )
+    ) + "".join(f", {text}" for text in f.all("let"))
 
 
 def _of_map(f: Lines) -> str:
@@ -273,9 +279,10 @@ def _of_lyapunov(f: Lines) -> str:
     return (
         f"{f.for_domain()}{f.point()} is a fixed point, is {STABLE}, and {ATTRACTS} {on}:"
         f" {at.V}({at.f}^({at.n} + 1)({at.s})) <= {at.V}({iterate}), and |{iterate} - {at.e}| >="
-        f" distance for at most {at.V}({at.s})/least integers {at.n} >= 0, for every state {at.s}"
-        f" of the space{inside} and every distance > 0, where {at.V}({at.s}) = {_value_of(f)};"
-        f" least = {f.one('least')} with level = {at.V}({at.s}); {_largest(at)}{around}"
+        f" distance for at most {at.V}({at.s})/{at.least} integers {at.n} >= 0, for every state"
+        f" {at.s} of the space{inside} and every distance > 0, where {at.V}({at.s}) ="
+        f" {_value_of(f)}; {at.least} = {f.one('least')} with level = {at.V}({at.s});"
+        f" {_largest(at)}{around}"
     )
 
 

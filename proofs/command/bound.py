@@ -103,7 +103,7 @@ def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
     for part in text.split(","):
         name, equal, pair = part.strip().partition("=")
         bounds = pair.split("..")
-        if not equal or len(bounds) != 2:
+        if not equal or len(bounds) != 2 or "..." in pair:
             raise ClaimError(
                 f"--box: {part.strip()[:40]!r} is no side of a box; write x=0..1,y=-1/2..3"
             )
@@ -146,9 +146,8 @@ def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | N
     print(f"width   {enclosed.width}")
     print(f"boxes   {enclosed.boxes}")
     print(f"bytes   {enclosed.certificate_bytes} of certificates")
-    print(
-        "checked: the minimum is at least low everywhere on the box, and at most high at the point"
-    )
+    where = ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in ends.items())
+    print(f"checked: the polynomial is at least low where {where}, and at most high at the point")
     if output is not None:
         enclosed.write(output)
         print(f"written to {output}; `juggleproof check {output}` reads it again")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -115,11 +116,12 @@ def export_lemmas(store: Store, names: Sequence[str], folder: Path | None) -> in
     if not folder:
         print("\n".join([PRELUDE, *exported.texts.values()]))
         return 0
+    files = _coq_files(names, folder)
     for name in names:
         if name in exported.texts:
             texts = export(store, [name]).texts.values() if exported.needs[name] else ()
             content = "\n".join([PRELUDE, *(texts or [exported.texts[name]])])
-            write_file(folder / (_file_name(name) + ".v"), content.encode())
+            write_file(files[name], content.encode())
     return 0
 
 
@@ -158,7 +160,7 @@ def export_theorems(
     names, where = theorems_in(statements), " ".join(map(str, files))
     if len(names) > 1 and not folder:
         raise ClaimError(f"{where}: several theorems, {', '.join(names)}; give -o DIR")
-    written = 0
+    written, paths = 0, _coq_files(names, folder) if folder else {}
     for name in names:
         try:
             if outcomes[name] != "certified":
@@ -169,7 +171,7 @@ def export_theorems(
             continue
         written += 1
         if folder:
-            write_file(folder / (_file_name(name) + ".v"), text.encode())
+            write_file(paths[name], text.encode())
         else:
             print(text, end="")
     return int(written < len(names))
@@ -194,9 +196,17 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     return 0
 
 
-def _file_name(name: str) -> str:
-    # Coq takes the name of a file for that of a module, so it must be an identifier.
-    return "S_" + "".join(c if c.isalnum() else "_" for c in name)
+def _coq_files(names: Sequence[str], folder: Path) -> dict[str, Path]:
+    """The file for each statement: Coq takes its name for that of a module, an identifier.
+
+    Raises ClaimError where two have one file.
+    """
+    files = {name: folder / f"S_{re.sub('[^A-Za-z0-9]', '_', name)}.v" for name in names}
+    first = {path: name for name, path in reversed(files.items())}
+    for name, path in files.items():
+        if first[path] != name:
+            raise ClaimError(f"{path}: {first[path]} and {name} have this one name; rename one")
+    return files
 
 
 def _names(store: Store, ids: Sequence[str]) -> list[str]:

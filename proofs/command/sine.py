@@ -117,7 +117,7 @@ def certify(options: SineOptions) -> int:
             for line in covered.rejected:
                 print(f"rejected by the checker: {line}")
             print(f"{covered.outcome}: {told(covered)}")
-            if options.frequency:
+            if options.frequency and covered.outcome == "certified":
                 print(
                     f"which holds all tables of {options.frequency} Hz with an amplitude of"
                     f" {options.amplitude} mm, under 9.80665 m/s^2"

@@ -452,7 +452,8 @@ def point_of(text: str, refutation: object) -> dict[str, Fraction] | None:
     """
     match refutation:
         case [_, [] | (), {**terms}, *_]:
-            point = {str(name): Fraction(str(value)) for name, value in terms.items()}
+            values = {str(name): value_at(str(value), {}) for name, value in terms.items()}
+            point = {name: value for name, value in values.items() if value is not None}
         case _:
             return None
     for line in text.splitlines():

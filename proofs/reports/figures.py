@@ -5,7 +5,7 @@ the trap with what they show.
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -43,9 +43,15 @@ class Saved(NamedTuple):
     data: bytes
 
 
-def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, Figure]]:
-    """Every figure in order: slug, title, caption, alternative text and the figure; raises
-    ClaimError where matplotlib is absent.
+# what these show are verdicts and ranges, which are never read from a cache
+OF_VERDICTS = ("fig-attractors", "fig-ranges")
+
+
+def figures(
+    contents: Contents | None = None, leaving_out: Collection[str] = ()
+) -> list[tuple[str, str, str, str, Figure]]:
+    """Every figure in order but those left out: slug, title, caption, alternative text and the
+    figure; raises ClaimError where matplotlib is absent.
     """
     needed("matplotlib")
     entries = (contents or gather()).entries
@@ -54,7 +60,8 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
         "fig-trap": what_the_trap_shows,
         "fig-attractors": lambda: what_attracts(entries),
     }
-    return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+    drawn = (one for one in TABLE if one.slug not in leaving_out)
+    return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in drawn]
 
 
 def rows(entries: Iterable[Judged]) -> list[Row]:
@@ -93,25 +100,16 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
     if form not in FORMS:
         raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")
     contents = contents or gather()
-    shown = (rows(contents.entries), without_alpha(contents.entries))
-    key = (
-        f"figures-{form}-"
-        + cache.key(cache.version_of("matplotlib"), shown, packages=(*cache.SOURCES, "scenes"))
-        if cache.folder()
-        else ""
-    )
+    of_sources = cache.key(cache.version_of("matplotlib"), packages=(*cache.SOURCES, "scenes"))
+    key = f"figures-{form}-{of_sources}" if cache.folder() else ""
     kept = _kept(cache.load(key)) if key else {}
-    if list(kept) != [one.slug for one in TABLE]:
-        kept = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents)}
-        if key:
-            cache.keep(
-                key,
-                [
-                    {"slug": slug, "data": b64encode(data).decode("ascii")}
-                    for slug, data in kept.items()
-                ],
-            )
-    return [Saved(*labels(one), kept[one.slug]) for one in TABLE]
+    lasting = {one.slug for one in TABLE} - {*OF_VERDICTS}
+    there = kept.keys() if kept.keys() == lasting else ()
+    made = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents, there)}
+    if key and not there:
+        encoded = ((slug, b64encode(made[slug]).decode("ascii")) for slug in sorted(lasting))
+        cache.keep(key, [{"slug": slug, "data": data} for slug, data in encoded])
+    return [Saved(*labels(one), {**kept, **made}[one.slug]) for one in TABLE]
 
 
 def _kept(records: list[dict[str, str]]) -> dict[str, bytes]:

@@ -24,7 +24,8 @@ def settled_by(one: Answered) -> str:
         return "certificate"
     if one.answer.word == "unknown":
         return one.answer.reason
-    model = ", ".join(f"{symbol} = {value}" for symbol, value in in_script(one.answer, one.problem))
+    values = in_script(one.answer, one.problem)  # a symbol may have any character
+    model = ", ".join(f"{ascii(symbol)[1:-1]} = {value}" for symbol, value in values)
     return "; ".join([f"model {model}" if model else "model", *one.answer.numbers])
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,7 +148,8 @@ def _ranks(beside: Plane, certified: Certified, top: float, bounce: float) -> Pl
     columns = ranks.shape[1]
     moved = np.roll(ranks, round(bounce * columns), axis=1)
     raster(plane, _shaded(moved, moved >= 0))
-    words = f"certified, by ranks: {float(share):.1%} of states come to it"
+    # rounded down: no more is certified
+    words = f"certified, by ranks: {floor(1000 * share) / 10}% of states come to it"
     plane.words((left, height - 26), words, ha="left", fontsize=LETTERS)
     return plane
 

@@ -26,7 +26,9 @@ def test_the_index_is_what_the_sources_say_holds() -> None:
 
 
 def test_list_imports_no_claim_and_no_solver_holds() -> None:
-    done = subprocess.run([sys.executable, "-c", LOADED], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", LOADED], capture_output=True, text=True, check=True
+    )
     assert done.stderr == "0 []\n"
     assert len(done.stdout.splitlines()) == len(index.load_index())
 

@@ -179,6 +179,16 @@ def test_letters_that_are_names_of_the_statement_give_way_holds() -> None:
     assert "{f_1 < 1}: |F^n(s) - p| <= e^n |s - p| <= e^n for every state s" in said
 
 
+def test_a_rank_and_definitions_of_the_statement_are_told_apart_holds() -> None:
+    names = {"x": "order", "a": "rank"}
+    changed = {name: checker.put(text, names) for name, text in TEXTS.items()}
+    said = conclusion("descends", "demo/descends", changed)
+    assert said.endswith("every integer N >= rho(s), where rho = order")
+    sum_of = "forall x K\ninteger K\nlet c = 2\niterates x -> x + c\nafter K -> x + c*K"
+    text = f"statement t/sum\n{sum_of}"
+    assert conclusion("iterates", "t/sum", {"t/sum": text}).endswith("where f(x) = x + c, c = 2")
+
+
 def test_roots_of_one_name_in_two_statements_are_told_apart_holds() -> None:
     """Each point has the root of its own statement."""
     texts = dict(TEXTS)

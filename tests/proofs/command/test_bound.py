@@ -239,6 +239,7 @@ BAD = {
         ("x", "--box", "x=0..\u0663", "--width", "1"),
         "is no rational number",
     ),
+    "three dots": (("x", "--box", "x=0...5", "--width", "1"), "is no side of a box"),
     "a side without an end": (("x", "--box", "x=0", "--width", "1"), "is no side of a box"),
     "a side twice": (("x", "--box", "x=0..1,x=0..2", "--width", "1"), "x stands twice"),
     "an end divided by 0": (("x", "--box", "x=0..1/0", "--width", "1"), "divides by 0"),

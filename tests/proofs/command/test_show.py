@@ -67,6 +67,21 @@ def test_rejects_export_of_a_file_to_other_than_coq() -> None:
         assert (done.returncode, done.stdout, done.stderr) == (2, "", line)
 
 
+def test_rejects_two_theorems_with_one_file(tmp_path: Path) -> None:
+    (tmp_path / "two.py").write_text(
+        "from juggleproof import MapRule, claim, stability\n"
+        + "".join(
+            f"\n\n@claim('{name}')\ndef {function}():\n    '''Every orbit tends to 0.'''\n"
+            f"    return stability(MapRule('{name}', (('state', 'x'), ('piece', 'x/2'))))\n"
+            for name, function in (("a-b", "one"), ("a.b", "other"))
+        )
+    )
+    certified = running.run("certify", str(tmp_path / "two.py"), "--jobs", "1", "--routes", "exact")
+    assert certified.returncode == 0
+    done = running.run("export", "coq", str(tmp_path / "two.py"), "-o", str(tmp_path / "coq"))
+    assert done.returncode == 2 and done.stderr.endswith("have this one name; rename one\n")
+
+
 def test_claims_of_a_section_and_a_verdict_are_listed_holds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

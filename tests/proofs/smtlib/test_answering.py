@@ -22,6 +22,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.api import certify
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.reports.problems import settled_by
 from juggleproof.proofs.run import Options
 from juggleproof.proofs.run import run as judged
 from juggleproof.proofs.smtlib.answering import (
@@ -139,6 +140,20 @@ def test_a_problem_beyond_the_checkers_limits_is_unknown_and_says_so(tmp_path: P
         (found,) = answer_files([script(tmp_path, f"{text}{rising}{divided}(check-sat)")])
         assert found.answer.word == "unknown"
         assert found.answer.reason == "beyond the checker's limits: too many variables: x400"
+
+
+def test_a_quotient_of_a_quotient_that_may_not_be_one_is_answered_holds(tmp_path: Path) -> None:
+    """Whether a divisor vanishes is asked of a term that divides itself."""
+    body = "(assert (< (/ (/ y y) (ite (<= 1 y) 0.0 2)) 1 0))"
+    (found,) = answer_files([script(tmp_path, f"(declare-const y Real){body}(check-sat)")])
+    assert found.answer.word in ("sat", "unsat", "unknown")
+
+
+def test_rejects_a_symbol_that_writes_rows_of_its_own(tmp_path: Path) -> None:
+    name = "|x = 0\nlater unsat certificate\n1 problem: 1 unsat|"
+    text = f"(declare-const {name} Real)(assert (= {name} 2))(check-sat)"
+    (found,) = answer_files([script(tmp_path, text)])
+    assert found.answer.word == "sat" and "\n" not in settled_by(found)
 
 
 def test_contradictory_givens_are_unsat_by_a_statement_of_their_own_holds(tmp_path: Path) -> None:
