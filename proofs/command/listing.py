@@ -51,7 +51,7 @@ def list_claims(
     if as_json:
         print(canonical([*listed]).decode(), end="")
         return 0
-    heads = ("id", "place", "verdict", "says")
+    heads = ("id", "place", "registered", "says")
     rows = [tuple(one[head] for head in heads) for one in listed]
     if sys.stdout.isatty():
         from rich.console import Console

@@ -137,8 +137,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
                 if found:
                     return ""
         ends = failing_at_ends(system, fixed, parameters)
-        if ends and fails_outside(proof, system, fixed, ends, log):
-            split = [*split, *ends]
+        split += [one for one in ends if fails_outside(proof, system, fixed, one, log)]
         log(head_of(fixed, split))
         if settled(proof, system, fixed, split, given, log):
             return ""
@@ -290,11 +289,9 @@ def settled(
     return True
 
 
-def fails_outside(
-    proof: Proof, system: Map, fixed: FixedPoint, conditions: Sequence[str], log: Report
-) -> bool:
-    """Whether it is certified that the point fails where one of these conditions does not hold."""
-    count, where = len(proof.rules), conjunction(*conditions)
+def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log: Report) -> bool:
+    """Whether it is certified that the point fails where the condition does not hold."""
+    count = len(proof.rules)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
     fails = parts_refuted(proof, system, fixed, complement(where), WAYS, log)
     nowhere = not fails and not proof.add(without_fixed_point(outside))
