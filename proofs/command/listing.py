@@ -51,8 +51,8 @@ def list_claims(
     if as_json:
         print(canonical([*listed]).decode(), end="")
         return 0
-    heads = ("id", "place", "registered", "says")
-    rows = [tuple(one[head] for head in heads) for one in listed]
+    heads = {"id": "id", "place": "place", "verdict": "registered", "says": "says"}
+    rows = [tuple(one[key] for key in heads) for one in listed]
     if sys.stdout.isatty():
         from rich.console import Console
 
@@ -60,7 +60,7 @@ def list_claims(
 
         console = Console()
         with console.capture() as captured:
-            draw(heads, rows, console)
+            draw([*heads.values()], rows, console)
         show(captured.get())
         return 0
     for name, place, word, says in rows:
