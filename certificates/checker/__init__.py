@@ -32,7 +32,7 @@ from .algebra import (
 from .text import Definitions, names_in, parse, rational
 from .language import (
     NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
-    read_statements, univariate, variables_of,
+    read_statements, rows, univariate, variables_of,
 )
 from .rules import State, close, find, prove
 from .orbits import closed_circle, orbit_rules, premises_of, require_no_other, ways_on
@@ -52,5 +52,5 @@ __all__ = [
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "NAMED", "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
     "join", "names_in", "negate", "number", "parse", "rational", "read_statements",
-    "univariate", "variable", "variables_of",
+    "rows", "univariate", "variable", "variables_of",
 ]

@@ -1,16 +1,16 @@
 """What an auditor's file means: statements, and statements over polynomials.
 
-A file is a list of lines.  One that starts with # is a comment.  `statement ID/part` begins a
-statement, a blank line ends it; the lines between say what it is (`LINES` and `ORDERS`).  Terms and
-formulas are written with integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,),
-iff(,).  Definitions: see `text.py`.
+A file is a list of lines, as `rows` reads them.  `statement ID/part` begins a statement, a blank
+line ends it; the lines between say what it is (`LINES` and `ORDERS`).  Terms and formulas are
+written with integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,).
+Definitions: see `text.py`.
 """
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import prod
 from typing import Any, Literal, Union
@@ -487,13 +487,26 @@ def written_line(keyword: str, said: Said) -> str:
     return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")
 
 
+def rows(text: str) -> Iterator[tuple[int, str, str]]:
+    """(number, keyword, what follows it) of each line of a file of statements; of a blank line both
+    are empty, and a comment, which starts with #, is left out.
+
+    Every reader of such a file reads its lines here, so that no two can differ on what is a line.
+    """
+    for count, line in enumerate(text.split("\n"), 1):
+        if line.startswith(" "):  # to one who reads it could be a part of the line above
+            raise Rejected(Kind.LINE_SHAPE, line, f"statements, line {count}")
+        if not line.startswith("#"):
+            keyword, _, rest = line.partition(" ")
+            yield count, keyword, rest
+
+
 def read_statements(text: str) -> dict[str, Statement]:
     """The statements of a file in order, by name, with definitions written out."""
     definitions = Definitions(Work())
     statements: dict[str, Statement] = {}
     current = None
-    for count, line in enumerate(text.split("\n"), 1):
-        keyword, _, rest = line.strip().partition(" ")
+    for count, keyword, rest in rows(text):
         try:
             if keyword == "statement":
                 named = re.fullmatch(r"[\w.\-]+/[\w.\-]+", rest, re.ASCII)
@@ -502,11 +515,11 @@ def read_statements(text: str) -> dict[str, Statement]:
             elif keyword == "define":
                 definitions.define(rest)
                 current = None  # no line of a statement can follow, and be taken for the next one's
-            elif keyword and not keyword.startswith("#"):
+            elif keyword:
                 if not current:
-                    raise Rejected(Kind.LINE, line)
+                    raise Rejected(Kind.LINE, f"{keyword} {rest}")
                 current.add(keyword, rest, definitions, statements)
-            elif not keyword:
+            else:
                 current = None  # where a reader sees a block end, no line can be added to it
         except Rejected as reason:
             raise reason.within(f"statements, line {count}") from None
