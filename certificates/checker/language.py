@@ -44,6 +44,8 @@ Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
 Said = Any  # what a line says: as `LINES` reads its keyword
 
+PER_FACTOR = 4  # work: of a factor of a term, or a name
+
 OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
@@ -117,9 +119,10 @@ class Context:
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
         self.licensed: Licences = dict(outer.licensed) if outer else {}
-        self.work.spend(len(self.index) + len(self.licensed))  # else copies would cost nothing
         if values is None:
             values = outer.values if outer else {}
+        # else copies would cost nothing
+        self.work.spend(len(self.index) + len(self.licensed) + len(values))
         self.values: dict[str, Poly] = dict(values)
 
     def number(self, value: Rational) -> Poly:
@@ -142,6 +145,7 @@ class Context:
 
     def define(self, name: str, value: Poly) -> None:
         """A name for a value.  A word is no name: `names_in` would not see it in a premise."""
+        self.work.spend(2 * PER_FACTOR)
         fresh = name not in self.values and name not in WORDS
         require(fresh and re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII), Kind.NAME, name)
         self.values[name] = value
@@ -154,6 +158,7 @@ class Context:
             if isinstance(part, bool) or part[0] != "atom" or part[2] not in (">", "!="):
                 continue
             content, poly = part[1].primitive()
+            self.work.spend(len(poly.terms) * self.work.dear)
             key = frozenset(poly.terms.items())
             positive = part[2] == ">"
             if key not in self.licensed or positive and not self.licensed[key][1]:
@@ -217,9 +222,10 @@ class Context:
         upper = lower = 1
         monomial = degree = 0
         others: list[Poly] = []
-        factors = [node]
+        factors, count = [node], 0
         while factors:
             node = factors.pop()
+            count += 1
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
                 factors += [node.right, node.left]
                 continue
@@ -240,12 +246,15 @@ class Context:
                 # a long product of constants would grow unseen
                 size = max(upper.bit_length(), lower.bit_length())
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
+        self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
         first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
         return prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
-        value = self.value(parse(text))
+        tree = parse(text)
+        self.work.spend(20 + len(text))
+        value = self.value(tree)
         require(not value.under, Kind.POLYNOMIAL, text)
         return value
 
@@ -290,6 +299,7 @@ class Context:
 
     def show(self, poly: Poly) -> str:
         """A polynomial as text that `parse` reads."""
+        self.work.spend(len(poly.terms) * (PER_FACTOR + len(self.index)))
         parts = []
         for m in sorted(poly.terms, reverse=True):
             factors = [str(Fraction(poly.terms[m], poly.den))]
