@@ -29,10 +29,10 @@ from .algebra import (
     BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, number,
     variable,
 )
-from .text import Definitions, names_in, parse, rational
+from .text import Definitions, names_in, parse, rational, rows
 from .language import (
     NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
-    read_statements, rows, univariate, variables_of,
+    read_statements, univariate, variables_of,
 )
 from .rules import State, close, find, prove
 from .orbits import closed_circle, orbit_rules, premises_of, require_no_other, ways_on

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import prod
 from typing import Any, Literal, Union
@@ -32,7 +32,7 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import WORDS, Definitions, parse, written
+from .text import WORDS, Definitions, parse, rows, written, written_line
 
 Op = Literal["and", "or"]
 Atom = tuple[Literal["atom"], Poly, str]
@@ -121,8 +121,7 @@ class Context:
         self.licensed: Licences = dict(outer.licensed) if outer else {}
         if values is None:
             values = outer.values if outer else {}
-        # else copies would cost nothing
-        self.work.spend(len(self.index) + len(self.licensed) + len(values))
+        self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
         self.values: dict[str, Poly] = dict(values)
 
     def number(self, value: Rational) -> Poly:
@@ -487,28 +486,6 @@ class Statement:
             bound = statements[text].declared
         if keyword != "exists":
             self.declared.update(bound)
-
-
-def written_line(keyword: str, said: Said) -> str:
-    """The text of a line `let`, `root`, `domain` or `have`."""
-    if keyword in ("domain", "have"):
-        return written(said)
-    name, value = said
-    return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")
-
-
-def rows(text: str) -> Iterator[tuple[int, str, str]]:
-    """(number, keyword, what follows it) of each line of a file of statements; of a blank line both
-    are empty, and a comment, which starts with #, is left out.
-
-    Every reader of such a file reads its lines here, so that no two can differ on what is a line.
-    """
-    for count, line in enumerate(text.split("\n"), 1):
-        if line.startswith(" "):  # to one who reads it could be a part of the line above
-            raise Rejected(Kind.LINE_SHAPE, line, f"statements, line {count}")
-        if not line.startswith("#"):
-            keyword, _, rest = line.partition(" ")
-            yield count, keyword, rest
 
 
 def read_statements(text: str) -> dict[str, Statement]:

@@ -196,9 +196,9 @@ def meets(one: Counterexample, rectangle: Rectangle) -> bool:
 # ------------------------------------------------------------ files
 
 STATEMENTS, CERTIFICATES = "statements.txt", "certificates.jsonl"
-# For all lines and statements of a folder: the wide cover beside this file takes 28 million, and its
-# dearest line 227 thousand.  The files of tests/certificates/sine/test_work.py take no longer for a
-# step than it does.
+# For all lines and statements of a folder: the wide cover beside this file takes 28 million, and
+# its dearest line 227 thousand.  The files of tests/certificates/sine/test_work.py take no longer
+# for a step than it does.
 MAX_FOLDER_STEPS = 1 << 26
 MAX_REFUSED = 1000  # lines of certificates, after which no more are read
 NUMBER = r"([0-9]{1,30}(?:/[1-9][0-9]{0,29})?)"
