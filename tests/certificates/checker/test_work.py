@@ -167,7 +167,7 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
     "a text": (
         context_of_40,
         lambda context: context.polynomial("+".join(["x0"] * 50)),
-        149 + 50 * 2,
+        20 + 149 + 50 * 9,
     ),
     "a name": (context_of_40, lambda context: context.define("y", context.values["x0"]), 8),
     "values of a context": (
@@ -188,6 +188,29 @@ def test_every_operation_is_counted(name: str) -> None:
     before = work.left
     operate(operand)
     assert before - work.left >= least
+
+
+def test_a_unit_is_a_product_of_short_numbers_holds() -> None:
+    """And of monomials in more than 32 variables as many units as they are times 32 long."""
+
+    def spent(operate: Callable[[Work], object]) -> int:
+        work = Work(10**8)
+        operate(work)
+        return 10**8 - work.left
+
+    context = context_of_40(Work())
+    x = checker.parse("*".join(["x0"] * 200))
+    assert spent(lambda work: long(work) * long(work)) == 8 + 100 * 100
+    before = context.work.left
+    context.value(x)
+    assert before - context.work.left == 4 * (200 + 199)  # factors, and signs between them
+    before = (p := product_of_300(Work())).work.left
+    assert p.places() == {*range(300)} and before - p.work.left == 100 + 299
+    for place, units in ((31, 1), (32, 2), (63, 2), (64, 3), (399, 13)):
+        work = Work()
+        checker.variable(place, work)
+        checker.variable(0, work)
+        assert work.dear == units
 
 
 def test_bernstein_coefficients_have_a_length_and_a_number_at_most() -> None:
