@@ -39,14 +39,30 @@ def canonical(data: object) -> bytes:
     return ("{" + ",\n".join(rows) + "}\n").encode()
 
 
+def plain_file(path: Path) -> Path:
+    """The path of a file that a user names, or that lies in a folder of the user's: every such file
+    is asked about here before it is opened, since a pipe or a device might never end.
+
+    Raises ClaimError, one line, where something else than a file is there; a file may be missing.
+
+    >>> plain_file(Path("/dev/zero"))
+    Traceback (most recent call last):
+    juggleproof.certificates.formulas.ClaimError: /dev/zero: is no plain file; name one that is
+    """
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise ClaimError(f"{path}: is no plain file; name one that is")
+    return path
+
+
 def write_file(path: Path, content: bytes) -> bool:
     """Writes the file unless it has this content already; never leaves half of it.  Returns whether
     anything was written.
 
-    Raises ClaimError, one line that names the path, where the folder cannot be written.
+    Raises ClaimError, one line that names the path, where the folder cannot be written, or where
+    something else than a file has the name.
     """
     try:
-        if path.exists() and path.read_bytes() == content:
+        if plain_file(path).exists() and path.read_bytes() == content:
             return False
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, aside = tempfile.mkstemp(prefix=".", suffix=path.suffix + ".new", dir=path.parent)
@@ -75,12 +91,11 @@ def certificate_lines(certificates: Mapping[str, Certificate]) -> bytes:
 
 
 UNPRINTABLE = re.compile(r"[^ -~]")
-IGNORED = ("#", "define ")  # lines of a block that are no part of its statement
 
 
 class WrittenOut(Mapping[str, str]):
     r"""The statements of a statement file by name, each with its definitions written out when it is
-    asked for.
+    asked for; of a file that the checker takes, the very ones that it reads.
 
     >>> file = "define d(x) := x - 1\n\n# of d\nstatement a/b\nforall x\nshow d(x) < x"
     >>> WrittenOut(file)["a/b"]
@@ -91,11 +106,15 @@ class WrittenOut(Mapping[str, str]):
         head = next((one for one in text.split("\n\n") if "\ndefine " in "\n" + one), "")
         self.definitions = head.splitlines()  # with their comments
         self.shortened: dict[str, list[str]] = {}  # the lines of each statement as they stand
-        self._reader = Reader(line for line in text.splitlines() if line.startswith("define "))
-        for block in text.split("\n\n"):
-            rows = [row for row in block.splitlines() if row and not row.startswith(IGNORED)]
-            if rows and rows[0].startswith("statement "):
-                self.shortened[rows[0].removeprefix("statement ")] = rows
+        defined, rows = list[str](), list[str]()
+        for _, keyword, rest in checker.rows(text):
+            if keyword == "define":
+                defined.append(f"{keyword} {rest}")
+            elif keyword:
+                if keyword == "statement":
+                    self.shortened[rest] = rows = []
+                rows.append(f"{keyword} {rest}")
+        self._reader = Reader(defined)
         self._texts: dict[str, str] = {}
 
     def __getitem__(self, name: str) -> str:
@@ -121,7 +140,7 @@ def _certificates_of(lines: str) -> Mapping[str, Certificate | None]:
 
 class Store:
     """The statements and certificates of a folder, as last written; an absent folder is an empty
-    store.
+    store.  Raises ClaimError, one line, where its statements cannot be read.
     """
 
     def __init__(self, folder: Path = DEFAULT) -> None:
@@ -130,7 +149,10 @@ class Store:
         self._certificates: Mapping[str, Certificate | None] | None = None
         path = folder / STATEMENTS
         if path.exists():
-            self.texts = written_out(checker.load(str(path)))
+            try:
+                self.texts = written_out(checker.load(str(path)))
+            except checker.Rejected as reason:
+                raise ClaimError(f"{folder}: {reason}; name another folder") from None
 
     def certificate(self, name: str, text: str) -> Certificate | None:
         """The stored certificate of a statement, if the stored statement has this very text; else

@@ -26,6 +26,7 @@ from juggleproof.certificates.store import (
     STATEMENTS,
     canonical,
     certificate_lines,
+    plain_file,
     write_file,
 )
 from juggleproof.certificates.work import Budget, Exhausted
@@ -84,8 +85,10 @@ def refuse_other_files(folder: Path) -> None:
     statements = folder / STATEMENTS
     if not statements.exists():
         others += [CERTIFICATES] if (folder / CERTIFICATES).exists() else []
-    elif not statements.read_text(encoding="utf-8", errors="replace").startswith(
-        f"statement {LOWER}\n"
+    elif (
+        not plain_file(statements)
+        .read_text(encoding="utf-8", errors="replace")
+        .startswith(f"statement {LOWER}\n")
     ):
         others.append(STATEMENTS)
     if others:

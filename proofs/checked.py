@@ -18,7 +18,7 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.processes import as_child
-from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, plain_file
 
 Checked = list[tuple[str, str, str]]  # name, outcome, reason
 Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_one`
@@ -93,7 +93,7 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
     """The claims of a folder in `count` shares of about the same size on disk."""
     sizes: dict[str, int] = {}
     try:
-        lines = (folder / CERTIFICATES).read_bytes().split(b"\n")
+        lines = plain_file(folder / CERTIFICATES).read_bytes().split(b"\n")
     except OSError:
         lines = []
     for line in (one for one in lines if one.startswith(b'["')):

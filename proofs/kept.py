@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import canonical, write_file
+from juggleproof.certificates.store import canonical, plain_file, write_file
 
 Record = dict[str, Any]  # plain data, as JSON has it
 VARIABLE = "JUGGLEPROOF_CACHE"
@@ -85,7 +85,7 @@ def load(key: str) -> list[Record]:
             and (status.st_uid != os.getuid() or status.st_mode & 0o022)
         ):
             return []
-        head, _, rest = path.read_bytes().partition(b"\n")
+        head, _, rest = plain_file(path).read_bytes().partition(b"\n")
         if head.decode() != hashlib.sha256(key.encode() + rest).hexdigest():
             return []
         records = json.loads(rest)["records"]

@@ -69,7 +69,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def _has_claims(path: Path) -> bool:
     try:
-        return path.suffix == ".py" and "@claim(" in path.read_text(encoding="utf-8")
+        return path.suffix == ".py" and path.is_file() and "@claim(" in path.read_text("utf-8")
     except (OSError, ValueError):
         return False
 

@@ -22,6 +22,7 @@ from juggleproof.certificates.processes import alone, own_pool, spread
 from juggleproof.certificates.store import (
     Store,
     canonical,
+    plain_file,
     statement_file,
     write_file,
     write_store,
@@ -216,7 +217,7 @@ def findings_in(folder: Path) -> dict[str, Finding]:
     read, or what it holds has not their shape.
     """
     try:
-        data = json.loads((folder / FINDINGS).read_text(encoding="utf-8"))
+        data = json.loads(plain_file(folder / FINDINGS).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
         return {}
     entries = data.items() if isinstance(data, dict) else ()
@@ -279,7 +280,7 @@ def claims_of_file(path: Path) -> list[Claim]:
     """
     if path.is_dir():
         raise ClaimError(f"{path}: a folder; name a Python file with claims")
-    if not path.is_file():
+    if not plain_file(path).exists():
         raise ClaimError(f"{path}: no such file; name a Python file with claims")
 
     def load() -> None:

@@ -29,7 +29,7 @@ from .algebra import (
     BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, number,
     variable,
 )
-from .text import Definitions, names_in, parse, put, rational
+from .text import Definitions, names_in, parse, put, rational, rows
 from .language import (
     NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
     read_statements, univariate, variables_of,
@@ -52,5 +52,5 @@ __all__ = [
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "NAMED", "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
     "join", "names_in", "negate", "number", "parse", "put", "rational", "read_statements",
-    "univariate", "variable", "variables_of",
+    "rows", "univariate", "variable", "variables_of",
 ]

@@ -165,12 +165,16 @@ class Work:
 
     Each polynomial holds the meter of its check, so that nothing has to be passed on or put back:
     two checks at once, or one inside another, cannot spend what is the other's.
+
+    dear: the units of one product of short coefficients.  A packed monomial of many variables is a
+    long number: one of 400 takes seven times as long to add and to look up as one of three.
     """
 
-    __slots__ = ("left",)
+    __slots__ = ("left", "dear")
 
     def __init__(self, limit: int = MAX_WORK) -> None:
         self.left = limit
+        self.dear = 1
 
     def spend(self, amount: int) -> None:
         """Counts work before it is done, so that a hostile file ends as a rejection, no hang."""
@@ -233,7 +237,7 @@ class Poly:
         return self.plus(other, -1)
 
     def __neg__(self) -> Poly:
-        self.work.spend(len(self.terms))
+        self.work.spend(len(self.terms) * self.work.dear)
         negative = {m: -c for m, c in self.terms.items()}
         return Poly(negative, self.den, self.deg, self.bits, self.work, self.under)
 
@@ -267,7 +271,7 @@ class Poly:
         """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest
         monomial positive.
         """
-        self.work.spend(len(self.terms))
+        self.work.spend(len(self.terms) * self.work.dear)
         content = gcd(*self.terms.values())
         if self.terms[max(self.terms)] < 0:
             content = -content
@@ -279,7 +283,9 @@ class Poly:
         together = 0
         for m in self.terms:
             together |= m
-        return {i for i in range(MAX_VARIABLES) if together >> (BITS * i) & MASK}
+        last = together.bit_length() // BITS
+        self.work.spend(len(self.terms) + last)
+        return {i for i in range(last + 1) if together >> (BITS * i) & MASK}
 
 
 def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work) -> Poly:
@@ -301,7 +307,7 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
         if len(many) < len(few):
             few, many = many, few
         size = bits_of(scale) + p.bits + q.bits
-        work.spend(1 + len(few) * len(many) * (1 + (size * size >> 16)))
+        work.spend(8 + len(few) * len(many) * (work.dear + (size * size >> 16)))
         require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         deg = max(deg, p.deg + q.deg)
         bits = max(bits, size)
@@ -336,6 +342,7 @@ def number(value: Rational, work: Work) -> Poly:
 
 def variable(place: int, work: Work) -> Poly:
     """The variable of this number as a polynomial."""
+    work.dear = max(work.dear, 1 + place // 32)
     return Poly({1 << (BITS * place): 1}, 1, 1, 0, work)
 
 

@@ -1,9 +1,9 @@
 """What an auditor's file means: statements, and statements over polynomials.
 
-A file is a list of lines.  One that starts with # is a comment.  `statement ID/part` begins a
-statement, a blank line ends it; the lines between say what it is (`LINES` and `ORDERS`).  Terms and
-formulas are written with integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,),
-iff(,).  Definitions: see `text.py`.
+A file is a list of lines, as `rows` reads them.  `statement ID/part` begins a statement, a blank
+line ends it; the lines between say what it is (`LINES` and `ORDERS`).  Terms and formulas are
+written with integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,).
+Definitions: see `text.py`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import WORDS, Definitions, parse, written
+from .text import WORDS, Definitions, parse, rows, written, written_line
 
 Op = Literal["and", "or"]
 Atom = tuple[Literal["atom"], Poly, str]
@@ -43,6 +43,8 @@ Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
 Said = Any  # what a line says: as `LINES` reads its keyword
+
+PER_FACTOR = 4  # work: of a factor of a term, or a name
 
 OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
@@ -117,9 +119,9 @@ class Context:
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
         self.licensed: Licences = dict(outer.licensed) if outer else {}
-        self.work.spend(len(self.index) + len(self.licensed))  # else copies would cost nothing
         if values is None:
             values = outer.values if outer else {}
+        self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
         self.values: dict[str, Poly] = dict(values)
 
     def number(self, value: Rational) -> Poly:
@@ -142,6 +144,7 @@ class Context:
 
     def define(self, name: str, value: Poly) -> None:
         """A name for a value.  A word is no name: `names_in` would not see it in a premise."""
+        self.work.spend(2 * PER_FACTOR)
         fresh = name not in self.values and name not in WORDS
         require(fresh and re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII), Kind.NAME, name)
         self.values[name] = value
@@ -154,6 +157,7 @@ class Context:
             if isinstance(part, bool) or part[0] != "atom" or part[2] not in (">", "!="):
                 continue
             content, poly = part[1].primitive()
+            self.work.spend(len(poly.terms) * self.work.dear)
             key = frozenset(poly.terms.items())
             positive = part[2] == ">"
             if key not in self.licensed or positive and not self.licensed[key][1]:
@@ -217,9 +221,10 @@ class Context:
         upper = lower = 1
         monomial = degree = 0
         others: list[Poly] = []
-        factors = [node]
+        factors, count = [node], 0
         while factors:
             node = factors.pop()
+            count += 1
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
                 factors += [node.right, node.left]
                 continue
@@ -240,12 +245,15 @@ class Context:
                 # a long product of constants would grow unseen
                 size = max(upper.bit_length(), lower.bit_length())
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
+        self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
         first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
         return prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
-        value = self.value(parse(text))
+        tree = parse(text)
+        self.work.spend(20 + len(text))
+        value = self.value(tree)
         require(not value.under, Kind.POLYNOMIAL, text)
         return value
 
@@ -290,6 +298,7 @@ class Context:
 
     def show(self, poly: Poly) -> str:
         """A polynomial as text that `parse` reads."""
+        self.work.spend(len(poly.terms) * (PER_FACTOR + len(self.index)))
         parts = []
         for m in sorted(poly.terms, reverse=True):
             factors = [str(Fraction(poly.terms[m], poly.den))]
@@ -479,21 +488,12 @@ class Statement:
             self.declared.update(bound)
 
 
-def written_line(keyword: str, said: Said) -> str:
-    """The text of a line `let`, `root`, `domain` or `have`."""
-    if keyword in ("domain", "have"):
-        return written(said)
-    name, value = said
-    return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")
-
-
 def read_statements(text: str) -> dict[str, Statement]:
     """The statements of a file in order, by name, with definitions written out."""
     definitions = Definitions(Work())
     statements: dict[str, Statement] = {}
     current = None
-    for count, line in enumerate(text.split("\n"), 1):
-        keyword, _, rest = line.strip().partition(" ")
+    for count, keyword, rest in rows(text):
         try:
             if keyword == "statement":
                 named = re.fullmatch(r"[\w.\-]+/[\w.\-]+", rest, re.ASCII)
@@ -502,11 +502,11 @@ def read_statements(text: str) -> dict[str, Statement]:
             elif keyword == "define":
                 definitions.define(rest)
                 current = None  # no line of a statement can follow, and be taken for the next one's
-            elif keyword and not keyword.startswith("#"):
+            elif keyword:
                 if not current:
-                    raise Rejected(Kind.LINE, line)
+                    raise Rejected(Kind.LINE, f"{keyword} {rest}")
                 current.add(keyword, rest, definitions, statements)
-            elif not keyword:
+            else:
                 current = None  # where a reader sees a block end, no line can be added to it
         except Rejected as reason:
             raise reason.within(f"statements, line {count}") from None

@@ -68,9 +68,8 @@ class State:
         self.context.licensed = dict(parent.context.licensed) if parent else {}
         self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
         self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
-        variables.work.spend(
-            len(self.facts) + len(self.choices)
-        )  # else branches would cost nothing
+        # else branches would cost nothing
+        variables.work.spend(len(values) + len(self.facts) + len(self.choices))
         self.closed: bool = parent.closed if parent else False
 
     def assume(self, formula: Formula) -> State:

@@ -19,9 +19,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 from .algebra import Kind, Rational, Rejected, Work, require
 
@@ -59,6 +60,14 @@ def written(node: ast.AST) -> str:
     return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
+def written_line(keyword: str, said: Any) -> str:
+    """The text of a line `let`, `root`, `domain` or `have`."""
+    if keyword in ("domain", "have"):
+        return written(said)
+    name, value = said
+    return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")
+
+
 def names_in(*texts: str) -> set[str]:
     """The names that occur in terms or formulas."""
     return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - WORDS
@@ -77,6 +86,20 @@ def rational(value: object) -> Rational:
     if not isinstance(value, str) or not re.fullmatch(pattern, value, re.ASCII):
         raise Rejected(Kind.RATIONAL, value)
     return Fraction(value)
+
+
+def rows(text: str) -> Iterator[tuple[int, str, str]]:
+    """(number, keyword, what follows it) of each line of a file of statements; of a blank line both
+    are empty, and a comment, which starts with #, is left out.
+
+    Every reader of such a file reads its lines here, so that no two can differ on what is a line.
+    """
+    for count, line in enumerate(text.split("\n"), 1):
+        if line.startswith(" "):  # to one who reads it could be a part of the line above
+            raise Rejected(Kind.LINE_SHAPE, line, f"statements, line {count}")
+        if not line.startswith("#"):
+            keyword, _, rest = line.partition(" ")
+            yield count, keyword, rest
 
 
 # ------------------------------------------------------------ definitions

@@ -21,7 +21,9 @@ SLACK = 256  # units of 2^-40, in each bound: the roundings behind it are togeth
 FINE = 96  # bits of the sums that give pi, sines and cosines
 LONGEST = 4  # periods that a flight may take in an enclosure
 MAX_COLUMNS, MAX_ROWS, MAX_CELLS = 1 << 15, 1 << 13, 1 << 21
-MAX_STEPS = 1 << 26  # lines of a grid that one certificate may look at
+# What one line of certificates may cost, in steps: a step is what it takes to look at one line of a
+# grid, some 5 microseconds, and all other work is counted by as many as it takes, or by more.
+MAX_STEPS = 1 << 24
 
 Interval = tuple[Fraction, Fraction]
 Landing = tuple[int, int, int]  # a column, counted on over periods; its lowest and highest row
@@ -168,6 +170,7 @@ class Flights:
         (alpha_low, alpha_high), (g_low, g_high) = grid.alpha, grid.g
         columns, rows = grid.columns, grid.rows
         check_grid(grid)
+        work.spend(2 * columns)  # before the tables
         self.work = work
         self.columns, self.per_unit, self.rows = columns, grid.per_unit, rows
         self.shift = columns.bit_length()  # 2^shift half columns are a period
@@ -344,9 +347,8 @@ class Walk:
             low, slope = 0, least + (min(0, rise) * step >> BITS)
         else:
             low, slope = 0, -self.speed(2 * m, row)[1]
-        steps = 0
         while True:
-            steps += 1
+            flights.work.spend(1)
             require(m - i <= LONGEST * columns, "a flight without an end")
             least_height, most_height = self.height(m, row)
             if most_height < 0:
@@ -376,5 +378,5 @@ class Walk:
             slope += rise * step >> BITS
             m += 1
         # the ranks of the rows that are reached will be looked at
-        flights.work.spend(steps + sum(top - low for _, low, top in landings) // 64)
+        flights.work.spend(sum(top - low for _, low, top in landings) // 64)
         return landings

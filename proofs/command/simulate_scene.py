@@ -11,6 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import plain_file
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_record
 from juggleproof.scenes.part.readings import AMPLITUDES, FACES, Reading, chosen, recorded
@@ -163,7 +164,7 @@ def _sines(text: str, peak: float) -> list[tuple[float, float, float]]:
 def _read(path: Path) -> str:
     """The text of a file."""
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if plain_file(path).stat().st_size > MOST_BYTES:
             raise ClaimError(f"{path}: more than {MOST_BYTES // 10**6} MB")
         return path.read_text(encoding="utf-8")
     except OSError as fault:

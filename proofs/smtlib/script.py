@@ -17,6 +17,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import NAME, ClaimError, Formula, Term, real
 from juggleproof.certificates.language import RESERVED as OUR_RESERVED
+from juggleproof.certificates.store import plain_file
 from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
 from juggleproof.proofs.smtlib.terms import (
     RESERVED,
@@ -418,7 +419,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
 
 def problems_of_file(path: Path) -> list[Problem]:
     """The problems of a file; raises ClaimError, one line, where it cannot be read."""
-    if not path.is_file():
+    if not plain_file(path).exists():
         raise ClaimError(f"{path}: no such file; name a script of SMT-LIB")
     try:
         return read_problems(path.read_text(encoding="utf-8"), str(path))

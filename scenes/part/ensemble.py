@@ -135,6 +135,8 @@ def advanced_once(job: Job, keep: Path) -> tuple[Array, Array]:
         digest.update(part.tobytes())
     path = keep / f"{digest.hexdigest()[:32]}.npz"
     try:
+        if not path.is_file():  # none, or a pipe, which might never end
+            raise FileNotFoundError(path)
         with np.load(path, allow_pickle=False) as kept:
             states, notes = kept["states"], kept["notes"]
         if states.shape == job.states.shape and notes.shape == job.notes.shape:

@@ -149,6 +149,30 @@ def test_rejects_a_formula_as_term() -> None:
         term_of(checker.parse("x < 1"))
 
 
+TWO = ["define d(x) := x - 1", "", "statement a/b", "forall x", "show d(x) < x"]
+TWO += ["", "statement a/c", "forall x", "given x > 1", "show d(x) > 0"]
+
+
+@pytest.mark.parametrize("added", ["", "# statement a/d", "statement a/d", "define e := 1"])
+@pytest.mark.parametrize("place", range(len(TWO) + 1))
+def test_a_statement_is_what_the_checker_reads_of_it_holds(place: int, added: str) -> None:
+    """Whatever stands between its lines, where the checker takes the file."""
+    for lines in ([*TWO[:place], added, *TWO[place:]], [*TWO[:place], added, *TWO[place + 1 :]]):
+        file = "\n".join(lines)
+        try:
+            believed = checker.read_statements(file)
+        except checker.Rejected:
+            continue
+        held = WrittenOut(file)
+        assert {name: one.text() for name, one in believed.items()} == {
+            name: "\n".join(rows) for name, rows in held.shortened.items()
+        }
+        for name, one in checker.read_statements("\n\n".join(held.values())).items():
+            assert list(map(ast.dump, one.get("show"))) == list(
+                map(ast.dump, believed[name].get("show"))
+            )
+
+
 def test_statements_that_are_held_are_taken_as_they_stand_holds() -> None:
     chapters = [("One.", ["statement a/b\nforall a b g\ngiven g*a + b^2/2 > 0\nshow 0 < 1"])]
     file = statement_file("All.", chapters, ALL, {})

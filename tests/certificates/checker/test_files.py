@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.checker import Kind
+from juggleproof.certificates.checker import Kind, Rejected
 from tests.certificates.checker.harness import Expected, refused
 
 CHECKER = Path(__file__).resolve().parents[3] / "certificates" / "checker"
@@ -303,6 +303,16 @@ def test_rejects_a_last_line_that_is_cut() -> None:
     _, ((count, reason),) = checker.read_certificates(GOOD + GOOD[:-1])
     assert count == 2
     assert refused(reason, NO_LINE)
+
+
+@pytest.mark.parametrize("row", [*TRUE.splitlines(), "# a title", "define d := 1", ""])
+def test_rejects_a_line_that_is_set_in(row: str) -> None:
+    """It would be a line of its own to one reader, and the end of the line above to another."""
+    file = "define d := 1\n\n# a title\n" + TRUE
+    assert list(checker.read_statements(file)) == ["a/b"]
+    with pytest.raises(Rejected) as info:
+        checker.read_statements(f"\n{file}".replace(f"\n{row}\n", f"\n {row}\n", 1))
+    assert refused(info.value, (Kind.LINE_SHAPE, f" {row}"))
 
 
 def test_rejects_an_empty_set_of_statements(tmp_path: Path) -> None:

@@ -95,6 +95,15 @@ def context_of_40(work: Work) -> checker.Context:
     return context
 
 
+def product_of_300(work: Work) -> checker.Poly:
+    """A product of 300 variables, plus 99 powers of the last: monomials that are long numbers."""
+    for k in range(300):
+        checker.variable(k, work)
+    ones = sum(1 << checker.BITS * k for k in range(300))
+    powers = {(k << checker.BITS * 299): 1 for k in range(1, 100)}
+    return checker.Poly({ones: 1, **powers}, 1, 300, 7, work)
+
+
 def state_of_40(work: Work) -> State:
     """A state with 40 facts."""
     context = checker.Context(work=work)
@@ -131,7 +140,42 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
         lambda p: checker.join("and", [("atom", p, ">")] * 40),
         800,
     ),
-    "a copy of a context": (context_of_40, lambda context: checker.Context(context), 40),
+    "a product of long monomials": (product_of_300, lambda p: p * p, 100 * 100 * 7),
+    "a negative of long monomials": (product_of_300, lambda p: -p, 100 * 7),
+    "a primitive part of long monomials": (product_of_300, lambda p: p.primitive(), 100 * 7),
+    "a licence of long monomials": (
+        product_of_300,
+        lambda p: checker.Context(work=p.work).license(("atom", p, ">")),
+        2 * 100 * 7,
+    ),
+    "which variables occur": (product_of_300, lambda p: p.places(), 100 + 299),
+    "a product of constants": (
+        lambda work: checker.number(-1, work),
+        lambda p: p**1000,
+        999 * 8,
+    ),
+    "a polynomial as text": (
+        context_of_40,
+        lambda context: context.show(long(context.work)),
+        100 * 40,
+    ),
+    "a long product of variables": (
+        context_of_40,
+        lambda context: context.value(checker.parse("*".join(["x0"] * 200))),
+        200 * 4,
+    ),
+    "a text": (
+        context_of_40,
+        lambda context: context.polynomial("+".join(["x0"] * 50)),
+        20 + 149 + 50 * 9,
+    ),
+    "a name": (context_of_40, lambda context: context.define("y", context.values["x0"]), 8),
+    "values of a context": (
+        context_of_40,
+        lambda context: checker.Context(values=context.values, work=context.work),
+        40,
+    ),
+    "a copy of a context": (context_of_40, lambda context: checker.Context(context), 80),
     "a branch": (state_of_40, lambda state: state.branch(), 40),
 }
 
@@ -144,6 +188,29 @@ def test_every_operation_is_counted(name: str) -> None:
     before = work.left
     operate(operand)
     assert before - work.left >= least
+
+
+def test_a_unit_is_a_product_of_short_numbers_holds() -> None:
+    """And of monomials in more than 32 variables as many units as they are times 32 long."""
+
+    def spent(operate: Callable[[Work], object]) -> int:
+        work = Work(10**8)
+        operate(work)
+        return 10**8 - work.left
+
+    context = context_of_40(Work())
+    x = checker.parse("*".join(["x0"] * 200))
+    assert spent(lambda work: long(work) * long(work)) == 8 + 100 * 100
+    before = context.work.left
+    context.value(x)
+    assert before - context.work.left == 4 * (200 + 199)  # factors, and signs between them
+    before = (p := product_of_300(Work())).work.left
+    assert p.places() == {*range(300)} and before - p.work.left == 100 + 299
+    for place, units in ((31, 1), (32, 2), (63, 2), (64, 3), (399, 13)):
+        work = Work()
+        checker.variable(place, work)
+        checker.variable(0, work)
+        assert work.dear == units
 
 
 def test_bernstein_coefficients_have_a_length_and_a_number_at_most() -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import types
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
@@ -106,7 +107,7 @@ def in_order(code: Code) -> bool:
     read = [why(code, code.checker.read_statement, one) for one in statements]
     long = code.flights.Flights(box("1/2", "1/5", 16, 1, 64), Work(STEPS))
     short = code.flights.Flights(box("1/2", "1/5", 64, 1024, 8), Work(STEPS))
-    poor = code.flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(10))
+    poor = code.flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(2 * 64 + 10))
     columns = [why(code, list, short.column(i, range(8))) for i in range(64)]
     square = code.flights.sines(64)
     low = code.checker.Rectangle("", *worlds.BELOW_BIRTH)
@@ -131,6 +132,13 @@ def work_is_bounded(code: Code) -> bool:
     whole = Work(STEPS)
     code.checker.check_line(line(), whole)
     spent = STEPS - whole.left
+    tables, rows = Work(STEPS), Work(STEPS)
+    wide = code.flights.Grid(
+        (Fraction(), Fraction(9, 10)), (Fraction(1, 10), Fraction(1)), 16, 1024, 8192
+    )
+    lands = code.flights.Walk(code.flights.Flights(wide, rows), 3).landings(10, 3)
+    code.flights.Flights(wide, tables)
+    lines, looked = len({m for m, _, _ in lands}), sum(top - low for _, low, top in lands) // 64
 
     def found(lines: list[str], left: int, greatest: str = "197/1000") -> list[str]:
         statement = f"{worlds.BEGINS} alpha in [1/20, 1/20] and g in [197/1000, {greatest}]\n"
@@ -141,13 +149,19 @@ def work_is_bounded(code: Code) -> bool:
         return [f"{word} {why}".rstrip() for _, word, why in results]
 
     unstable = refuting("multiplier", "1/20", "290/1000", 16, 16)
+    cost = 10 + len(unstable) // 16 + 20
     return (
         STEPS - levels.left == cells_read
+        and STEPS - tables.left == 2 * 16
+        and tables.left - rows.left >= lines + looked > lines > 0
+        and code.checker.check_line(unstable, Work(cost - 20))[0] is not None
+        and code.checker.check_line(unstable, Work(cost - 21)) == (None, "too much work")
+        and len(found(["{}"] * 2000, STEPS)) == 1002
         and found([line()], spent + 1000) == ["certified"]
         and found([line()], spent + 5) == ["unknown too much work"]
         and found([line()] * 2, spent + 1000) == ["rejected too much work", "unknown too much work"]
-        and found([unstable], 10, "290/1000") == ["refuted"]
-        and found([unstable], 9, "290/1000") == ["unknown too much work"]
+        and found([unstable], cost, "290/1000") == ["refuted"]
+        and found([unstable], cost - 1, "290/1000") == ["unknown too much work"]
     )
 
 

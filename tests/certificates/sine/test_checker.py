@@ -161,8 +161,8 @@ def test_rejects_a_folder_that_is_none(tmp_path: Path) -> None:
 def test_work_bounds_what_a_cover_may_take_holds() -> None:
     rectangle = checker.Rectangle("", (Fraction(0), Fraction(1, 2)), "g", (Fraction(), Fraction(1)))
     whole = [((Fraction(k, 160), Fraction(k + 1, 160)), rectangle.values) for k in range(80)]
-    assert not worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 25))
-    assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 20))
+    assert not worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 17))
+    assert worlds.reason(CODE, checker.check_cover, rectangle, whole, Work(1 << 14))
 
 
 def test_work_bounds_cells_lines_and_folders_holds() -> None:

@@ -92,6 +92,6 @@ def test_flights_within_a_period_land_faster_than_1_but_never_than_4_holds() -> 
 
 
 def test_work_runs_out_holds() -> None:
-    there = flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(10))
+    there = flights.Flights(box("1/20", "197/1000", 64, 16, 22), Work(2 * 64 + 10))
     with pytest.raises(Rejected):
         list(there.column(0, range(22)))

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, certificate_lines
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, Store, certificate_lines
 from juggleproof.proofs.claims import stated_texts
 from juggleproof.proofs.command.check import check
 from juggleproof.proofs.paper import paper_claims
@@ -62,6 +64,45 @@ def test_rejects_another_statement_of_the_theorems_name(
     assert check(write(tmp_path, text, certificates)) == 1
     shown = capsys.readouterr().out
     assert "0 unknown, 0 rejected\ntheorem: NOT proved; theorem-in-units/exactly, or what" in shown
+
+
+def test_rejects_a_theorem_whose_line_is_set_in(
+    stored: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Else the checker would see a theorem where the line on it sees none."""
+    path = stored / STATEMENTS
+    path.write_text(path.read_text().replace(f"statement {THEOREM}\n", f"  statement {THEOREM}\n"))
+    with pytest.raises(ClaimError, match="the wrong shape:   statement theorem-in-units/exactly"):
+        check(stored)
+    with pytest.raises(ClaimError, match="the wrong shape"):
+        Store(stored)
+    assert not capsys.readouterr().out
+
+
+@pytest.mark.parametrize("last", [f"\nstatement {THEOREM}", f"\n# a comment\nstatement {THEOREM}"])
+def test_rejects_an_open_theorem_right_below_another_statement(
+    stored: Path, capsys: pytest.CaptureFixture[str], last: str
+) -> None:
+    path = stored / STATEMENTS
+    head, *tail = path.read_text().split(f"\n\nstatement {THEOREM}\n")
+    assert len(tail) == 1
+    path.write_text(head + last + "\n" + tail[0])
+    assert check(stored) == 0
+    assert "\ntheorem: proved" in capsys.readouterr().out
+    lines = (stored / CERTIFICATES).read_text().splitlines(keepends=True)
+    (stored / CERTIFICATES).write_text("".join(one for one in lines if THEOREM not in one[:40]))
+    assert check(stored) == 1
+    assert f"theorem: NOT proved; {THEOREM} is not certified" in capsys.readouterr().out
+
+
+def test_rejects_a_theorem_without_a_statement_that_it_rests_on(
+    stored: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = stored / STATEMENTS
+    map_, *others = re.findall(r"statement theorem-in-units/\S+\n(?:[^\n]+\n)+", path.read_text())
+    path.write_text(path.read_text().replace(map_, map_.replace("-units/map", "-units/chart")))
+    assert others and check(stored) == 1
+    assert "theorem: NOT proved; theorem-in-units/exactly, or what" in capsys.readouterr().out
 
 
 def test_rejects_a_theorem_that_rests_on_itself(
