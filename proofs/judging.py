@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import (
     NO_ROLES,
     AnyStatement,
@@ -18,7 +19,9 @@ from juggleproof.certificates.language import (
     Roles,
     SharpRange,
     Statement,
+    conjunction,
     disjunction,
+    names_in,
     rests_on,
 )
 from juggleproof.certificates.nodes import Certificate, Counterexample
@@ -57,7 +60,7 @@ from juggleproof.proofs.forms import (
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.orbit_rules import premises_of, read_rule, why
 from juggleproof.proofs.ranges import search_sharp_range, text_of_range
-from juggleproof.proofs.rules import range_of_rule, whole_text
+from juggleproof.proofs.rules import range_of_rule, rule_domain, whole_text
 
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
@@ -110,7 +113,9 @@ def settle_by_rules(
         if one.follows:
             held = one.verdict.word == "holds"
             text = (
-                range_of_rule(one.rests_on[-1], texts, one.roles, one.is_conclusion)
+                range_of_rule(
+                    one.rests_on[-1], texts, _stated(one.roles, by_id[one.id]), one.is_conclusion
+                )
                 if held
                 else NOT_FOUND
             )
@@ -443,7 +448,14 @@ class Judge:
         return checker.check_one(statement, certificate, self.known, {})[0]
 
     def record(self, name: str, text: str, certificate: Certificate, outcome: str) -> None:
-        """Adds a settled statement to the judgement."""
+        """Adds a settled statement to the judgement.
+
+        Raises ClaimError where its name is that of another one.
+        """
+        if name in self.judgement.outcomes:
+            raise ClaimError(
+                f"{name} is the name of two statements, or of one and a sharp range; change a label"
+            )
         self.judgement.statements.append((name, text))
         self.judgement.certificates[name] = certificate
         self.judgement.outcomes[name] = outcome
@@ -519,12 +531,10 @@ class Judge:
                 return False
         except ClaimError:  # it contradicts itself, or divides by what may vanish
             return False
-        judgement, tried = self.judgement, trial.judgement
-        judgement.statements += tried.statements
-        judgement.certificates.update(tried.certificates)
-        judgement.outcomes.update(tried.outcomes)
+        tried = trial.judgement
         for name, text in tried.statements:
-            judgement.votes[name] = self.votes(name, text, tried.outcomes[name])
+            self.record(name, text, tried.certificates[name], tried.outcomes[name])
+            self.judgement.votes[name] = self.votes(name, text, tried.outcomes[name])
         return True
 
     def is_stored_certified(self, statement: AnyStatement) -> bool:
@@ -569,7 +579,7 @@ class Judge:
         sides by the checker; None where it is about no range, or is open itself.
 
         Statements that are certified with the whole domain as their range hold on all of it: the
-        others decide.
+        others decide, with all that are about no range and not certified.
         """
         roles = self.judgement.roles
         sought = self.claim.over(roles)
@@ -578,20 +588,25 @@ class Judge:
         outcomes = self.judgement.outcomes
         rules = [part.name for part in named if isinstance(part, MapRule)]
         if rules:
-            return self.sharp_range_of_rule(rules[-1])
+            return self.sharp_range_of_rule(rules[-1], named)
         parts = [part for part in named if isinstance(part, Statement)]
         ranged = [part for part in parts if speaks_of_range(part, domains)]
         if not ranged or outcome_of(self.claim.id, prefix, assertion, outcomes) == "unknown":
             return None
+        others = [part for part in parts if part not in ranged]
         always_false = tuple(
-            part.name for part in parts if part not in ranged and outcomes[part.name] == "refuted"
+            part.name
+            for part in others
+            if outcomes[part.name] == "refuted" and not domains.keys() & {*part.forall}
         )
         if always_false:  # refuted whatever the parameters are
             return Sharp("nowhere", always_false)
         open_parts = [
             part
-            for part in ranged
-            if not (has_whole_range(part, domains) and outcomes[part.name] == "certified")
+            for part in parts
+            if outcomes[part.name] != "certified"
+            or part in ranged
+            and not has_whole_range(part, domains)
         ]
         everywhere = tuple(part.name for part in ranged if part not in open_parts)
         if not open_parts:
@@ -604,12 +619,44 @@ class Judge:
         )
         return replace(sharp, by=(*sharp.by, *everywhere)) if sharp.by else sharp
 
-    def sharp_range_of_rule(self, name: str) -> Sharp | None:
-        """The range for which the conclusion of a map rule of this claim is proved."""
-        if self.judgement.outcomes[name] != "certified":
+    def sharp_range_of_rule(self, name: str, parts: Sequence[AnyStatement]) -> Sharp | None:
+        """The range for which the conclusion of a map rule of this claim is proved; None unless all
+        parts of its assertion are certified, and the domain of every rule on which it does not rest
+        contains its own.
+        """
+        if any(self.judgement.outcomes[part.name] != "certified" for part in parts):
             return None
-        text = range_of_rule(name, dict(self.judgement.statements), self.judgement.roles)
+        texts = {**self.resources.lemmas, **dict(self.judgement.statements)}
+        rested_on = [name]
+        for one in rested_on:
+            if one not in texts:  # of a claim that this one does not name among what it uses
+                return None
+            rested_on += rests_on(read(texts[one], one))
+        domain = rule_domain(name, texts)[0]
+        others = {part.name for part in parts if isinstance(part, MapRule)} - {*rested_on}
+        if not all(self.contains(rule_domain(one, texts)[0], domain) for one in sorted(others)):
+            return None
+        text = range_of_rule(name, texts, _stated(self.judgement.roles, self.claim))
         return Sharp(text, (name,)) if text else None
+
+    def contains(self, outer: str, inner: str) -> bool:
+        """Whether the checker accepts a quick proof that one domain contains another, in the
+        variables of the other.
+        """
+        if not outer or not inner:
+            return not outer
+        formula = formula_of(checker.parse(outer))
+        parts = formula.parts if formula.op == "and" else (formula,)
+        within = [part for part in parts if names_in(part) & checker.names_in(inner)]
+        names = sorted(checker.names_in(inner).union(*map(names_in, within)))
+        text = f"forall {' '.join(names)}\ngiven {inner}\nshow {conjunction(within)}"
+        name = f"{self.claim.id}/contained"
+        try:
+            parsed = read(f"statement {name}\n{text}", name)
+            found = search_certificate(parsed, {}, Budget(QUICK_BUDGET))
+        except (checker.Rejected, Exhausted):
+            return False
+        return "certified" in found and self.check(parsed, found) == "certified"
 
     def stored_sharp_range(
         self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
@@ -671,6 +718,13 @@ class Judge:
             return "certified"
         earlier = {one.name: read(one.text(), one.name) for one in ranged}
         return checker.check_one(read(stored, name), certificate, self.known, earlier)[0]
+
+
+def _stated(roles: Roles, claim: Claim) -> Roles:
+    """The roles where the vocabulary of the claim states them; what its statements say of a domain
+    says nothing of a map's.
+    """
+    return roles if claim.vocabulary.domains else NO_ROLES
 
 
 def _renamed(statement: AnyStatement, name: str) -> AnyStatement:

@@ -3,8 +3,8 @@
 
 Each claim is an item `juggleproof::ID`.  Of the paper it passes where its verdict is as registered;
 of one's own where the claim holds. What is unknown fails, and nothing is skipped.  A session judges
-once, as `juggleproof certify` does, and the checker reads everything. Python files named beside
-`--juggleproof` that have claims are judged instead of the paper's, as with `certify FILE.py`.
+once, as `juggleproof certify` does, and the checker reads everything. The claims of Python files
+named beside `--juggleproof` are judged instead of the paper's, as with `certify FILE.py`.
 """
 
 from __future__ import annotations
@@ -43,6 +43,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Takes from the arguments what names claims: pytest itself would look for files of these
     names.
+
+    Raises UsageError for a test file named beside `--juggleproof`: its claims would not be judged.
     """
     files = [
         config.invocation_params.dir / name for name in config.getoption("--juggleproof-claims")
@@ -57,7 +59,12 @@ def pytest_configure(config: pytest.Config) -> None:
     for argument in list(config.args):
         path, _, name = argument.partition("::")
         place = config.invocation_params.dir / path
-        is_file = papers and _has_claims(place) and not _is_for_tests(config, place)
+        is_file = papers and place.suffix == ".py" and place.is_file()
+        if is_file and _is_for_tests(config, place):
+            raise pytest.UsageError(
+                f"{path}: a test file by its name, so --juggleproof does not judge it; name it"
+                " with --juggleproof-claims, or run its tests without --juggleproof"
+            )
         if is_file or Path(path).name == NAME and not place.exists():
             config.args.remove(argument)
             named += [place] if is_file else []
@@ -65,13 +72,6 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[CLAIMS] = pytest_items.Claims(
         papers and not named, list(dict.fromkeys([*files, *named])), [] if "" in chosen else chosen
     )
-
-
-def _has_claims(path: Path) -> bool:
-    try:
-        return path.suffix == ".py" and path.is_file() and "@claim(" in path.read_text("utf-8")
-    except (OSError, ValueError):
-        return False
 
 
 def _is_for_tests(config: pytest.Config, path: Path) -> bool:

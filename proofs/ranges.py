@@ -22,6 +22,7 @@ from juggleproof.certificates.language import (
     conjunction,
     disjunction,
     interval_text,
+    names_in,
 )
 from juggleproof.certificates.nodes import Sharp
 from juggleproof.certificates.search.families import implies_domain, solved
@@ -50,10 +51,13 @@ def search_sharp_range(
     Over several real parameters first the values of the first one are sought for which the
     statements hold with all values of the others; then pairs.
     """
+    if not _replaces(over, statements, roles):
+        return None
     parsed = [read(statement.text(), statement.name) for statement in statements]
     first, whole = over[0], whole_parameters(over, parsed)
     domains = {name: conjunction(roles.domains.get(name, ())) for name in over}
-    if first == roles.parameter:
+    first_alone = _replaces(over[:1], statements, roles)
+    if first == roles.parameter and first_alone:
         tied = _tied(parsed, first, domains[first], budget, roles)
         if tied is not None:
             number, hypothesis = tied
@@ -63,7 +67,7 @@ def search_sharp_range(
             )
             if region.statement is not None and region.certificate is not None:
                 return region.statement, region.certificate
-    if first == roles.parameter and not whole:
+    if first == roles.parameter and first_alone and not whole:
         try:
             sharp = find_sharp_range(
                 parsed, first, domains[first], name, known, Budget(budget), roles=roles
@@ -84,7 +88,8 @@ def text_of_range(
     text: str, statements: Sequence[Statement], over: Sequence[str], roles: Roles, budget: int
 ) -> str | None:
     """A certified sharp range of the statements as a person reads it, from its own lines; None
-    where it is over other parameters, or on another domain than the whole one.
+    where it is over other parameters, on another domain than the whole one, or where a range line
+    names what it is not over: that line would be left out.
 
     The whole domain is that of the parameters, with what ties a whole number to the first one.
     """
@@ -93,14 +98,18 @@ def text_of_range(
     first, domains = sharp.over[0], {name: roles.domains.get(name, ()) for name in sharp.over}
     if sharp.of != tuple(one.name for one in statements) or first != over[0]:
         return None
+    if not _replaces(sharp.over, statements, roles):
+        return None
     if str(sharp.domain) == str(conjunction([conjunction(one) for one in domains.values()])):
         if sharp.over not in ((first,), tuple(over)):
             return None
         if len(sharp.over) > 1:
             return region_text(sharp, whole_parameters(sharp.over, parsed))
         line = line_on(checker.parse(str(sharp.condition)), first, checker.parse(str(sharp.domain)))
-        ends = bounds_of(str(sharp.domain), first) or (None, None)
-        return None if line is None else line_text(line.simplified(), first, sharp.numbers, ends)
+        ends = bounds_of(str(sharp.domain), first)
+        if line is None or ends is None:
+            return None
+        return line_text(line.simplified(), first, sharp.numbers, ends)
     tied = _tied(parsed, first, conjunction(domains[first]), budget, roles)
     if tied is None or sharp.over != (first, tied[0]):
         return None
@@ -127,6 +136,19 @@ def sharp_range_of(text: str) -> SharpRange:
         formula_of(domain),
         formula_of(condition),
         tuple((name, poly, low, high) for name, poly, low, high in numbers),
+    )
+
+
+def _replaces(over: Collection[str], statements: Sequence[Statement], roles: Roles) -> bool:
+    """Whether a sharp range over these can stand in place of all range lines of the statements:
+    each line names only those of them that have a domain.
+    """
+    replaced = {name for name in over if name in roles.domains}
+    return all(
+        isinstance(line, Formula) and names_in(line) <= replaced
+        for statement in statements
+        for keyword, line in statement.lines
+        if keyword == "range"
     )
 
 

@@ -8,7 +8,14 @@ from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, exact, simplest_between
-from juggleproof.certificates.language import NO_ROLES, End, Roles, bounds_of, interval_text
+from juggleproof.certificates.language import (
+    NO_ROLES,
+    End,
+    Roles,
+    bounds_of,
+    conjunction,
+    interval_text,
+)
 from juggleproof.certificates.search.ranges import line_on
 
 BITS, NEAR = 32, Fraction(1, 10**6)  # of an irrational end: its enclosure, and what is told for it
@@ -34,12 +41,12 @@ def range_of_rule(
 
     >>> text = "statement t/map\\nover a r\\ndomain a > 0 and 3*a < 1 and r > 0"
     >>> range_of_rule("t/map", {"t/map": text})
-    'at least 0 < a < 1/3'
+    'at least a > 0 and 3*a < 1 and r > 0'
 
     The parameter is the first of the roles, else the first that the map is over.  The text
     is empty where the domain does not name it, and the domain itself where it is no interval, or
-    asks more of the other parameters than the map's domain. An irrational end is told by a rational
-    number near to it inside, after `at least`.
+    asks something of the other parameters; with roles, where it asks more of them than the map's
+    domain. An irrational end is told by a rational number near to it inside, after `at least`.
 
     >>> text = "statement t/map\\nover a\\ndomain a > 0 and 2*a^2 < 1"
     >>> range_of_rule("t/map", {"t/map": text})
@@ -54,7 +61,8 @@ def range_of_rule(
     ends = bounds_of(domain, parameter)
     if not ends and not is_sharp and checker.names_in(domain) == {parameter}:
         ends = _ends_inside(domain, parameter)
-    more = _conditions(domain) - _conditions(rows.get("domain", domain))
+    standing = _conditions(rows.get("domain", domain)) if roles.parameter else set[str]()
+    more = _conditions(domain) - standing
     others = {*rows.get("over", "").split()} - {parameter}
     if not ends or any(others & checker.names_in(one) for one in more):
         return ("" if is_sharp else "at least ") + domain
@@ -116,4 +124,6 @@ def _ends(roles: Roles) -> tuple[End | None, End | None]:
 
 def whole_text(roles: Roles) -> str:
     """The domain of the first parameter as a person reads it."""
-    return interval_text(roles.parameter, *_ends(roles))
+    domain = str(conjunction(roles.domains[roles.parameter]))
+    ends = bounds_of(domain, roles.parameter)
+    return interval_text(roles.parameter, *ends) if ends else domain

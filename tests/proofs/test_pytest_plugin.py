@@ -109,6 +109,23 @@ def test_files_named_beside_the_option_are_judged_holds(inner: pytest.Pytester) 
     result.stdout.fnmatch_lines(["juggleproof::squares PASSED*"])
 
 
+def test_claims_are_judged_however_they_are_written_holds(inner: pytest.Pytester) -> None:
+    path = file_with(inner.path, FALSE)
+    text = path.read_text(encoding="utf-8").replace("@claim(", "@as_claim(")
+    path.write_text("from juggleproof.proofs import claim as as_claim\n" + text, encoding="utf-8")
+    inner.runpytest_inprocess("--juggleproof", "mine.py").assert_outcomes(passed=1, failed=2)
+
+
+def test_rejects_named_file_that_is_not_judged(inner: pytest.Pytester) -> None:
+    file_with(inner.path, FALSE).rename(inner.path / "test_mine.py")
+    result = inner.runpytest_inprocess("--juggleproof", "test_mine.py")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["ERROR: test_mine.py: a test file by its name, *"])
+    (inner.path / "empty.py").write_text("x = 1\n", encoding="utf-8")
+    result = inner.runpytest_inprocess("--juggleproof", "empty.py")
+    assert result.ret != 0 and any("empty.py: no claims" in line for line in lines(result))
+
+
 def test_claims_stand_beside_tests_holds(inner: pytest.Pytester) -> None:
     file_with(inner.path, HOLDS)
     inner.makepyfile(test_it="def test_it(): pass\n")

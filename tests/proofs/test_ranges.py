@@ -1,20 +1,28 @@
 """Sharp ranges of claims: whole numbers tied to alpha, a single point, what holds on the whole
-range left out, names of end points.
+range left out, names of end points, no range line left out, nowhere only where nothing holds.
 """
 
 from dataclasses import replace
 from fractions import Fraction
 
+import pytest
 from flint import fmpq_poly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import real_roots
-from juggleproof.certificates.language import Roles, Statement, conjunction, real, reals
+from juggleproof.certificates.language import (
+    ClaimError,
+    Roles,
+    Statement,
+    conjunction,
+    real,
+    reals,
+)
 from juggleproof.certificates.search.ranges import Line
 from juggleproof.proofs.claims import Assertion, Claim
-from juggleproof.proofs.forms import read, speaks_of_range
+from juggleproof.proofs.forms import always, read, speaks_of_range
 from juggleproof.proofs.judgement import Resources, Sharp
-from juggleproof.proofs.judging import judge
+from juggleproof.proofs.judging import Judge, judge
 from juggleproof.proofs.ranges import line_text, search_sharp_range, text_of_range
 
 alpha, K, n, k, x = reals("alpha K n k x")
@@ -122,3 +130,76 @@ def test_a_range_among_the_givens_counts():
     assert not speaks_of_range(
         Statement("a/b", ("x",), (("given", x > 0),), show=conjunction([])), ROLES.domains
     )
+
+
+a, b, q, y = reals("a b q y")
+UNIT = (a > 0, a < 1)
+
+
+def told(*statements, parameters=None):
+    """The display of the sharp range of a claim that asserts these."""
+    claim = Claim(
+        "own", "", "", "what they say", lambda: Assertion(statements), parameters=parameters
+    )
+    sharp = judge(claim, Resources(routes=("exact",))).sharp.get("")
+    return sharp and sharp.text
+
+
+@pytest.mark.parametrize(
+    ("statement", "parameters"),
+    [
+        (always(a * q < 1, in_range=UNIT, given=[q > 0, q < 1]), ("q",)),
+        (always(2 * a * b < 1, in_range=[*UNIT, b > 0, b < a]), ("a",)),
+        (always(a > 0, in_range=[*UNIT, (2 * a > 1) | (b > 0)], given=[b < 5]), ("a",)),
+    ],
+)
+def test_rejects_range_that_leaves_out_a_line_of_another_variable(statement, parameters):
+    assert told(statement, parameters=parameters) == "not found"
+
+
+def test_range_lines_of_two_variables_are_both_replaced_holds():
+    product = always(a * q < 1, in_range=[*UNIT, q > 2, q < 3])
+    assert told(product) == "0 < a < 1/q"
+    roles = Roles({"a": UNIT, "q": (q > 2, q < 3)})
+    text = "statement own/sharp\nsharp own/main\nover a\ndomain a > 0 and a < 1\nholds 0 = 1"
+    assert text_of_range(text, [product.named("own/main")], ("a", "q"), roles, BUDGET) is None
+
+
+@pytest.mark.parametrize(
+    ("show", "domain", "shown"),
+    [
+        (a**2 < 2, [a**2 < 1], "a^2 < 1"),
+        (a**2 > 1, [a**2 > 2], "a^2 > 2"),
+        (2 * a < 1, [a**2 < 1], "not found (not on the whole domain)"),
+    ],
+)
+def test_a_domain_that_is_not_linear_is_told_whole_holds(show, domain, shown):
+    assert told(always(show, in_range=domain)) == shown
+
+
+def test_rejects_nowhere_for_a_refutation_at_some_parameters_only():
+    part = always(4 * a < 3, given=[2 * a > 1, a < 1])
+    assert told(always(a + y**2 > 0, in_range=UNIT), part) == "0 < a < 3/4"
+    assert told(always(a + y**2 > 0, in_range=UNIT), always(y**2 > 1)) == "nowhere"
+
+
+def test_rejects_range_beside_a_statement_that_is_not_settled():
+    open_part = always(y**2 >= 0)
+    refuted = always(2 * a < 1, in_range=UNIT)
+    claim = Claim("own", "", "", "what they say", lambda: Assertion((refuted, open_part)))
+    one = Judge(claim, Resources(routes=("exact",)))
+    one.judgement.roles = Roles({"a": UNIT})
+    one.judgement.outcomes = {"own/main": "refuted", "own/main-2": "unknown"}
+    assert one.find_sharp_range("", Assertion((refuted, open_part))) is None
+
+
+@pytest.mark.parametrize(
+    "statements",
+    [
+        [always(2 * a < 1, in_range=UNIT, label="sharp")],
+        [always(y**2 >= 0), always(y**4 >= 0), always(y**6 >= 0, label="main-2")],
+    ],
+)
+def test_rejects_two_statements_of_one_name(statements):
+    with pytest.raises(ClaimError, match=r": own/\S+ is the name of two statements, .*a label$"):
+        told(*statements)

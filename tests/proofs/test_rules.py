@@ -4,10 +4,16 @@ where a statement that they rest on changes.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from juggleproof.certificates.language import MapRule, Roles, Statement, real
+from juggleproof.proofs.claims import Assertion, Claim
+from juggleproof.proofs.forms import always
+from juggleproof.proofs.judgement import Resources
+from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.rules import range_of_rule
 from tests.proofs.command.running import Done, run
@@ -88,7 +94,9 @@ def test_what_is_asked_of_other_parameters_is_part_of_the_range_holds() -> None:
     }
     assert range_of_rule("t/exactly", both) == "a > 0 and 3*a < 1 and b > 0 and b < 1"
     within = {name: text.replace(" and b < 1", "") for name, text in both.items()}
-    assert range_of_rule("t/exactly", within) == "0 < a < 1/3"
+    assert range_of_rule("t/exactly", within) == "a > 0 and 3*a < 1 and b > 0"
+    stated = Roles({"a": (real("a") > 0,)})
+    assert range_of_rule("t/exactly", within, stated) == "0 < a < 1/3"
 
 
 def test_the_range_of_several_attractors_is_that_of_the_descent_holds() -> None:
@@ -130,3 +138,50 @@ def test_a_map_without_parameters_has_no_range_holds() -> None:
         "t/near": "map t/map\ndomain 0 < 1",
     }
     assert range_of_rule("t/near", texts) == range_of_rule("t/map", texts) == ""
+
+
+def scaled(name: str, domain: str, over: str = "a") -> MapRule:
+    space = ("space", "0 <= x and x <= 1")
+    rows = ("over", over), ("domain", domain), ("state", "x"), space, ("piece", "a*x")
+    return MapRule(name, rows)
+
+
+def near(domain: str) -> MapRule:
+    at = ("on", "0 <= x and x <= 1"), ("point", "0"), ("weights", "1"), ("rate", "a")
+    return MapRule(
+        "near", (("map", "own/f"), ("domain", domain), *at, ("radius", "1"), ("size", "1"))
+    )
+
+
+def told(*parts: Statement | MapRule) -> str | None:
+    """The display of the range of a claim that asserts these, the last of them a map rule."""
+    claim = Claim("own", "", "", "what they say", lambda: Assertion(parts))
+    sharp = judge(claim, Resources(routes=("exact",))).sharp.get("")
+    return sharp and sharp.text
+
+
+WHOLE = "0 < a and a < 1"
+BELOW_HALF = always(real("a") < Fraction(1, 2), in_range=[real("a") > 0, real("a") < 1])
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        (BELOW_HALF, scaled("f", WHOLE), near(WHOLE)),
+        (scaled("f", WHOLE), near("0 < a and 2*a < 1"), scaled("g", WHOLE)),
+    ],
+)
+def test_rejects_range_of_the_last_rule_where_another_part_does_not_hold(
+    parts: tuple[Statement | MapRule, ...],
+) -> None:
+    assert told(*parts) is None
+
+
+def test_range_of_the_last_rule_within_the_domains_of_the_others_holds() -> None:
+    rules = scaled("g", "0 < a and a < 3/4"), scaled("f", WHOLE), near("0 < a and 2*a < 1")
+    assert told(*rules) == "at least 0 < a < 1/2"
+
+
+@pytest.mark.parametrize("more", ["a < b", "b = 3"])
+def test_range_of_a_rule_is_told_with_all_of_its_conditions_holds(more: str) -> None:
+    assert told(scaled("f", f"{WHOLE} and {more}", "a b")) == f"at least {WHOLE} and {more}"
