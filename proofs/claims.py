@@ -252,7 +252,7 @@ class Claim:
     @property
     def is_of_package(self) -> bool:
         """Whether the claim is the paper's, and not of one's own."""
-        return self.source.startswith("juggleproof.proofs.")
+        return self.source.startswith(f"{__package__}.")
 
     @cached_property
     def _own_body(self) -> Body:
