@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
@@ -80,8 +81,8 @@ class Readings:
 class Argument:
     """Steps, each with its label, from which the conclusion is argued.
 
-    If a step fails, the conclusion stands by its own certificate, by the claim `proved_by`, or by
-    the map rules that it `rests_on`.
+    If a step fails, the conclusion stands by its own certificate, by the claim `proved_by` where
+    that holds, or by the map rules that it `rests_on`.
     """
 
     steps: Mapping[str, Assertion]
@@ -248,9 +249,19 @@ class Claim:
             return self._own_body
         return as_body(self.read(printed), self.id)
 
+    @property
+    def is_of_package(self) -> bool:
+        """Whether the claim is the paper's, and not of one's own."""
+        return self.source.startswith(f"{__package__}.")
+
     @cached_property
     def _own_body(self) -> Body:
-        return as_body(self.read(self.read_print()) if self.printed else self.read(), self.id)
+        body = as_body(self.read(self.read_print()) if self.printed else self.read(), self.id)
+        if isinstance(body, CheckedApart) and not self.is_of_package:
+            raise ClaimError(
+                f"{self.id}: no other checker certifies a claim of one's own; state what it asserts"
+            )
+        return body
 
     def shown_beside(self) -> Assertion | None:
         """What its remark states, if it states something."""
@@ -266,14 +277,32 @@ class Claim:
 def place_in_file(file: str, line: int) -> str:
     """File and line, the file relative to the working directory where it is below it."""
     path = Path(file)
-    return f"{path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path}:{line}"
+    shown = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
+    return f"{one_line(str(shown))}:{line}"
+
+
+def one_line(text: str) -> str:
+    """The text in one line of what can be printed: it can neither end a line nor move the cursor.
+
+    >>> one_line("a" + chr(10) + "b" + chr(27) + "c" + chr(0x202e))
+    'a b\ufffdc\ufffd'
+    """
+    return "".join(
+        each if each.isprintable() else " " if each.isspace() else "\ufffd" for each in text
+    )
 
 
 def as_body(returned: object, claim_id: str) -> Body:
-    """What a claim function returned, as a body."""
+    """What a claim function returned, as a body.
+
+    Raises ClaimError, naming the claim, for what is no body, and for one that asserts nothing.
+    """
     if isinstance(returned, get_args(Body)):
         body: Body = returned
-        return body
+        stated = assertions(body)
+        if any(not one.parts for _, one in stated) or isinstance(body, Argument) and not stated:
+            raise ClaimError(f"{claim_id} asserts nothing in a part; give each part a statement")
+        return _printable(body)
     if isinstance(returned, (Statement, Iterates, MapRule)):
         return Assertion((returned,))
     if isinstance(returned, Iterable) and not isinstance(returned, (str, Formula)):
@@ -290,6 +319,22 @@ def as_body(returned: object, claim_id: str) -> Body:
         f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such,"
         " Readings, Argument, Following, Simulated, CheckedApart or NotFormalised"
     )
+
+
+def _printable(body: Body) -> Body:
+    """The body with each text that is shown in one line."""
+    if isinstance(body, Simulated):
+        return Simulated(one_line(body.figures))
+    if isinstance(body, NotFormalised):
+        return NotFormalised(one_line(body.why))
+    if isinstance(body, Readings):
+        lines = {name: one_line(one.passage) for name, one in body.of.items()}
+        return Readings({name: replace(one, passage=lines[name]) for name, one in body.of.items()})
+    if isinstance(body, Argument):
+        body = replace(body, proved_by=one_line(body.proved_by))
+    if isinstance(body, (Argument, Following)):
+        return replace(body, rests_on=tuple(map(one_line, body.rests_on)))
+    return body
 
 
 def as_assertion(returned: object, claim_id: str) -> Assertion:
@@ -312,6 +357,13 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
         return []
     steps = [(f"{name}.", assertion) for name, assertion in body.steps.items()]
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
+
+
+def awaited(body: Body) -> tuple[str, ...]:
+    """What of other claims the verdict on a body rests on: statements of map rules, and a claim."""
+    if isinstance(body, Argument):
+        return (*body.rests_on, body.proved_by) if body.proved_by else body.rests_on
+    return body.rests_on if isinstance(body, Following) else ()
 
 
 def all_assertions(claim: Claim) -> list[tuple[str, Assertion]]:
@@ -394,32 +446,43 @@ def claim(
             raise ClaimError(f"{id!r} is no name for a claim; use letters, digits, - and .")
         if any(known.id == id for known in _registry):
             raise ClaimError(f"{id} is the name of two claims; rename one")
-        says = " ".join((inspect.getdoc(read) or "").split())
+        says = one_line(" ".join((inspect.getdoc(read) or "").split()))
         if not says:
             raise ClaimError(f"{id} has no docstring; say in a sentence what it asserts")
+        module = _module_of(read)
         made = Claim(
             id,
-            section,
-            place,
+            " ".join(one_line(section).split()),
+            " ".join(one_line(place).split()),
             says,
             read,
-            printed,
-            as_it_stands,
-            repeats,
+            "\n".join(map(one_line, printed.split("\n"))),
+            one_line(as_it_stands),
+            one_line(repeats),
             None if parameters is None else tuple(parameters),
             derived,
-            mended,
-            true_nearby,
-            remark,
+            one_line(mended),
+            true_nearby and (one_line(true_nearby[0]), true_nearby[1]),
+            remark
+            and replace(remark, text=one_line(remark.text), by=tuple(map(one_line, remark.by))),
             hints or {},
-            f"{read.__module__}.{read.__qualname__}",
+            f"{module}.{read.__qualname__}",
             vocabulary,
         )
         _registry.append(made)
-        _by_module.setdefault(read.__module__, {})[id] = made
+        _by_module.setdefault(module, {})[id] = made
         return read
 
     return register
+
+
+def _module_of(read: Callable[..., object]) -> str:
+    """The module of a function; none where it names one of this package from another file."""
+    name, code = read.__module__, getattr(read, "__code__", None)
+    if name.startswith("juggleproof."):
+        if code is None or getattr(sys.modules.get(name), "__file__", "") != code.co_filename:
+            return ""
+    return name
 
 
 def claims_in(modules: Iterable[str]) -> list[Claim]:
@@ -497,7 +560,7 @@ def outcome_of(
     ]
     if "refuted" in parts:
         return "refuted"
-    return "certified" if all(part == "certified" for part in parts) else "unknown"
+    return "certified" if {*parts} == {"certified"} else "unknown"
 
 
 _WORD = {"certified": "holds", "refuted": "false", "unknown": "unknown"}
@@ -506,8 +569,8 @@ _WORD = {"certified": "holds", "refuted": "false", "unknown": "unknown"}
 def verdict_of(
     claim_id: str, body: Body, outcomes: Mapping[str, str], corrected: bool = False
 ) -> Verdict:
-    """The verdict on a claim from the outcomes of its statements; `corrected` where a corrected
-    print has been certified.
+    """The verdict on a claim from the outcomes of its statements, and of what it awaits;
+    `corrected` where a corrected print has been certified.
     """
 
     def word(prefix: str, assertion: Assertion) -> str:
@@ -538,11 +601,12 @@ def verdict_of(
         return body.verdict()
     if isinstance(body, NotFormalised):
         return Verdict("unknown", NOT_FORMALISED + body.why)
-    return _argument(body, word, by_rules(body.rests_on, outcomes))
+    by = by_rules((body.proved_by,), outcomes), by_rules(body.rests_on, outcomes)
+    return _argument(body, word, *by)
 
 
 def by_rules(rests_on: Sequence[str], outcomes: Mapping[str, str]) -> str:
-    """holds where every map rule that is named was certified, else unknown."""
+    """holds where every map rule or claim that is named was certified, else unknown."""
     return (
         "holds"
         if rests_on and all(outcomes.get(name) == "certified" for name in rests_on)
@@ -550,7 +614,9 @@ def by_rules(rests_on: Sequence[str], outcomes: Mapping[str, str]) -> str:
     )
 
 
-def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str) -> Verdict:
+def _argument(
+    body: Argument, word: Callable[[str, Assertion], str], proved: str, rules: str
+) -> Verdict:
     steps = {name: word(f"{name}.", step) for name, step in body.steps.items()}
     conclusion = word("conclusion.", body.conclusion) if body.conclusion else ""
     broken = [name for name, one in steps.items() if one == "false"]
@@ -561,13 +627,14 @@ def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str)
     if broken:
         if conclusion == "holds":
             stands = "certified"
-        elif body.proved_by:
+        elif proved == "holds":
             stands = f"by {body.proved_by}"
         else:
             stands = f"by {', '.join(body.rests_on)}" if rules == "holds" else "open"
         return Verdict("gap", f"step {', '.join(broken)} is false; conclusion {stands}")
     if "unknown" in (*steps.values(), conclusion):
         return Verdict("unknown")
-    if conclusion or body.proved_by:
+    if conclusion or proved == "holds":
         return Verdict("holds")
-    return Verdict("unknown", "conclusion open")
+    waits = f"; awaits {body.proved_by}" if body.proved_by else ""
+    return Verdict("unknown", f"conclusion open{waits}")

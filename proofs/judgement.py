@@ -171,6 +171,7 @@ class Judgement:
     correction: Correction | None = None
     recorded: dict[str, RecordedVotes] = field(default_factory=dict)
     rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
+    awaits: tuple[str, ...] = ()  # these, and the claim that it is proved by
     # the verdict if they are certified
     by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))
     follows: bool = False

@@ -44,6 +44,7 @@ from juggleproof.proofs.claims import (
     Verdict,
     as_body,
     assertions,
+    awaited,
     named_statements,
     outcome_of,
     place_in_file,
@@ -90,13 +91,39 @@ def settle_by_rules(
     texts: Mapping[str, str],
     claims: Sequence[Claim],
 ) -> None:
-    """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of
-    all statements are known, with their texts; the claims state what these should be.
+    """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
+    the outcomes of all statements are known, with their texts; the claims state what these should
+    be.
     """
     by_id, stated = {claim.id: claim for claim in claims}, dict[str, str]()
+    above = list[str]()
+
+    def stands(name: str) -> bool:
+        """Whether the claim holds by the outcomes of its statements as stated, and by what it
+        awaits, which is not itself.
+        """
+        claim = by_id.get(name)
+        if claim is None or name in above:
+            return False
+        above.append(name)
+        settled = {
+            one: outcomes.get(one, "unknown")
+            for one, text in stated_texts(claim).items()
+            if texts.get(one) == text
+        }
+        body, beside = claim.body(), claim.shown_beside()
+        settled.update((one, "certified") for one in awaited(body) if holds(one))
+        above.pop()
+        if beside and outcome_of(name, REMARK, beside, settled) != "certified":
+            return False
+        return verdict_of(name, body, settled).word == "holds"
 
     def holds(name: str) -> bool:
-        """Whether the rule is certified, and it and all that it rests on are as stated."""
+        """Whether the claim stands, or the rule is certified, and it and all that it rests on are
+        rules, and as stated.
+        """
+        if "/" not in name:
+            return stands(name)
         names = [name] if outcomes.get(name) == "certified" else []
         for one in names:
             claim = by_id.get(one.split("/")[0])
@@ -104,11 +131,14 @@ def settle_by_rules(
                 stated.update(stated_texts(claim))
             if one not in stated or texts.get(one) != stated[one]:
                 return False
-            names += [each for each in rests_on(read(stated[one], one)) if each not in names]
+            rule = read(stated[one], one)
+            if rule.kind not in checker.orbit_rules():
+                return False
+            names += [each for each in rests_on(rule) if each not in names]
         return bool(names)
 
     for one in judgements:
-        if one.rests_on and all(map(holds, one.rests_on)):
+        if one.awaits and all(map(holds, one.awaits)):
             one.verdict = one.by_rules
         if one.follows:
             held = one.verdict.word == "holds"
@@ -178,7 +208,7 @@ class Judge:
     def __init__(self, claim: Claim, resources: Resources) -> None:
         self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
-        self.is_trial = False
+        self.is_trial = self.lacks_lemmas = False
         self.where = claim.where  # file and line of what is settled
 
     @property
@@ -193,7 +223,9 @@ class Judge:
         claim, judgement = self.claim, self.judgement
         for name in claim.hints.get("uses", ()):
             if name.split("/")[0] != claim.id:
-                self.known[name] = read(self.resources.lemmas[name], name)
+                self.lacks_lemmas |= name not in self.resources.lemmas
+                if name in self.resources.lemmas:
+                    self.known[name] = read(self.resources.lemmas[name], name)
         body = self.body()
         judgement.roles = claim.roles(
             [
@@ -219,9 +251,10 @@ class Judge:
             )
         if isinstance(body, (Following, Argument)):
             judgement.rests_on, judgement.follows = body.rests_on, isinstance(body, Following)
+            judgement.awaits = awaited(body)
             judgement.is_conclusion = isinstance(body, Following) and body.is_conclusion
             judgement.by_rules = verdict_of(
-                claim.id, body, {**judgement.outcomes, **dict.fromkeys(body.rests_on, "certified")}
+                claim.id, body, {**judgement.outcomes, **dict.fromkeys(awaited(body), "certified")}
             )
         if not judgement.follows:  # what stands beside a conclusion of map rules has no range
             for prefix, assertion in assertions(body):
@@ -354,7 +387,7 @@ class Judge:
         if certificate is None:
             return "rejected"
         stored = self.resources.store.texts if self.resources.store else {}
-        as_stored = all(
+        as_stored = not self.lacks_lemmas and all(
             stored.get(one.name) == one.text() for one in self.known.values()
         )  # else what it rests on is not what was read there
         outcome = self.resources.checked.get(name, "rejected") if as_stored else "rejected"
@@ -519,6 +552,8 @@ class Judge:
                 for prefix, assertion in assertions(body)
                 for part in named_statements("x", prefix, assertion)
             ]
+            if not statements:
+                return False
             if not all(map(self.is_stored_certified, statements)) and any(
                 self.is_refuted_by_sampling(read(part.text(), part.name)) for part in statements
             ):

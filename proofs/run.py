@@ -31,6 +31,8 @@ from juggleproof.proofs.checked import Checked, Reading, outcomes_of
 from juggleproof.proofs.claims import (
     Claim,
     FixedBody,
+    Verdict,
+    awaited,
     claim_named,
     claims_in,
     claims_of,
@@ -129,7 +131,7 @@ def run(
     Raises ClaimError, one line, for two claims of one name, a name that no claim bears, and the
     first claim in order that cannot be stated.
     """
-    done = judge_stored(claims, options, progress, executor)
+    done = judge_stored(claims, options, progress, executor, is_checked_after=True)
     before = Store(options.store).texts
     restated = tuple(
         name
@@ -143,7 +145,22 @@ def run(
         checked = checker.check_folder(str(options.store))
     settled = replace(done, checked=checked, restated=restated)
     settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts, claims)
+    for judgement in done.judgements:
+        take_back(judgement, settled)
     return settled
+
+
+def take_back(judgement: Judgement, done: Run) -> None:
+    """Leaves a judgement open whose statements the checker, which read all that is stored, did not
+    accept as they were judged: a lemma that one uses may be none.
+    """
+    reasons = {name: f"{outcome}: {why}" for name, outcome, why in done.checked}
+    for name, outcome in judgement.outcomes.items():
+        now = done.outcomes.get(name, "rejected")
+        if now != outcome:
+            judgement.outcomes[name] = now
+            judgement.correction, judgement.sharp = None, {}
+            judgement.verdict = Verdict("unknown", f"{name} is {reasons.get(name, 'not stored')}")
 
 
 def judge_stored(
@@ -151,9 +168,11 @@ def judge_stored(
     options: Options,
     progress: Progress = no_progress,
     executor: Executor | None = None,
+    is_checked_after: bool = False,
 ) -> Run:
     """The same without writing anything: `checked` is the checker's reading of the store as it is,
-    and what waits for map rules of other claims is not settled.
+    and what waits for other claims is not settled; lemmas are used that the checker accepted in the
+    store, or all where it reads what comes of them.
     """
     refuse_duplicates(claims)
     chosen, jobs = _selected(claims, options.only), options.processes
@@ -166,30 +185,52 @@ def judge_stored(
             lemmas(claims, chosen),
         )
         resources = replace(resources, checked=reading.outcomes())
+        if not is_checked_after:
+            resources = replace(resources, lemmas=accepted(resources))
     judgements, seconds = judge_all(chosen, resources, jobs, progress, executor)
     return Run(chosen, judgements, seconds, reading.results, options.store)
 
 
-def judge_some(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -> list[Judgement]:
+def judge_some(
+    chosen: Sequence[Claim],
+    claims: Sequence[Claim],
+    folder: Path,
+    outcomes: Mapping[str, str] | None = None,
+) -> list[Judgement]:
     """The judgements on some of the claims by their stored certificates: the checker is asked of
-    these, and of what they rest on, and no other route is.
+    these, and of what they rest on, unless its outcomes are given, and no other route is; a lemma
+    that it does not accept is not used.
 
     Raises what `judge` raises, and ClaimError where the folder cannot be read.
     """
-    store, ids = Store(folder), {claim.id for claim in chosen}
-    own = [name for name in store.texts if name.split("/")[0] in ids]
+    store, ids, used = Store(folder), {claim.id for claim in chosen}, lemmas(claims, chosen)
+    own = [name for name in store.texts if name in used or name.split("/")[0] in ids]
+    checked = outcomes if outcomes is not None else outcomes_of(folder, own) if own else {}
     resources = Resources(
-        ("exact",),
-        store=store,
-        findings=findings_in(folder),
-        lemmas=lemmas(claims, chosen),
-        checked=outcomes_of(folder, own) if own else {},
+        ("exact",), store=store, findings=findings_in(folder), lemmas=used, checked=checked
     )
+    resources = replace(resources, lemmas=accepted(resources))
     judgements = [judge(claim, resources) for claim in chosen]
-    rules = [name for one in judgements for name in one.rests_on]
-    outcomes = outcomes_of(folder, rules) if rules else {}
+    by_id = {claim.id: claim for claim in claims}
+    names = [name for one in judgements for name in one.awaits]
+    for name in names:
+        if name in by_id:
+            below = (*stated_texts(by_id[name]), *awaited(by_id[name].body()))
+            names += [one for one in below if one not in names]
+    if outcomes is None:
+        outcomes = outcomes_of(folder, names) if store.texts and names else {}
     settle_by_rules(judgements, outcomes, store.texts, claims)
     return judgements
+
+
+def accepted(resources: Resources) -> dict[str, str]:
+    """The lemmas that are stored as they are stated, and certified there."""
+    texts = resources.store.texts if resources.store else {}
+    return {
+        name: text
+        for name, text in resources.lemmas.items()
+        if resources.checked.get(name) == "certified" and texts.get(name) == text
+    }
 
 
 def refuse_duplicates(claims: Sequence[Claim]) -> None:
@@ -360,8 +401,9 @@ def judge_sent(sent: Sent) -> tuple[Judgement, float]:
 
 def sent(claim: Claim, resources: Resources) -> Sent:
     """A claim, with what it is judged with, as data that can be pickled."""
-    if claim.source.startswith("juggleproof.proofs."):
-        return Sent((claim.source.rpartition(".")[0], claim.id), resources.only(claim))
+    module = claim.source.rpartition(".")[0]
+    if claim.is_of_package and any(one is claim for one in claims_in([module])):
+        return Sent((module, claim.id), resources.only(claim))
     if claim.printed or claim.derived or claim.true_nearby:
         raise ClaimError(
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"

@@ -14,7 +14,7 @@ from rich.progress import Progress as Bar
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, write_file
-from juggleproof.proofs.claims import CheckedApart, Claim
+from juggleproof.proofs.claims import CheckedApart, Claim, one_line
 from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
 from juggleproof.proofs.index import write_index
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
@@ -94,7 +94,7 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
         if one.verdict != "holds":
             print(f"\n{one.id}: {failing(one)}".replace("\n", "\n    ").replace("\n    ", "\n", 1))
     if results.own and results.exit:
-        files = " ".join(str(path) for path in options.files)
+        files = " ".join(one_line(str(path)) for path in options.files)
         print(f"\n`juggleproof explain ID {files}` shows a claim whole")
     for change in results.changes:
         print(f"{'accepted ' if accepts else 'differs from the register '} {change}")

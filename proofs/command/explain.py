@@ -111,11 +111,12 @@ def explain(
 
 
 def _print_of(claim: Claim) -> None:
+    printed = f"\n{'':12}".join(line.strip() for line in claim.printed.splitlines())
     if claim.as_it_stands:
         print(f"stands      {claim.as_it_stands}")
-        print(f"restored    {claim.printed}")
+        print(f"restored    {printed}")
     elif claim.printed:
-        print(f"printed     {claim.printed}")
+        print(f"printed     {printed}")
     if claim.repeats:
         print(f"repeats     {claim.repeats}")
 

@@ -15,6 +15,7 @@ from typing import Any, NoReturn
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import plain_file
+from juggleproof.certificates.votes.vote import Disagreement
 from juggleproof.proofs.command.simulate_options import add_simulate
 
 MODULES = {
@@ -352,7 +353,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         code = _dispatch(parsed)
         print(end="", flush=True)  # there may be no standard output to flush
         return code
-    except ClaimError as problem:
+    except (ClaimError, Disagreement) as problem:
         print(f"juggleproof: {problem}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -17,6 +17,7 @@ from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs import paper
+from juggleproof.proofs.checked import outcomes_of
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.judgement import Correction, Judgement, statements_of
 from juggleproof.proofs.judging import settle_by_rules
@@ -136,8 +137,7 @@ class Contents:
     @property
     def theorem_stands(self) -> str:
         """Whether the theorem survives the errors."""
-        register = {one.claim.id: {"verdict": one.verdict} for one in self.entries}
-        return errata.theorem_stands([one.claim for one in self.entries], register)
+        return errata.theorem_stands([one.claim for one in self.entries], self.theorem)
 
     def first_page(self) -> list[tuple[Entry, list[errata.Line]]]:
         """What matters to whoever cites the theorem: the claims with their three lines."""
@@ -215,19 +215,27 @@ def _entries(
 def errata_text() -> str:
     """Every claim that is not simply true, in groups; a heading with its number opens each.
 
-    Raises ClaimError, one line, where no verdict is registered yet.
+    A claim is simply true where the checker certifies all that is stored of it; each other is
+    judged, whatever the register says.  Raises ClaimError, one line, where no verdict is registered
+    yet, or the store cannot be read.
     """
-    register, claims = {**load_register()}, paper.paper_claims()
-    if not register:
+    registers, claims, store = load_register(), paper.paper_claims(), Store(DEFAULT)
+    if not registers:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"
         )
+    checked, found = outcomes_of(DEFAULT, store.texts), dict[str, set[str]]()
+    for name, outcome in checked.items():
+        found.setdefault(name.split("/")[0], set()).add(outcome)
     doubted = [
         claim
         for claim in claims
-        if register.get(claim.id, {}).get("verdict") != "holds" or errata.is_noted(claim)
+        if found.get(claim.id) != {"certified"}
+        or registers.get(claim.id, {}).get("verdict") != "holds"
+        or errata.is_noted(claim)
     ]
-    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT)}
+    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT, checked)}
+    register = {claim.id: registered("holds", "", "", "") for claim in claims}
     for name, one in judged.items():
         register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
     findings = {name: one.finding() for name, one in judged.items()}
@@ -236,7 +244,8 @@ def errata_text() -> str:
         for name, one in judged.items()
     }
     groups = {claim.id: errata.group_of(claim, register, findings) for claim in claims}
-    lines = [errata.HEAD, *errata.first_page(claims, register, groups, findings, settled)]
+    theorem = tree.theorem_line(store, checked)
+    lines = [errata.HEAD, *errata.first_page(claims, register, groups, findings, settled, theorem)]
     for group, title in errata.GROUPS.items():
         members = [claim for claim in claims if groups[claim.id] == group]
         lines.append(f"{title} ({len(members)})\n")

@@ -25,6 +25,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.register import Register
 from juggleproof.proofs.reports.in_words import in_words
+from juggleproof.proofs.reports.tree import STANDS
 
 THEOREM = "theorem-in-units"  # the claim on which those of section 4 rest
 ERRORS = ("misprint", "false", "gap")
@@ -255,11 +256,12 @@ def first_page(
     groups: Mapping[str, str],
     findings: Mapping[str, Finding],
     settled: Mapping[str, Sequence[Settled]],
+    theorem: str,
 ) -> list[str]:
-    """What matters to whoever cites the theorem: the heaviest errors of section 4 and appendix A,
-    each as what is said, why it is wrong, and what is true.
+    """What matters to whoever cites the theorem, by the line about it: the heaviest errors of
+    section 4 and appendix A, each as what is said, why it is wrong, and what is true.
     """
-    lines = [f"{FIRST}\n", theorem_stands(claims, register), ""]
+    lines = [f"{FIRST}\n", theorem_stands(claims, theorem), ""]
     for claim in what_matters(claims, groups):
         lines.append(f"{claim.id}, {place_of(claim)}")
         three = three_lines_of(claim, register, findings[claim.id], settled[claim.id])
@@ -278,11 +280,11 @@ def three_lines_of(
     return in_three_lines(claim, wrong, fails, finding.get("correction"))
 
 
-def theorem_stands(claims: Sequence[Claim], register: Register) -> str:
-    """Whether the theorem survives, as registered."""
+def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
+    """Whether the theorem survives, by the line about it."""
     says = [claim.says for claim in claims if claim.id == THEOREM]
-    if register.get(THEOREM, {}).get("verdict") != "holds" or not says:
-        return f"The theorem is open ({THEOREM})."
+    if not theorem.startswith(STANDS) or not says:
+        return f"The theorem is not certified ({THEOREM})."
     return f"The theorem survives all of these, by another proof ({THEOREM}). {says[0]}"
 
 

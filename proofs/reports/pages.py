@@ -13,6 +13,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
+from juggleproof.proofs.checked import outcomes_of
 from juggleproof.proofs.claims import VERDICTS, CheckedApart, Claim
 from juggleproof.proofs.conclusions import REFUTED
 from juggleproof.proofs.judgement import Finding
@@ -24,7 +25,9 @@ from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports import tex_words as words
 from juggleproof.proofs.reports.results import counted
+from juggleproof.proofs.reports.tree import theorem_line
 from juggleproof.proofs.run import findings_in
+from juggleproof.proofs.theorem import THEOREM
 
 ROOT = Path(__file__).resolve().parents[2]
 END = "<!-- end of what is generated -->"
@@ -99,7 +102,8 @@ def _first_page(
     findings: Mapping[str, Finding],
     store: Store,
 ) -> list[str]:
-    lines = [f"## {errata.FIRST}", "", errata.theorem_stands(claims, register), ""]
+    theorem = theorem_line(store, outcomes_of(DEFAULT, [THEOREM]))
+    lines = [f"## {errata.FIRST}", "", errata.theorem_stands(claims, theorem), ""]
     for claim in errata.what_matters(claims, groups):
         settled = errata.stored(claim, store)
         three = errata.three_lines_of(claim, register, findings.get(claim.id, {}), settled)

@@ -67,9 +67,9 @@ def counted(outcomes: Mapping[str, str]) -> list[str]:
     """
     own = [outcome for name, outcome in outcomes.items() if "/corrected." not in name]
     labels = {"certified": "certificate", "refuted": "counterexample", "unknown": "open"}
-    counts = [(own.count(word), label) for word, label in labels.items()]
+    counts = [(own.count(word), labels.get(word, word)) for word in OUTCOMES]
     return [
-        f"{count} {label}{'s' if count > 1 and label != 'open' else ''}"
+        f"{count} {label}{'s' if count > 1 and label[0] == 'c' else ''}"
         for count, label in counts
         if count
     ]
@@ -95,7 +95,7 @@ NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
 
 def is_of_paper(claim: Claim) -> bool:
     """Whether a claim is the paper's, and not of one's own."""
-    return claim.source.startswith("juggleproof.proofs.")
+    return claim.is_of_package
 
 
 def locator(claim: Claim) -> str:
@@ -190,7 +190,7 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Cons
         colour = COLOURS[judgement.verdict.word]
         table.add_row(
             row[0],
-            row[1],
+            row[1].replace("[", r"\["),
             f"[{colour}]{row[2]}[/{colour}]",
             *(cell.replace("[", r"\[") for cell in row[3:]),
         )
@@ -205,9 +205,8 @@ def summary(judgements: Sequence[Judgement]) -> str:
     """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
     verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in VERDICTS]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
-    counted = ", ".join(
-        f"{outcomes.count(word)} {word}" for word in ("certified", "refuted", "unknown")
-    )
+    words = OUTCOMES if "rejected" in outcomes else OUTCOMES[:-1]
+    counted = ", ".join(f"{outcomes.count(word)} {word}" for word in words)
     lines = [
         f"{_many(len(judgements), 'claim')}: {', '.join(verdicts)}",
         f"{_many(len(outcomes), 'statement')}: {counted}",

@@ -4,6 +4,8 @@ that it changes is checked again.
 
 from __future__ import annotations
 
+import json
+import re
 import shutil
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
@@ -17,12 +19,23 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import CERTIFICATES, Store, certificate_lines
 from juggleproof.proofs.checked import Reading, shares
-from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judgement import Judgement
+from juggleproof.proofs.claims import Claim, claims_in
+from juggleproof.proofs.judgement import Judgement, Resources
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.run import Options, claims_of_file, run
+from juggleproof.proofs.run import (
+    Options,
+    claims_of_file,
+    judge_some,
+    judge_stored,
+    run,
+    sent,
+    store_of,
+)
 from juggleproof.proofs.theorem import THEOREM
+from tests.proofs.command.running import run as command
 from tests.proofs.stores import part_of_store
+
+Json = Any
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem.
 CHOSEN = ("s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "sA.3.2-sup3", "sB.1-so-that", "eq-26")
@@ -199,6 +212,84 @@ def test_rejects_a_claim_without_a_sentence_by_its_line(
     Path("mine.py").write_text(source, encoding="utf-8")
     with pytest.raises(ClaimError, match=r"mine\.py:4: bare has no docstring"):
         claims_of_file(Path(path.format(tmp_path)))
+
+
+USED = """
+from juggleproof.proofs import always, claim, reals
+x, a = reals("x a")
+@claim("lemma")
+def lemma():
+    "Of squares."
+    return always({})
+@claim("user", hints={{"uses": ("lemma/main",)}})
+def user():
+    "By the lemma."
+    return always({})
+"""
+
+
+def by_lemma(folder: Path, lemma: str, user: str) -> tuple[Path, Path]:
+    """A file of a claim and of another that uses it, and their store, where the second stands by
+    the first.
+    """
+    path = folder / "own.py"
+    path.write_text(USED.format(lemma, user), encoding="utf-8")
+    run(claims_of_file(path), Options(store_of([path]), ("exact",), jobs=1))
+    lines = store_of([path]) / CERTIFICATES
+    data = dict(json.loads(line) for line in lines.read_text(encoding="utf-8").splitlines())
+    closed: list[Json] = [["1", [[0, 1]], "1"], ["1", [[1, 1]], "1"]]
+    used = ["use", "lemma/main", {"x": "a"}, {}, ["psatz", closed, []]]
+    point = ["user/main", [], {"a": "0"}, ["close"]]
+    data["user/main"] = {"certified": ["proof", [], used], "point": point}
+    lines.write_bytes(certificate_lines(data))
+    return path, store_of([path])
+
+
+def test_rejects_a_proof_by_a_lemma_that_is_refuted(tmp_path: Path) -> None:
+    path, store = by_lemma(tmp_path, "x**2 < 0", "a**2 < 0")
+    claims = claims_of_file(path)
+    assert [one.verdict.word for one in judge_some(claims, claims, store)] == ["false", "false"]
+    assert [one.verdict.word for one in judge_some(claims[1:], claims, store)] == ["false"]
+    stored = judge_stored(claims, Options(store, ("exact",), jobs=1))
+    assert [one.verdict.word for one in stored.judgements] == ["false", "false"]
+    done = run(claims, Options(store, ("exact",), jobs=1))
+    assert [one.verdict.word for one in done.judgements] == ["false", "unknown"]
+    assert done.judgements[1].outcomes == {"user/main": "rejected"}
+    shown = command("certify", str(path), "--routes", "exact")
+    assert shown.returncode == 1 and "0 certified, 1 refuted, 0 unknown, 1 rejected" in shown.stdout
+    assert re.search(r"^user .* unknown  1 rejected ", shown.stdout, re.MULTILINE)
+
+
+def test_rejects_what_the_votes_contradict_in_one_line(tmp_path: Path) -> None:
+    path, _ = by_lemma(tmp_path, "x**2 < 0", "a**2 < 0")
+    done = command("certify", str(path))
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert "the checked certificate says certified, but z3 says fails" in done.stderr
+
+
+def test_a_proof_by_a_lemma_that_is_certified_holds(tmp_path: Path) -> None:
+    path, store = by_lemma(tmp_path, "x**2 >= 0", "a**2 >= 0")
+    claims = claims_of_file(path)
+    (judged,) = judge_some(claims[1:], claims, store)
+    assert judged.verdict.word == "holds" and "use" in str(judged.certificates["user/main"])
+
+
+def test_rejects_a_claim_under_a_module_and_name_of_the_papers(tmp_path: Path) -> None:
+    path, module = tmp_path / "own.py", "juggleproof.proofs.paper.s3_1_s3_2_coupling"
+    for name in ("read.__module__", "__name__"):
+        path.write_text(
+            "from juggleproof.proofs import always, claim, real\nx = real('x')\n"
+            "def read():\n    'A square.'\n    return always(x**2 < 0)\n"
+            f"{name} = {module!r}\nread.__module__ = {module!r}\nclaim('eq-6')(read)\n",
+            encoding="utf-8",
+        )
+        (own,) = claims_of_file(path)
+        assert not own.is_of_package and isinstance(sent(own, Resources()).claim, Claim)
+        assert all(one is not own for one in claims_in([module]))
+    papers = next(one for one in paper_claims() if one.id == "eq-6")
+    assert sent(papers, Resources()).claim == (module, "eq-6")
+    with pytest.raises(ClaimError, match="a print to be corrected"):
+        sent(replace(papers, says="something else"), Resources())
 
 
 def test_a_remark_goes_with_its_claim_to_another_process_holds(tmp_path: Path) -> None:

@@ -265,6 +265,87 @@ def test_rejects_tampered_certificate(tmp_path: Path) -> None:
         )
 
 
+EMPTY = {
+    "an empty assertion": "Assertion(())",
+    "empty readings": "Readings({n: Reading(Assertion(()), n) for n in 'ab'})",
+    "an argument without statements": "Argument({}, proved_by='nothing')",
+    "an empty conclusion": "Argument({}, conclusion=Assertion(()))",
+    "an empty step": "Argument({'s': Assertion(())}, proved_by='nothing')",
+    "nothing beside": "Following(('mine/main',), Assertion(()))",
+}
+BODIES = (
+    "from juggleproof.proofs import Argument, Assertion, Following, NotFormalised, Readings,"
+    " Reading, Simulated\nfrom juggleproof.proofs.claims import CheckedApart\n"
+)
+
+
+@pytest.mark.parametrize("defect", EMPTY)
+def test_rejects_a_claim_of(defect: str, tmp_path: Path) -> None:
+    done = certify(claim_file(tmp_path, EMPTY[defect], more=BODIES))
+    assert done.returncode == 2 and not done.stdout
+    assert done.stderr.count("\n") == 1 and "mine asserts nothing in a part" in done.stderr
+
+
+def test_rejects_a_checker_of_ones_own(tmp_path: Path) -> None:
+    body = "CheckedApart(('1 = 2',), 'the checker', lambda: [('1 = 2', 'certified', '')], '')"
+    done = certify(claim_file(tmp_path, body, more=BODIES))
+    assert done.returncode == 2 and not done.stdout
+    assert done.stderr.count("\n") == 1 and "no other checker certifies" in done.stderr
+
+
+def two_claims(folder: Path, first: str, second: str) -> Path:
+    more = f"{BODIES}@claim('first')\ndef first():\n    'It says so.'\n    return {first}\n"
+    return claim_file(folder, second, more=more)
+
+
+BY = "Argument({{'s': Assertion((always(y**2 {}),))}}, proved_by={!r})"
+
+
+@pytest.mark.parametrize(
+    "first, second, verdict",
+    [
+        ("< 0", BY.format(">= 0", "first"), "unknown; conclusion open; awaits first"),
+        ("< 0", BY.format("> 0", "first"), "gap; step s is false; conclusion open"),
+        (">= 0", BY.format("> 0", "first"), "gap; step s is false; conclusion by first"),
+        (">= 0", BY.format(">= 0", "first"), "holds"),
+        (">= 0", BY.format(">= 0", "mine"), "unknown; conclusion open; awaits mine"),
+        (">= 0", BY.format(">= 0", "none"), "unknown; conclusion open; awaits none"),
+        (">= 0", "Following(('first/main',))", "unknown; awaits first/main"),
+    ],
+)
+def test_a_conclusion_follows_from_claims_that_hold_and_from_rules_alone_holds(
+    first: str, second: str, verdict: str, tmp_path: Path
+) -> None:
+    path = two_claims(tmp_path, f"always(x**2 {first})", second)
+    done = certify(path)
+    assert done.returncode == int(verdict != "holds")
+    assert verdict == "holds" or f"\nmine: {verdict.replace('; ', ': ', 1)}\n" in done.stdout
+    assert f"\nverdict     {verdict}\n" in run("explain", "mine", str(path)).stdout
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "Simulated({0!r})",
+        "NotFormalised({0!r})",
+        "always(x**2 < 0)",
+        "Argument({{'s': Assertion((always(x**2 >= 0),))}}, proved_by={0!r})",
+    ],
+)
+def test_rejects_lines_and_signs_in_a_text_of_a_claim(body: str, tmp_path: Path) -> None:
+    text = "so\ntheorem: proved\x1b[2K\u202e  holds"
+    path = tmp_path / "mine\nverdict     holds.py"
+    path.write_text(
+        f"{HEAD}{BODIES}def one():\n    return {body.format(text)}\none.__doc__ = {text!r}\n"
+        f"claim('mine', {text!r}, {text!r}, repeats={text!r})(one)\n",
+        encoding="utf-8",
+    )
+    for done in (certify(path), run("explain", "mine", str(path))):
+        lines = done.stdout.split("\n")
+        assert all(line.isprintable() for line in lines)
+        assert not any(line.startswith(("theorem:", "verdict     holds")) for line in lines)
+
+
 SLOW = """
 import os, time
 from pathlib import Path

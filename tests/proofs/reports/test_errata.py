@@ -6,18 +6,22 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
+from pathlib import Path
 
 import pytest
 
-from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.ledger.ledger import load_ledger
 from juggleproof.proofs.ledger.places import is_heading, place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
-from juggleproof.proofs.reports import contents, errata
+from juggleproof.proofs.reports import contents, errata, pages
 from juggleproof.proofs.reports.contents import errata_text
+from juggleproof.proofs.reports.tree import theorem_line
 from juggleproof.proofs.run import FINDINGS
+from juggleproof.proofs.theorem import THEOREM
 
 TITLES = list(errata.GROUPS.values())
 
@@ -199,11 +203,36 @@ def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds(
         assert titles == ["said", "wrong", "true"], entry
 
 
-def test_rejects_that_the_theorem_survives_where_it_is_not_registered() -> None:
-    claims = paper_claims()
-    assert errata.theorem_stands(claims, {}) == "The theorem is open (theorem-in-units)."
-    unknown = {"theorem-in-units": {"verdict": "unknown"}}
-    assert errata.theorem_stands(claims, unknown).startswith("The theorem is open")
+def spoilt_store(folder: Path, *names: str) -> Path:
+    """A copy of the store with the certificates of these statements taken out."""
+    shutil.copytree(DEFAULT, folder)
+    kept = [
+        line
+        for line in (folder / CERTIFICATES).read_bytes().splitlines(keepends=True)
+        if json.loads(line)[0] not in names
+    ]
+    (folder / CERTIFICATES).write_bytes(b"".join(kept))
+    return folder
+
+
+def test_rejects_that_the_theorem_survives_where_it_is_not_certified(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    claims, not_certified = paper_claims(), "The theorem is not certified (theorem-in-units)."
+    assert errata.theorem_stands(claims, "") == not_certified
+    store = Store(spoilt_store(tmp_path / "store", THEOREM))
+    lost = theorem_line(store, {name: "certified" for name in store.texts if name != THEOREM})
+    assert errata.theorem_stands(claims, lost) == not_certified
+    monkeypatch.setattr(pages, "DEFAULT", tmp_path / "store")
+    assert not_certified in pages.printed_wrongly()
+
+
+def test_a_refuted_print_that_the_register_lets_hold_is_listed_holds(
+    monkeypatch: pytest.MonkeyPatch, everything: str
+) -> None:
+    forged = {name: {**entry, "verdict": "holds"} for name, entry in load_register().items()}
+    monkeypatch.setattr(contents, "load_register", lambda: forged)
+    assert errata_text() == everything
 
 
 @pytest.mark.parametrize(

@@ -488,6 +488,9 @@ def test_words_of_claims_are_escaped_holds() -> None:
 def test_lost_theorem_is_told_holds() -> None:
     lost = "theorem: NOT proved; theorem/x is not certified, and theorem/exactly rests on it"
     found = page_of(replace(contents(), entries=contents().entries[:1], theorem=lost))
+    assert replace(contents(), theorem=lost).theorem_stands.startswith(
+        "The theorem is not certified"
+    )
     assert [spaced(one) for one in found.with_class("headline")][0].startswith(
         "NOT proved; theorem/x is not certified"
     )
