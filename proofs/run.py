@@ -199,7 +199,8 @@ def judge_some(
 ) -> list[Judgement]:
     """The judgements on some of the claims by their stored certificates: the checker is asked of
     these, and of what they rest on, unless its outcomes are given, and no other route is; a lemma
-    that it does not accept is not used.
+    of an earlier claim that is not certified in the store is judged first, and is not used where
+    that is in vain.
 
     Raises what `judge` raises, and ClaimError where the folder cannot be read.
     """
@@ -209,7 +210,17 @@ def judge_some(
     resources = Resources(
         ("exact",), store=store, findings=findings_in(folder), lemmas=used, checked=checked
     )
-    resources = replace(resources, lemmas=accepted(resources))
+    certified = accepted(resources)
+    last = max((index for index, one in enumerate(claims) if one.id in ids), default=0)
+    lacking = {name.split("/")[0] for name in used if name not in certified}
+    before = [one for one in claims[:last] if one.id in lacking]  # as the checker reads, in order
+    for earlier in judge_some(before, claims[:last], folder, outcomes) if before else ():
+        certified.update(
+            (name, text)
+            for name, text in earlier.statements
+            if used.get(name) == text and earlier.outcomes[name] == "certified"
+        )
+    resources = replace(resources, lemmas=certified)
     judgements = [judge(claim, resources) for claim in chosen]
     by_id = {claim.id: claim for claim in claims}
     names = [name for one in judgements for name in one.awaits]
