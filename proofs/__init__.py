@@ -6,9 +6,9 @@ In reading order, each importing those before it only:
 - `reading`: a print's LaTeX becomes values and formulas.
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
 - `encoding`: SymPy expressions as terms.
-- `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
+- `correcting`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
 - `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
-- `orbit_rules`: the checker's rules for orbits in words, and why a premise of one has no proof.
+- `conclusions`, `orbit_rules`: what a certified rule for orbits says; why a premise has no proof.
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
 - `register`: the verdicts that stand.

@@ -60,8 +60,13 @@ from juggleproof.proofs.forms import (
 )
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.orbit_rules import premises_of, read_rule, why
-from juggleproof.proofs.ranges import search_sharp_range, text_of_range
-from juggleproof.proofs.rules import range_of_rule, rule_domain, whole_text
+from juggleproof.proofs.ranges import (
+    range_of_rule,
+    rule_domain,
+    search_sharp_range,
+    text_of_range,
+    whole_text,
+)
 
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget

@@ -16,8 +16,8 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, write_file
 from juggleproof.proofs.claims import CheckedApart, Claim, one_line
 from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
-from juggleproof.proofs.index import write_index
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
+from juggleproof.proofs.ledger.index import write_index
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
 from juggleproof.proofs.reports import pages

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
+from importlib import import_module
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical
 from juggleproof.proofs.claims import VERDICTS
 from juggleproof.proofs.command.outputs import show
-from juggleproof.proofs.index import load_index
+from juggleproof.proofs.ledger.index import load_index
 from juggleproof.proofs.register import load_register
+
+TABLES = "juggleproof.proofs.reports.tables"  # a terminal alone needs it
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -54,13 +57,9 @@ def list_claims(
     heads = {"id": "id", "place": "place", "verdict": "registered", "says": "says"}
     rows = [tuple(one[key] for key in heads) for one in listed]
     if sys.stdout.isatty():
-        from rich.console import Console
-
-        from juggleproof.proofs.reports.tables import draw
-
-        console = Console()
+        console = import_module("rich.console").Console()
         with console.capture() as captured:
-            draw([*heads.values()], rows, console)
+            import_module(TABLES).draw([*heads.values()], rows, console)
         show(captured.get())
         return 0
     for name, place, word, says in rows:

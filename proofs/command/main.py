@@ -16,7 +16,9 @@ from typing import Any, NoReturn
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import plain_file
 from juggleproof.certificates.votes.vote import Disagreement
+from juggleproof.proofs.command.outputs import clear
 from juggleproof.proofs.command.simulate_options import add_simulate
+from juggleproof.scenes.errors import SceneError
 
 MODULES = {
     "certify": "juggleproof.proofs.command.certify",
@@ -28,8 +30,12 @@ MODULES = {
     "stability": "juggleproof.proofs.command.stability",
     "export": "juggleproof.proofs.command.show",
     "report": "juggleproof.proofs.command.report",
-    "simulate": "juggleproof.proofs.command.simulate",
     "bench": "juggleproof.proofs.command.bound",
+}
+SCENES = {
+    "juggler": "juggleproof.proofs.command.juggler.command",
+    "part": "juggleproof.proofs.command.simulate_part",
+    "table": "juggleproof.proofs.command.simulate_table",
 }
 SINE = "juggleproof.proofs.command.sine"  # what `certify sine` is
 OF_SINE = "executor", "picture", "basin"
@@ -400,8 +406,24 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     if parsed.command == "stability":
         plain_file(parsed.file)
+    if parsed.command == "simulate":
+        return simulate(parsed)
     code: int = import_module(MODULES[parsed.command]).command(parsed)
     return code
+
+
+def simulate(parsed: argparse.Namespace) -> int:
+    """Loads a scene, and nothing that only another one needs, and runs it; 130 where it was
+    interrupted.  Raises ClaimError, one line, for what cannot be carried out.
+    """
+    try:
+        return int(import_module(SCENES[parsed.scene]).command(parsed))
+    except SceneError as problem:
+        raise ClaimError(str(problem)) from None
+    except KeyboardInterrupt:
+        clear()
+        print("juggleproof: interrupted; no file was written", file=sys.stderr)
+        return 130
 
 
 def are_scripts(files: Sequence[Path]) -> bool:

@@ -3,4 +3,5 @@ item.
 
     ledger    the reasons, the list of items rebuilt from the paper, and the ledger checked
     rows.tsv  the items in order
+    index     the claims in order, as `list` prints them, each with its module; index.json
 """

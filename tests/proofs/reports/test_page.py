@@ -14,11 +14,13 @@ from urllib.parse import unquote
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.proofs.claims import VERDICTS
+from juggleproof.proofs.conclusions import RULES
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Shown
 from juggleproof.proofs.reports.latex import glyph
 from juggleproof.proofs.reports.opening import PROOF
-from juggleproof.proofs.reports.page import KINDS, LONGEST, VERDICTS, build, statement
+from juggleproof.proofs.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
 from tests.certificates.checker.test_returns import LOOP
 from tests.proofs.reports.browser import Element, NotNested, parts_of, read_html, read_whole
@@ -346,13 +348,13 @@ def test_every_line_of_a_rule_is_a_formula_or_a_link_holds() -> None:
             for row in shown.rows:
                 formulas = [part for part in row.parts if part.startswith(("<math", "<code>"))]
                 assert row.links or formulas == list(row.parts) or "pieces" in row.word, row
-    assert {*kinds, "iterates"} == checker.orbit_rules().keys() == KINDS.keys()
+    assert {*kinds, "iterates"} == checker.orbit_rules().keys() == RULES.keys()
 
 
 def test_legend_of_verdicts_stands_above_all_else_holds() -> None:
     header = next(static().all("header"))
     meanings = [spaced(one) for one in header.with_class("meaning")]
-    assert meanings == [meaning for _, meaning in VERDICTS.values()]
+    assert meanings == [*VERDICTS.values()]
     assert len(list(static().with_class("tally"))) == 1
 
 

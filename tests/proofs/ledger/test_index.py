@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs import index
+from juggleproof.proofs.ledger import index
 from juggleproof.proofs.paper import paper_claims
 
 LOADED = """import sys
