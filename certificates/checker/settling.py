@@ -25,7 +25,7 @@ MAX_FILE = 16 << 20
 MAX_STATEMENTS = 2 << 20  # a syntax tree takes some 500 bytes for a letter
 # For all statements of a folder.  The stored ones take 7 * 10**7 units, a third, in 15 seconds.
 # The dearest units that were found, of products of two 14th powers in four variables, take half a
-# microsecond to one: so a folder of such ends within two to three minutes.
+# microsecond to one: so a folder of such ends within 100 to 200 seconds.
 MAX_FOLDER_WORK = 2 * 10**8
 MAX_REFUSED = 1000  # lines of certificates, after which no more are read
 STATEMENTS = "statements.txt"

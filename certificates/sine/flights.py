@@ -22,7 +22,7 @@ FINE = 96  # bits of the sums that give pi, sines and cosines
 LONGEST = 4  # periods that a flight may take in an enclosure
 MAX_COLUMNS, MAX_ROWS, MAX_CELLS = 1 << 15, 1 << 13, 1 << 21
 # What one line of certificates may cost, in steps: a step is what it takes to look at one line of a
-# grid, some 5 microseconds, and all other work is counted by as many as it takes, or by more.
+# grid, 5 to 10 microseconds, and all other work is counted by as many as it takes, or by more.
 MAX_STEPS = 1 << 24
 
 Interval = tuple[Fraction, Fraction]

@@ -149,7 +149,7 @@ def work_is_bounded(code: Code) -> bool:
         return [f"{word} {why}".rstrip() for _, word, why in results]
 
     unstable = refuting("multiplier", "1/20", "290/1000", 16, 16)
-    cost = 10 + len(unstable) // 16 + 20
+    cost = 10 + len(unstable) // 4 + 20
     return (
         STEPS - levels.left == cells_read
         and STEPS - tables.left == 2 * 16
