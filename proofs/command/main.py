@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import plain_file
 from juggleproof.certificates.votes.vote import Disagreement
 from juggleproof.proofs.command.outputs import clear
 from juggleproof.proofs.command.simulate_options import add_simulate
@@ -404,8 +403,6 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command == "certify":  # to load what makes reports takes a second
         report = import_module(MODULES["report"]) if parsed.report else None
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)
-    if parsed.command == "stability":
-        plain_file(parsed.file)
     if parsed.command == "simulate":
         return simulate(parsed)
     code: int = import_module(MODULES[parsed.command]).command(parsed)

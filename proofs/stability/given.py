@@ -31,6 +31,7 @@ from juggleproof.certificates.cases import (
 from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.formulas import RESERVED as WORDS
 from juggleproof.certificates.language import ClaimError, MapRule
+from juggleproof.certificates.store import plain_file
 from juggleproof.proofs.encoding import from_sympy
 
 Expr = Any  # of SymPy, which has no types
@@ -313,7 +314,7 @@ def read_file(path: Path) -> Map:
     Raises ClaimError, one line with file and line, for anything else.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = plain_file(path).read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise ClaimError(f"{path} cannot be read: not in UTF-8; save it so") from None
     except OSError as error:
