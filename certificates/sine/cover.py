@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeVar
 from juggleproof.certificates.checker import Rejected, load
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import spread
-from juggleproof.certificates.store import plain_file, write_file
+from juggleproof.certificates.store import write_file
 
 from .cells import Attraction
 from .checker import (
@@ -224,7 +224,10 @@ def write(folder: Path, stated: Iterable[str], proved: dict[str, Proved]) -> Non
     path = folder / STATEMENTS
     statements = set(stated)
     if path.exists():
-        statements.update(plain_file(path).read_text(encoding="ascii").splitlines())
+        try:
+            statements.update(load(str(path)).splitlines())
+        except Rejected as reason:
+            raise ClaimError(f"{path}: {reason}; name another store") from None
     write_file(path, "".join(f"{line}\n" for line in sorted(statements)).encode())
     lines = sorted(proved, key=lambda line: (box_of(proved[line]), line))
     write_file(folder / CERTIFICATES, "".join(f"{line}\n" for line in lines).encode())

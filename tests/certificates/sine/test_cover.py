@@ -199,6 +199,12 @@ def test_a_dask_cluster_finds_the_same_bytes_holds(tmp_path: Path) -> None:
         assert (tmp_path / "alone" / name).read_bytes() == (tmp_path / "shared" / name).read_bytes()
 
 
+def test_rejects_a_store_whose_statements_are_not_ascii(tmp_path: Path) -> None:
+    (tmp_path / covering.STATEMENTS).write_text("caf\u00e9\n", encoding="utf-8")
+    with pytest.raises(ClaimError, match="statements.txt: .*; name another store"):
+        covering.write(tmp_path, [STATEMENT], {})
+
+
 def test_rejects_a_line_of_the_folder_that_proves_nothing(tmp_path: Path) -> None:
     found = find_certificate(
         (Fraction(1, 20), Fraction(1, 20)), (Fraction(197, 1000), Fraction(197, 1000)), 256, 16
