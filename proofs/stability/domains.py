@@ -113,8 +113,8 @@ def failing_at_ends(system: Map, fixed: FixedPoint, parameters: Arrays) -> list[
 
 
 def ends_of_domain(system: Map) -> list[dict[Expr, Expr]]:
-    """Parameters of the domain of which some are at an end of their range that belongs to it, the
-    others in the middle; MOST_ENDS at most.
+    """Parameters of the domain, each at an end that belongs to its range, or in the middle of it;
+    MOST_ENDS at most.
     """
     ranges = []
     for name in system.parameters:
