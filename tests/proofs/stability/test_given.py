@@ -117,12 +117,12 @@ def test_rejects_a_file_that_is_no_map_in_one_line(text: str, tmp_path: Path) ->
 def test_rejects_what_is_no_text_file(tmp_path: Path) -> None:
     (tmp_path / "latin.map").write_bytes("# Hénon\nstate x\npiece x/2\n".encode("latin-1"))
     for name, reason in (
-        ("none.map", "No such file or directory; name a text file"),
-        ("", "Is a directory; name a text file"),
-        ("latin.map", "not in UTF-8; save it so"),
+        ("none.map", " cannot be read: No such file or directory; name a text file"),
+        ("", ": is no plain file; name one that is"),
+        ("latin.map", " cannot be read: not in UTF-8; save it so"),
     ):
         done = running.run("stability", str(tmp_path / name))
-        line = f"juggleproof: {tmp_path / name} cannot be read: {reason}\n"
+        line = f"juggleproof: {tmp_path / name}{reason}\n"
         assert (done.returncode, done.stdout, done.stderr) == (2, "", line)
 
 
