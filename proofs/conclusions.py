@@ -208,24 +208,26 @@ def _of_iterates(f: Lines) -> str:
     ) + "".join(f", {text}" for text in f.all("let"))
 
 
+def _pieces(f: Lines, before: str = "") -> str:
+    """The image of each piece, and where the piece applies."""
+    pieces = (piece.split(" -> ") for piece in f.all("piece"))
+    return "; ".join(f"{before}{_vector(image)}{_where(guard)}" for guard, image in pieces)
+
+
 def _of_map(f: Lines) -> str:
     state, at = ", ".join(f.one("state").split()), f.letters
-    pieces = [piece.split(" -> ") for piece in f.all("piece")]
-    images = [f"{at.f}({state}) = {_vector(image)}{_where(guard)}" for guard, image in pieces]
     return (
         f"{f.for_domain()}{at.f} maps {_set('the space', f.one('space'))} into itself, and exactly"
-        f" one piece applies at each of its states: {'; '.join(images)}"
+        f" one piece applies at each of its states: {_pieces(f, f'{at.f}({state}) = ')}"
     )
 
 
 def _of_relation(f: Lines) -> str:
     state = ", ".join(f.one("state").split())
     inputs = f", for all {', '.join(f.one('input').split())}" if f.one("input") else ""
-    pieces = [piece.split(" -> ") for piece in f.all("piece")]
-    images = [f"{_vector(image)}{_where(guard)}" for guard, image in pieces]
     return (
         f"{f.for_domain()}each state {state} of {_set('the space', f.one('space'))} has a next"
-        f" state, and all next states are in it: {'; '.join(images)}{inputs}"
+        f" state, and all next states are in it: {_pieces(f)}{inputs}"
     )
 
 

@@ -272,7 +272,7 @@ def polynomial(coefficients: Sequence[int], name: str) -> str:
 # -------------------------------------------------------------------------------------------------
 # The range for which the conclusion of a map rule is certified.
 
-BITS, NEAR = 32, Fraction(1, 10**6)  # of an irrational end: its enclosure, and what is told for it
+BITS, NEAR = 32, Fraction(1, 10**6)  # of an irrational end: bits of its enclosure, and how near its stand-in lies
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
@@ -300,7 +300,7 @@ def range_of_rule(
     The parameter is the first of the roles, else the first that the map is over.  The text
     is empty where the domain does not name it, and the domain itself where it is no interval, or
     asks something of the other parameters; with roles, where it asks more of them than the map's
-    domain. An irrational end is told by a rational number near to it inside, after `at least`.
+    domain. A rational number just inside stands for an irrational end, after `at least`.
 
     >>> text = "statement t/map\\nover a\\ndomain a > 0 and 2*a^2 < 1"
     >>> range_of_rule("t/map", {"t/map": text})

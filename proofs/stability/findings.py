@@ -164,7 +164,8 @@ def finding_of(
         if known[name].kind == "map" and is_of(given, rows) and moves_everywhere(rows)
     ]
     if whole:
-        sharp = [rows for name, rows in lines.items() if known[name].kind == "exactly"]
+        exactly = (rows for name, rows in lines.items() if known[name].kind == "exactly")
+        sharp = [rows for rows in exactly if is_of(given, rows.of_map())]
         found = of_attraction(given, whole, failing, nowhere, sharp)
     elif failing or nowhere:
         found = of_failure(given, failing, nowhere, near)

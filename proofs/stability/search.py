@@ -95,7 +95,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
     """Adds what is certified of the map to the proof, and returns why there is nothing; or returns
     the outcome for the map with a coordinate of its point as a parameter.
     """
-    given, original = system, system
+    given = system
     system = without_empty_pieces(with_licences(system))
     parameters = region(system.domain, system.parameters, PARAMETERS)
     if not all(map(len, parameters.values())):
@@ -108,13 +108,13 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
         line, _, text = (proof.why() or fault).partition("\n")
         if [guard for guard, _ in given.pieces] != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
-        for premise in (text,) if text else ():
-            log(premise)
+        if text:
+            log(text)
         return f"the map{lines_named(system, line)}: {line}"
     every = [one for one in fixed_points(system) if one.exists(system, parameters).any()]
-    other = None if every else by_its_point(original) or by_an_equation(original)
+    other = None if every else by_its_point(given) or by_an_equation(given)
     if other:
-        return search_stability(other.system, log, proof.budget, other.meaning(original))
+        return search_stability(other.system, log, proof.budget, other.meaning(given))
     if not every:
         if not system.point:
             proof.add(without_fixed_point(system))
@@ -151,7 +151,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
             refuted(proof, setting_of(system, fixed, system.domain), log, ways)
     if len(proof.rules) > count:
         return ""
-    other = by_its_point(original, several=True) if len(every) > 1 else None
+    other = by_its_point(given, several=True) if len(every) > 1 else None
     outcome = of_several(other, proof.budget, log) if other else None
     if outcome:
         return outcome
