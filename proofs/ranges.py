@@ -272,7 +272,8 @@ def polynomial(coefficients: Sequence[int], name: str) -> str:
 # -------------------------------------------------------------------------------------------------
 # The range for which the conclusion of a map rule is certified.
 
-BITS, NEAR = 32, Fraction(1, 10**6)  # of an irrational end: bits of its enclosure, and how near its stand-in lies
+# of an irrational end: bits of its enclosure, and how near its stand-in lies
+BITS, NEAR = 32, Fraction(1, 10**6)
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
