@@ -159,8 +159,10 @@ def last_of(chosen: Restitutions) -> Fraction:
     table.
     """
     alpha = chosen.most
-    while chosen.repeated and chosen.depth().subs(symbolic.alpha, alpha) <= 0:
-        alpha -= NEXT_TO
+    if chosen.repeated:
+        height = symbolic.normal_periodic_impact(chosen.repeated)[0]
+        while height.subs(symbolic.alpha, alpha) >= 0:
+            alpha -= NEXT_TO
     return alpha
 
 

@@ -5,6 +5,7 @@ bytes, written aside and renamed.
 from __future__ import annotations
 
 import json
+import operator
 import os
 import re
 import tempfile
@@ -90,6 +91,7 @@ def certificate_lines(certificates: Mapping[str, Certificate]) -> bytes:
     return b"".join(canonical([name, certificates[name]]) for name in sorted(certificates))
 
 
+NAMED_LINE = re.compile(r'\["([\w.\-]+/[\w.\-]+)",.*', re.ASCII)
 UNPRINTABLE = re.compile(r"[^ -~]")
 
 
@@ -114,6 +116,7 @@ class WrittenOut(Mapping[str, str]):
                 if keyword == "statement":
                     self.shortened[rest] = rows = []
                 rows.append(f"{keyword} {rest}")
+        self._defined = defined
         self._reader = Reader(defined)
         self._texts: dict[str, str] = {}
 
@@ -128,14 +131,60 @@ class WrittenOut(Mapping[str, str]):
     def __len__(self) -> int:
         return len(self.shortened)
 
+    def named_by(self, name: str) -> list[str]:
+        """The statements that the lines of this one name."""
+        lines = (line.partition(" ") for line in self.shortened[name])
+        return [
+            one
+            for keyword, _, rest in lines
+            if keyword in checker.NAMED or keyword == "sharp"
+            for one in rest.split()
+        ]
+
+    def read(self, names: Iterable[str]) -> dict[str, checker.Statement]:
+        r"""These statements and all that they name, as the checker reads them, in the file's order.
+        The others are not read.
+
+        >>> [*WrittenOut("statement a/b\nshow 0 < 1\n\nstatement a/c\nshow 0 < 2").read(["a/c"])]
+        ['a/c']
+        """
+        below = [name for name in names if name in self.shortened]
+        wanted = {*below}
+        for name in below:
+            new = {*self.named_by(name)} & self.shortened.keys() - wanted
+            wanted |= new
+            below += new
+        blocks = ["\n".join(lines) for name, lines in self.shortened.items() if name in wanted]
+        return checker.read_statements("\n\n".join(["\n".join(self._defined), *blocks]))
+
 
 # Stores of one process that read the same file share what is written out of it, and what it holds.
 written_out = lru_cache(maxsize=4)(WrittenOut)
 
 
-@lru_cache(maxsize=1)
-def _certificates_of(lines: str) -> Mapping[str, Certificate | None]:
-    return checker.read_certificates(lines)[0]
+class Lines:
+    """The lines of a file of certificates by the names that they begin with; a line is read when
+    its certificate is asked for.
+    """
+
+    def __init__(self, text: str, read: Mapping[str, Certificate | None] | None = None) -> None:
+        found = [NAMED_LINE.match(line) for line in text.split("\n")[:-1]]
+        names = [one[1] for one in found if one]
+        self._lines: dict[str, str] = {}
+        self._read: dict[str, Certificate | None] = {**(read or {})}
+        if len(names) == len(found) and all(map(operator.lt, names, names[1:])):
+            self._lines = {one[1]: one.string for one in found if one}
+        else:  # not as it is written: the checker says what counts
+            self._read.update(checker.read_certificates(text)[0])
+
+    def __getitem__(self, name: str) -> Certificate | None:
+        if name not in self._read and name in self._lines:
+            line = self._lines[name] + "\n"
+            self._read[name] = checker.read_certificates(line)[0].get(name)
+        return self._read.get(name)
+
+
+lines_of = lru_cache(maxsize=1)(Lines)
 
 
 class Store:
@@ -146,7 +195,7 @@ class Store:
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
         self.texts: Mapping[str, str] = {}
-        self._certificates: Mapping[str, Certificate | None] | None = None
+        self._lines: Lines | None = None
         path = folder / STATEMENTS
         if path.exists():
             try:
@@ -158,24 +207,25 @@ class Store:
         """The stored certificate of a statement, if the stored statement has this very text; else
         None.  It is what the file holds, with lists for tuples, and not checked.
         """
-        if self.texts.get(name) != text:
-            return None
-        if self._certificates is None:
+        return self.certificate_named(name) if self.texts.get(name) == text else None
+
+    def certificate_named(self, name: str) -> Certificate | None:
+        """The stored certificate of this name; None where there is none, or the file cannot be
+        read.
+        """
+        if self._lines is None:
             try:
-                lines = checker.load(str(self.folder / CERTIFICATES))
-                self._certificates = _certificates_of(lines)
+                self._lines = lines_of(checker.load(str(self.folder / CERTIFICATES)))
             except checker.Rejected:
-                self._certificates = {}
-        return self._certificates.get(name)
+                self._lines = Lines("")
+        return self._lines[name]
 
     def only(self, claims: Collection[str]) -> Store:
         """What the store has of some claims, read from their files: plain data."""
         part = object.__new__(Store)
         part.folder = self.folder
         part.texts = {name: self.texts[name] for name in self.texts if name.split("/")[0] in claims}
-        part._certificates = {
-            name: self.certificate(name, text) for name, text in part.texts.items()
-        }
+        part._lines = Lines("", {name: self.certificate_named(name) for name in part.texts})
         return part
 
 

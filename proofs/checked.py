@@ -9,16 +9,21 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass
-from functools import lru_cache
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
+from juggleproof.certificates.language import ClaimError, lemmas_of
 from juggleproof.certificates.processes import as_child
-from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, plain_file
+from juggleproof.certificates.store import (
+    CERTIFICATES,
+    STATEMENTS,
+    Store,
+    plain_file,
+    written_out,
+)
 
 Checked = list[tuple[str, str, str]]  # name, outcome, reason
 Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_one`
@@ -165,37 +170,31 @@ def _send(folder: Path, share: Set[str], sender: Connection) -> None:
 
 def outcomes_of(folder: Path, names: Iterable[str]) -> dict[str, str]:
     """The checker's outcomes of some stored statements and of all that these rest on; the others
-    are not checked.
+    are neither read nor checked.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """
     try:
-        statements = _statements(checker.load(str(folder / STATEMENTS), checker.MAX_STATEMENTS))
-        certificates = _certificates(checker.load(str(folder / CERTIFICATES)))
+        checker.load(str(folder / CERTIFICATES))
+        file = written_out(checker.load(str(folder / STATEMENTS), checker.MAX_STATEMENTS))
+        store = Store(folder)
+        wanted = dict.fromkeys(name for name in names if name in file)
+        below = [*wanted]
+        for name in below:
+            under = {*lemmas_of(store.certificate_named(name)), *file.named_by(name)}
+            new = sorted(one for one in under if one in file and one not in wanted)
+            wanted.update(dict.fromkeys(new))
+            below += new
+        statements = file.read(wanted)
     except checker.Rejected as reason:
         raise ClaimError(f"{folder}: {reason}; `juggleproof certify` writes it anew") from None
-    wanted = [name for name in names if name in statements]
-    for name in wanted:
-        below = {*lemmas_of(certificates.get(name)), *rests_on(statements[name])}
-        below.update(*statements[name].get("sharp"))
-        wanted += sorted(one for one in below if one in statements and one not in wanted)
     outcomes: dict[str, str] = {}
     known: dict[str, checker.Statement] = {}
     earlier: dict[str, checker.Statement] = {}
-    for name, statement in ((name, statements[name]) for name in statements if name in wanted):
-        certificate = certificates.get(name)
+    for name, statement in statements.items():
+        certificate = store.certificate_named(name)
         outcomes[name], _ = checker.check_one(statement, certificate, known, earlier)
         earlier[name] = statement
         if outcomes[name] == "certified":
             known[name] = statement
     return outcomes
-
-
-@lru_cache(1)
-def _statements(text: str) -> Mapping[str, checker.Statement]:
-    return checker.read_statements(text)
-
-
-@lru_cache(1)
-def _certificates(text: str) -> Mapping[str, object]:
-    return checker.read_certificates(text)[0]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from sympy import Expr
+from sympy import Expr, factor, fraction
 
-from juggleproof.certificates.language import ClaimError, Term, real, term
+from juggleproof.certificates.language import ClaimError, Formula, Term, real, term
+from juggleproof.symbolic.algebra import lowest_terms
 
 
 def from_sympy(expression: Expr, roots: Mapping[Expr, Term] | None = None) -> Term:
@@ -88,3 +89,71 @@ def _root(base: Expr, roots: Mapping[Expr, Term] | None) -> Term:
         if (radicand - base).expand() == 0:
             return name
     raise ClaimError(f"the square root of {base} has no name here; adjoin it with a root line")
+
+
+# -------------------------------------------------------------------------------------------------
+# In lowest terms: one fraction, what is added before what is taken away.
+
+
+def written(expression: Expr) -> str:
+    """The text of an expression in lowest terms.
+
+    >>> from juggleproof.symbolic.algebra import alpha, w
+    >>> written(2 - alpha * w), written((1 - alpha) / (alpha**2 + 2 * alpha + 1))
+    ('2 - alpha*w', '(1 - alpha)/(alpha + 1)^2')
+    >>> written((alpha + 1) / (1 - alpha)), written(-alpha * w)
+    ('(alpha + 1)/(1 - alpha)', '-alpha*w')
+    """
+    return str(tidy(expression))
+
+
+def tidy(expression: Expr) -> Term:
+    """The expression in lowest terms: an expanded numerator, positive terms first, over a factored
+    denominator.
+    """
+    above, below = fraction(lowest_terms(expression))
+    if below != 1 and not _by_sign(above)[0]:
+        above, below = -above, -below
+    numerator, factored = _difference(above), factor(below)
+    if below == 1:
+        return numerator
+    return numerator / (
+        _difference(below)
+        if below.is_Add and not (factored.is_Mul or factored.is_Pow)
+        else from_sympy(factored)
+    )
+
+
+def positive(margin: Expr) -> Formula:
+    """The formula margin > 0, what is taken away on the left of <.
+
+    >>> from juggleproof.symbolic.algebra import w, x
+    >>> str(positive(w**2 - x + 1))
+    'x < w^2 + 1'
+    """
+    above, below = fraction(lowest_terms(margin))
+    if not below.is_Rational or below <= 0:
+        raise ClaimError(f"the sign of {margin} is not that of a polynomial")
+    kept, taken = _by_sign(above)
+    return _added(taken) < _added(kept)
+
+
+def _difference(polynomial: Expr) -> Term:
+    kept, taken = _by_sign(polynomial)
+    total = _added(kept) if kept else -_added(taken)
+    for part in taken if kept else []:
+        total = total - part
+    return total
+
+
+def _by_sign(polynomial: Expr) -> tuple[list[Term], list[Term]]:
+    parts = polynomial.expand().as_ordered_terms()
+    kept = [from_sympy(part) for part in parts if not part.could_extract_minus_sign()]
+    return kept, [from_sympy(-part) for part in parts if part.could_extract_minus_sign()]
+
+
+def _added(parts: Sequence[Term]) -> Term:
+    total = parts[0] if parts else term(0)
+    for part in parts[1:]:
+        total = total + part
+    return total

@@ -94,20 +94,20 @@ def settle_by_rules(
     judgements: Sequence[Judgement],
     outcomes: Mapping[str, str],
     texts: Mapping[str, str],
-    claims: Sequence[Claim],
+    claims: Mapping[str, Claim],
 ) -> None:
     """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
     the outcomes of all statements are known, with their texts; the claims state what these should
     be.
     """
-    by_id, stated = {claim.id: claim for claim in claims}, dict[str, str]()
+    stated = dict[str, str]()
     above = list[str]()
 
     def stands(name: str) -> bool:
         """Whether the claim holds by the outcomes of its statements as stated, and by what it
         awaits, which is not itself.
         """
-        claim = by_id.get(name)
+        claim = claims.get(name)
         if claim is None or name in above:
             return False
         above.append(name)
@@ -131,7 +131,7 @@ def settle_by_rules(
             return stands(name)
         names = [name] if outcomes.get(name) == "certified" else []
         for one in names:
-            claim = by_id.get(one.split("/")[0])
+            claim = claims.get(one.split("/")[0])
             if one not in stated and claim is not None:
                 stated.update(stated_texts(claim))
             if one not in stated or texts.get(one) != stated[one]:
@@ -149,7 +149,7 @@ def settle_by_rules(
             held = one.verdict.word == "holds"
             text = (
                 range_of_rule(
-                    one.rests_on[-1], texts, _stated(one.roles, by_id[one.id]), one.is_conclusion
+                    one.rests_on[-1], texts, _stated(one.roles, claims[one.id]), one.is_conclusion
                 )
                 if held
                 else NOT_FOUND

@@ -9,9 +9,10 @@ import sys
 import textwrap
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 from juggleproof.certificates import checker
@@ -144,7 +145,7 @@ def run(
     if changed or not checked:
         checked = checker.check_folder(str(options.store))
     settled = replace(done, checked=checked, restated=restated)
-    settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts, claims)
+    settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts, by_id(claims))
     for judgement in done.judgements:
         take_back(judgement, settled)
     return settled
@@ -182,7 +183,7 @@ def judge_stored(
             options.budget,
             Store(Path(os.devnull) if options.fresh else options.store),
             {} if options.fresh else findings_in(options.store),
-            lemmas(claims, chosen),
+            lemmas(by_id(claims), chosen),
         )
         resources = replace(resources, checked=reading.outcomes())
         if not is_checked_after:
@@ -193,7 +194,7 @@ def judge_stored(
 
 def judge_some(
     chosen: Sequence[Claim],
-    claims: Sequence[Claim],
+    claims: Mapping[str, Claim],
     folder: Path,
     outcomes: Mapping[str, str] | None = None,
 ) -> list[Judgement]:
@@ -211,10 +212,11 @@ def judge_some(
         ("exact",), store=store, findings=findings_in(folder), lemmas=used, checked=checked
     )
     certified = accepted(resources)
-    last = max((index for index, one in enumerate(claims) if one.id in ids), default=0)
+    last = max((index for index, name in enumerate(claims) if name in ids), default=0)
     lacking = {name.split("/")[0] for name in used if name not in certified}
-    before = [one for one in claims[:last] if one.id in lacking]  # as the checker reads, in order
-    for earlier in judge_some(before, claims[:last], folder, outcomes) if before else ():
+    # as the checker reads, in order
+    before = [claims[name] for name in islice(claims, last) if name in lacking]
+    for earlier in judge_some(before, claims, folder, outcomes) if before else ():
         certified.update(
             (name, text)
             for name, text in earlier.statements
@@ -222,11 +224,10 @@ def judge_some(
         )
     resources = replace(resources, lemmas=certified)
     judgements = [judge(claim, resources) for claim in chosen]
-    by_id = {claim.id: claim for claim in claims}
     names = [name for one in judgements for name in one.awaits]
     for name in names:
-        if name in by_id:
-            below = (*stated_texts(by_id[name]), *awaited(by_id[name].body()))
+        if name in claims:
+            below = (*stated_texts(claims[name]), *awaited(claims[name].body()))
             names += [one for one in below if one not in names]
     if outcomes is None:
         outcomes = outcomes_of(folder, names) if store.texts and names else {}
@@ -468,11 +469,16 @@ def _judge_one(index: int) -> tuple[Judgement, float]:
     return judge(_work[0][index], _work[1]), time.perf_counter() - began
 
 
-def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, str]:
+def lemmas(everything: Mapping[str, Claim], claims: Sequence[Claim]) -> dict[str, str]:
     """The texts of the statements that the selected claims use from other claims."""
     used = {name for claim in claims for name in claim.hints.get("uses", ())}
     texts: dict[str, str] = {}
-    for claim in everything:
-        if any(name.split("/")[0] == claim.id for name in used):
-            texts.update(stated_texts(claim))
+    for owner in dict.fromkeys(name.split("/")[0] for name in sorted(used)):
+        if owner in everything:
+            texts.update(stated_texts(everything[owner]))
     return {name: texts[name] for name in used if name in texts}
+
+
+def by_id(claims: Iterable[Claim]) -> dict[str, Claim]:
+    """The claims by their ids, in order."""
+    return {claim.id: claim for claim in claims}

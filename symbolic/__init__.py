@@ -9,6 +9,7 @@ else is worked out on demand, and kept.  In reading order:
     maps           the return maps f1 and f2, their powers and fixed points
     energy         energy and its change; the normal form, in which only alpha is left
     bounds         E_max, Delta E_max, Delta E_sup; the region R and the times to enter it
+    modes          the ways in which such a corner can slide or stick
     corner_impact  a corner that strikes a table with friction
     sine_table     a table that moves as a sine: bounces of one period, multipliers, curves
     lazy           names that load their file when first used
@@ -63,10 +64,11 @@ NAMES = {
         "point_p region_corner region_gradient region_margin "
         "stationary_speed_on_region_boundary time_to_enter_region worst_flight_time"
     ),
+    ".modes": "MODES",
     ".corner_impact": (
         "B1 B2 B3 C0 J P_x P_y S0 c_x c_y contact_coefficients corner_velocity "
         "kinetic_energy_gained motion_after_impulse omega velocity_after_impulse "
-        "work_of_impulse x_c y_c MODES closing_rate compressing_impulse contact_impulse e "
+        "work_of_impulse x_c y_c closing_rate compressing_impulse contact_impulse e "
         "energy_gained_in_contact mu newton_impulse normal_impulse sigma slides_back "
         "slides_through_compression slides_through_restitution stopping_impulse stopping_rate "
         "tangential_impulse velocity_after_contact"

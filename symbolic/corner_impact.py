@@ -20,6 +20,7 @@ from juggleproof.symbolic.algebra import (
     root_of,
     state,
 )
+from juggleproof.symbolic.modes import MODES
 
 # -------------------------------------------------------------------------------------------------
 # What an impulse at the corner does.
@@ -135,15 +136,6 @@ def kinetic_energy_gained() -> Expr:
 mu = Symbol("mu")  # coefficient of friction
 e = Symbol("e")  # coefficient of restitution
 sigma = Symbol("sigma")  # direction in which the corner slides at first: 1 or -1
-
-# mode -> the lines of greatest compression and of the end
-MODES = {
-    "sliding": ("sliding", "sliding"),
-    "sticking-in-compression": ("sticking", "sticking"),
-    "sticking-in-restitution": ("sliding", "sticking"),
-    "reversed-in-compression": ("reversed", "reversed"),
-    "reversed-in-restitution": ("sliding", "reversed"),
-}
 
 
 def _at(expression: Expr, tangential: Expr, normal: Expr = P_y) -> Expr:

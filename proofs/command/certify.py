@@ -16,16 +16,17 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, write_file
 from juggleproof.proofs.claims import CheckedApart, Claim, one_line
 from juggleproof.proofs.command.outputs import asked_of, now_and_then, refuse_unwritable
-from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement, statements_of
+from juggleproof.proofs.ledger import derived
 from juggleproof.proofs.ledger.index import write_index
-from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper import behind, derivations_of, modules_of_claims, paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
 from juggleproof.proofs.reports import pages
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, failing, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, contents_of
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, Progress, claims_of_files, run, store_of
+from juggleproof.proofs.run import Options, Progress, claims_of_files, findings_in, run, store_of
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof certify`: judge every claim, store what was found, let the checker read the whole
@@ -39,6 +40,7 @@ class CertifyOptions(argparse.Namespace):
     only: list[str] | None
     routes: str
     fresh: bool
+    rederive: bool
     jobs: int
     budget: int
     accept: bool
@@ -62,7 +64,7 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     every claim holds), else 1.
     """
     refuse_unwritable(options.files, asked_of(options))
-    _refuse_reports(options)
+    _refuse_what_needs_the_paper(options)
     before = None if options.files else load_register(register)
     console = Console(highlight=False)
     claims = claims_of_files(options.files) if options.files else paper_claims()
@@ -101,13 +103,47 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     if before is not None and accepts:
         _accept(results, before, options, register)
     write_outputs(options, results, done.seconds)
+    if options.rederive and not _derives_what_is_kept():
+        return 1
     if options.write_reports is None:
         return results.exit
     return results.exit | options.write_reports(contents_of(done, load_register(register)))
 
 
-def _refuse_reports(options: CertifyOptions) -> None:
-    """Raises ClaimError, one line, for reports that cannot be made of this run."""
+def _derives_what_is_kept() -> bool:
+    """Whether the sources derive all that is kept, in as many words."""
+    _derive_everything()
+    kept = derived.kept()
+    otherwise = kept.otherwise()
+    if otherwise:
+        print(f"{derived.PATH.name}: kept otherwise than derived: {otherwise};", end=" ")
+        print("`juggleproof certify --accept` writes it anew")
+    else:
+        print(f"derived again: {len(kept.asked)} values, all as they are kept")
+    return not otherwise
+
+
+def _derive_everything() -> None:
+    """Asks for all that is derived of the paper's claims, as they are judged and as they are
+    shown.
+    """
+    found = findings_in(DEFAULT)
+    for claim in paper_claims():
+        correction = found.get(claim.id, {}).get("correction")
+        for one in behind(derivations_of(statements_of(claim, correction))):
+            one.shown()
+        if claim.derived is not None:
+            claim.derived()
+        if claim.true_nearby is not None:
+            claim.true_nearby[1]()
+
+
+def _refuse_what_needs_the_paper(options: CertifyOptions) -> None:
+    """Raises ClaimError, one line, for what goes with the paper's claims only, or with all of
+    them.
+    """
+    if options.rederive and options.files:
+        raise ClaimError("--rederive: for the paper's claims; leave out FILE")
     if options.report and (options.files or options.only):
         raise ClaimError("--report: shows all claims of the paper; leave out FILE and --only")
     if options.output is not None and not options.report:
@@ -170,7 +206,9 @@ def _accept(
     after = {one.id: one.registered() for one in results.claims}
     write_register({**before, **after} if options.only else after, register)
     if options.store is None and register == PATH:
-        write_index(paper_claims())
+        write_index(modules_of_claims())
+        _derive_everything()
+        derived.kept().write()
         pages.update()
 
 

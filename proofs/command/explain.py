@@ -21,8 +21,8 @@ from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports.errata import counterexample, words_of
 from juggleproof.proofs.reports.results import reading_of, sharp_range
-from juggleproof.proofs.reports.tree import print_tree
-from juggleproof.proofs.run import claims_of_files, judge_some, lemmas, store_of
+from juggleproof.proofs.reports.tree import print_tree, rules_of
+from juggleproof.proofs.run import by_id, claims_of_files, judge_some, lemmas, store_of
 
 THEOREM = "juggleproof.proofs.command.theorem"  # loads SymPy, which few explanations need
 WIDTH = 96  # of what a rule concludes
@@ -70,12 +70,11 @@ def explain(
     certificates or counterexamples, sharp range, verdict; the tree of its rules.  Its place is one
     of the transcription where lines are asked for.  Raises ClaimError for an unknown name.
     """
-    found = claims_of_files(files) if files else paper.paper_claims()
-    claims = {claim.id: claim for claim in found}
+    claims = by_id(claims_of_files(files)) if files else paper.claims_by_id()
     claim = claims[claim_named(claim_id, claims)]
     store = store_of(files) if files else DEFAULT
     with busy(f"judging {claim.id}"):
-        (judgement,) = judge_some([claim], [*claims.values()], store)
+        (judgement,) = judge_some([claim], claims, store)
     place = f"section {claim.section} {claim.place}" if with_lines else place_of(claim)
     print(f"{claim.id}   {claim.where if files else place}")
     print(f"  {claim.says}")
@@ -88,8 +87,14 @@ def explain(
     if isinstance(body, CheckedApart):
         print("\n" + textwrap.indent("\n".join(body.sentences), " " * 4))
         print(f"    -> {verdict.word}, {verdict.detail}")
-    used = lemmas([*claims.values()], [claim])
-    texts = {**Store(store).texts, **used, **dict(judgement.statements)}
+    used = lemmas(claims, [claim])
+    held = Store(store)
+    below = rules_of(held, [name for name, _ in judgement.statements])
+    texts = {
+        **{name: held.texts[name] for name in below},
+        **used,
+        **dict(judgement.statements),
+    }
     for name, text in judgement.statements:
         outcome, certificate = judgement.outcomes[name], judgement.certificates[name]
         kind = read(text, name).kind
@@ -104,7 +109,7 @@ def explain(
     if judgement.correction:
         print(f"correction  {judgement.correction['text']}")
     print(f"verdict     {verdict.word}" + (f"; {verdict.detail}" if verdict.detail else ""))
-    print_tree(claim.id, judgement.rests_on, Store(store), with_premises)
+    print_tree(claim.id, judgement.rests_on, held, with_premises)
     if any(read(text, name).kind in RULES for name, text in judgement.statements):
         print(f"proof       {OF_RULES if files else OF_THEOREM}")
     return 0

@@ -1,4 +1,4 @@
-"""`juggleproof list`: the claims as the index and the register have them; no claim is imported."""
+"""`juggleproof list`: the claims as the index and the register have them; none is loaded."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from juggleproof.certificates.store import canonical
 from juggleproof.proofs.claims import VERDICTS
 from juggleproof.proofs.command.outputs import show
 from juggleproof.proofs.ledger.index import load_index
+from juggleproof.proofs.paper import modules_of_claims
 from juggleproof.proofs.register import load_register
 
 TABLES = "juggleproof.proofs.reports.tables"  # a terminal alone needs it
@@ -39,7 +40,7 @@ def list_claims(
             "verdict": register[one["id"]]["verdict"] if one["id"] in register else "not judged",
             "says": one["says"],
         }
-        for one in load_index()
+        for one in load_index(modules_of_claims())
     ]
     listed = [
         one

@@ -36,6 +36,7 @@ SCENES = {
     "part": "juggleproof.proofs.command.simulate_part",
     "table": "juggleproof.proofs.command.simulate_table",
 }
+DERIVED = "juggleproof.proofs.ledger.derived"
 SINE = "juggleproof.proofs.command.sine"  # what `certify sine` is
 OF_SINE = "executor", "picture", "basin"
 SINE_OPTIONS = {
@@ -111,6 +112,11 @@ def build_parser() -> argparse.ArgumentParser:
         "--fresh",
         action="store_true",
         help="state and search again, ignoring stored certificates",
+    )
+    certify.add_argument(
+        "--rederive",
+        action="store_true",
+        help="derive everything again by SymPy, and compare it with what is kept",
     )
     certify.add_argument(
         "--jobs",
@@ -400,6 +406,8 @@ def _dispatch(parsed: argparse.Namespace) -> int:
             raise ClaimError(f"--{option}: for `certify sine` only; leave it out")
     if parsed.command == "certify" and are_scripts(parsed.files):
         return int(import_module(PROBLEMS).command(parsed))
+    if parsed.command == "certify" and not parsed.files and (parsed.rederive or parsed.accept):
+        import_module(DERIVED).derive_again()  # before a claim is loaded
     if parsed.command == "certify":  # to load what makes reports takes a second
         report = import_module(MODULES["report"]) if parsed.report else None
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)

@@ -31,7 +31,16 @@ def command(parsed: argparse.Namespace) -> int:
     return certify(ProblemOptions(**vars(parsed)))
 
 
-NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings", "report", "output")
+NOT_FOR_SCRIPTS = (
+    "only",
+    "rederive",
+    "accept",
+    "junit",
+    "markdown",
+    "timings",
+    "report",
+    "output",
+)
 
 
 def certify(options: ProblemOptions) -> int:

@@ -17,10 +17,16 @@ from juggleproof.certificates.store import DEFAULT, Store, write_file, write_sto
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.claims import claim_named
 from juggleproof.proofs.command.outputs import busy, show
-from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper import claims_by_id
 from juggleproof.proofs.reports.contents import entries_of, errata_text
 from juggleproof.proofs.reports.tex import equation
-from juggleproof.proofs.run import claims_of_files, judge_some, refuse_duplicates, store_of
+from juggleproof.proofs.run import (
+    by_id,
+    claims_of_files,
+    judge_some,
+    refuse_duplicates,
+    store_of,
+)
 from juggleproof.proofs.smtlib.answering import answer_files, folder_of
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 
@@ -132,7 +138,7 @@ def export_claims(files: Sequence[Path], folder: Path | None) -> int:
     claims = claims_of_files(files)
     refuse_duplicates(claims)
     with busy("judging the claims"):
-        judgements = judge_some(claims, claims, store_of(files))
+        judgements = judge_some(claims, by_id(claims), store_of(files))
     texts = {name: text for one in judgements for name, text in one.statements}
     certificates = {name: entry for one in judgements for name, entry in one.certificates.items()}
     statements = checker.read_statements("\n\n".join(texts.values()))
@@ -183,9 +189,9 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
 
     Raises ClaimError for a name that no claim bears, or one without a printed formula.
     """
-    by_id = {claim.id: claim for claim in paper_claims()}
-    named = [by_id[claim_named(wanted, by_id)] for wanted in ids]
-    chosen = named or [one for one in by_id.values() if one.printed]
+    claims = claims_by_id()
+    named = [claims[claim_named(wanted, claims)] for wanted in ids]
+    chosen = named or [one for one in claims.values() if one.printed]
     with busy("judging what is exported"):
         texts = {entry.claim.id: equation(entry) for entry in entries_of(chosen)}
     for name, text in texts.items():
@@ -210,7 +216,7 @@ def _coq_files(names: Sequence[str], folder: Path) -> dict[str, Path]:
 
 
 def _names(store: Store, ids: Sequence[str]) -> list[str]:
-    claims = [claim.id for claim in paper_claims()] if ids else []
+    claims = [*claims_by_id()] if ids else []
     ids = [claim_named(wanted, [*claims, *store.texts]) for wanted in ids]
     names = [name for name in store.texts if not ids or name in ids or name.split("/")[0] in ids]
     for wanted in ids:

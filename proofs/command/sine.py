@@ -76,6 +76,7 @@ def command(parsed: argparse.Namespace) -> int:
 NOT_FOR_SINE = (
     "only",
     "accept",
+    "rederive",
     "json",
     "junit",
     "markdown",

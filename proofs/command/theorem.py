@@ -11,7 +11,7 @@ from juggleproof.proofs.claims import claims_in
 from juggleproof.proofs.conclusions import ATTRACTS, STABLE
 from juggleproof.proofs.paper.names import derived_vector
 from juggleproof.proofs.reports.tables import DIGITS, components, exact, shown
-from juggleproof.proofs.run import judge_some
+from juggleproof.proofs.run import by_id, judge_some
 from juggleproof.proofs.theorem import quantities, stability
 from juggleproof.proofs.theorem.definition import (
     FIXED,
@@ -266,8 +266,8 @@ def _confirm(*ids: str) -> None:
 
     Raises ClaimError, one line, where one does not hold.
     """
-    claims = claims_in([stability.__name__])
-    for one in judge_some([claim for claim in claims if claim.id in ids], claims, DEFAULT):
+    claims = by_id(claims_in([stability.__name__]))
+    for one in judge_some([claims[name] for name in claims if name in ids], claims, DEFAULT):
         if one.verdict.word != "holds":
             raise ClaimError(f"{DEFAULT}: {one.id} is not certified; run `juggleproof certify`")
 

@@ -4,30 +4,22 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
-from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.claims import Claim, claims_in
+from juggleproof.proofs.ledger.indexed_claims import PATH, digest_of, stored_index
 from juggleproof.proofs.ledger.places import place_of
 
-PATH = Path(__file__).with_name("index.json")
 
-
-def load_index() -> list[dict[str, str]]:
+def load_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, str]]:
     """The entry of each claim, in the paper's order: id, section, place, line, says and module.
 
-    Raises ClaimError, one line, where the file cannot be read.
+    Where the file was not made from these modules as they are, their claims are loaded.
     """
-    try:
-        entries: list[dict[str, str]] = json.loads(PATH.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ClaimError(
-            f"{PATH}: no index ({type(error).__name__}); `juggleproof certify --accept` writes it"
-        ) from None
-    return entries
+    stored = stored_index(modules, path)
+    return index_of(claims_in(modules)) if stored is None else stored
 
 
 def index_of(claims: Sequence[Claim]) -> list[dict[str, str]]:
@@ -45,6 +37,7 @@ def index_of(claims: Sequence[Claim]) -> list[dict[str, str]]:
     ]
 
 
-def write_index(claims: Sequence[Claim]) -> bool:
+def write_index(modules: Sequence[str]) -> bool:
     """Writes the index in canonical bytes; returns whether it changed."""
-    return write_file(PATH, canonical(index_of(claims)))
+    content = {"claims": index_of(claims_in(modules)), "sources": digest_of(modules)}
+    return write_file(PATH, canonical(content))

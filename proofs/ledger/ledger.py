@@ -11,6 +11,8 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from juggleproof.symbolic.modes import MODES
+
 # -------------------------------------------------------------------------------------------------
 # Why an item of the paper may need no claim: a closed list, and the claims that no item of the
 # paper carries.
@@ -33,13 +35,6 @@ REASONS_WITH_KEY = {
     "repeats": "the transcription prints that earlier item again at the same place",
 }
 
-_MODES = (
-    "sliding",
-    "sticking-in-compression",
-    "sticking-in-restitution",
-    "reversed-in-compression",
-    "reversed-in-restitution",
-)
 # Claims about the paper's system, and about the table that it leaves open, that the paper itself
 # does not print.
 UNPRINTED = {
@@ -86,7 +81,7 @@ UNPRINTED = {
     "part-products": "the lemma of the claims about a corner's impact",
     "part-jamming": "how much friction the simulation may have for a part of any shape",
     "part-rectangle": "how much friction the simulation of the part may have",
-    **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
+    **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in MODES},
     "part-at-rest": "the impact of a corner that does not slide at first",
     "part-newton": "why the simulation of the part has Poisson's restitution and not Newton's",
     "sine-bounces": "the bounces of one period on a table that moves as a sine",

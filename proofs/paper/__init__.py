@@ -1,6 +1,6 @@
 """The paper, section by section: one file of claims a section, in the paper's order.
 
-paper_form            derived expressions as the paper writes such
+deriving              derived expressions, and how the paper writes such; loads SymPy
 derivations           derived expressions as terms that say what made them
 names                 what names stand for, and what happens within a period
 states                impacts and their energy, orbits, motion relative to e_1
@@ -26,10 +26,12 @@ claims of one's own are judged without.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from juggleproof.proofs import part, restitution, sine, theorem
 from juggleproof.proofs.claims import Claim, claims_in
+from juggleproof.proofs.ledger.indexed_claims import IndexedClaims
 from juggleproof.symbolic.lazy import lazy_names
 
 if TYPE_CHECKING:
@@ -76,6 +78,11 @@ def modules_of_claims() -> list[str]:
         (sine.__name__, sine.SECTIONS),
     )
     return [f"{package}.{section}" for package, sections in packages for section in sections]
+
+
+def claims_by_id() -> Mapping[str, Claim]:
+    """The claims of the paper by id, in its order; each loads its module when it is first used."""
+    return IndexedClaims(modules_of_claims())
 
 
 def paper_claims() -> list[Claim]:

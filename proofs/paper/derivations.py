@@ -1,34 +1,29 @@
 """Derived expressions as terms that carry their origin; what a claim rests on in `symbolic`: each
 derivation that its statements contain, with its sentence, its result, and what it is made from.
+
+No SymPy is loaded for what is kept of `deriving`.
 """
 
 from __future__ import annotations
 
-import inspect
 import re
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
-from types import CodeType
+from functools import cache
 from typing import NamedTuple, TypeVar, Union
 
-from sympy import Expr, ImmutableMatrix, MatrixBase
-
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     ClaimError,
     Formula,
     Term,
     origins_in,
-    real,
     term,
 )
-from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.paper.paper_form import paper_form
+from juggleproof.proofs.ledger.derived import derived_by, kept
 from juggleproof.proofs.reading.values import Matrix, Vector
 
-RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
+DERIVING = "proofs.paper.deriving"  # the module that loads SymPy
 Rows = tuple[tuple[str, ...], ...]
 Derived = Union[Term, Vector, Matrix]
 Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)
@@ -83,17 +78,10 @@ def derived_matrix(name: str, *arguments: Hashable) -> Matrix:
 @cache
 def derived_value(origin: Origin) -> Derived:
     """What the function of an origin derives, whatever it is."""
-    return made_by(origin, encoded(_result(origin)))
-
-
-def _result(origin: Origin) -> Expr | MatrixBase:
-    """The value of the function; several expressions as a column, and an extremum as the state to
-    which it belongs.
-    """
-    value = getattr(symbolic, origin.function)(*origin.arguments)
-    if hasattr(value, "attained"):
-        return value.state
-    return ImmutableMatrix(value) if isinstance(value, tuple) else value
+    value = kept().value(f"{DERIVING}.value", origin.function, *origin.arguments)
+    if not isinstance(value, (Term, Vector, Matrix)):
+        raise ClaimError(f"symbolic.{origin.function} is no expression")
+    return made_by(origin, value)
 
 
 def made_by(origin: Origin, value: Made) -> Made:
@@ -111,29 +99,35 @@ def made_by(origin: Origin, value: Made) -> Made:
     return Matrix(tuple(tuple(made_by(origin, term(one)) for one in row) for row in value.rows))
 
 
-def encoded(value: Expr | MatrixBase) -> Derived:
-    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
-    alpha is named s.
+def tidied(name: str, **values: int) -> Vector:
+    """A derived column of `symbolic` in lowest terms, with numbers put for some of its symbols.
 
-    Raises ClaimError for floats, functions and other roots.
+    >>> print(*tidied("e_1"))
+    4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
     """
-    if isinstance(value, MatrixBase):
-        if value.shape[1] == 1:
-            return Vector(tuple(_term(entry) for entry in value))
-        return Matrix(
-            tuple(
-                tuple(_term(value[i, j]) for j in range(value.shape[1]))
-                for i in range(value.shape[0])
-            )
-        )
-    return _term(value)
-
-
-def _term(expression: Expr) -> Term:
-    s = real("s")
-    return from_sympy(
-        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
+    column: Vector = made_by(
+        Origin(name), derived_by(Vector, f"{DERIVING}.in_lowest_terms", name, *values.items())
     )
+    return column
+
+
+def where_positive(name: str) -> Formula:
+    """The formula that a derived margin is positive.
+
+    >>> str(where_positive("normal_margin"))
+    'x < w'
+    """
+    formula: Formula = made_by(Origin(name), derived_by(Formula, f"{DERIVING}.margin", name))
+    return formula
+
+
+def sentence(name: str) -> str:
+    """What a function of `symbolic` derives: the first paragraph of its docstring.
+
+    >>> sentence("launch_state")
+    'The table as it leaves the ground: r_0 = (0, r) (section 3.1).'
+    """
+    return derived_by(str, f"{DERIVING}.sentence", name)
 
 
 @dataclass(frozen=True)
@@ -153,10 +147,12 @@ class Derivation:
         name, arguments = self.origin
         return name + (f"({', '.join(map(str, arguments))})" if arguments else "")
 
-    @cached_property
     def shown(self) -> Rows:
         """The entries in the paper's manner, where T stands for 2 r/g."""
-        return _rows(_result(self.origin), paper_form)
+        rows = derived_by(
+            tuple, f"{DERIVING}.in_paper_form", self.origin.function, *self.origin.arguments
+        )
+        return tuple(tuple(map(str, row)) for row in rows if isinstance(row, tuple))
 
     @property
     def line(self) -> str:
@@ -189,63 +185,21 @@ def derivation(origin: Origin) -> Derivation:
     'symbolic.launch_state: The table as it leaves the ground: r_0 = (0, r) (section 3.1). (0, r)'
     """
     name = origin.function
-    summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
-    sentence = " ".join(summary.split())
-    return Derivation(origin, sentence, _rows(_result(origin), _term), made_from(name))
+    uses = derived_by(tuple, f"{DERIVING}.made_from", name)
+    return Derivation(origin, sentence(name), rows_of(derived_value(origin)), tuple(map(str, uses)))
 
 
-def _rows(value: Expr | MatrixBase, written: Callable[[Expr], Term]) -> Rows:
-    """The entries of a value as text, in rows; those of a column in one."""
-    entries = list(value) if isinstance(value, MatrixBase) else [value]  # by rows
-    width = value.shape[1] if isinstance(value, MatrixBase) and value.shape[1] > 1 else len(entries)
-    texts = tuple(str(written(one)) for one in entries)
-    return tuple(texts[start : start + width] for start in range(0, len(texts), width))
+def rows_of(value: Derived) -> Rows:
+    """The entries of a value as text, in rows; those of a column in one.
 
-
-@cache
-def made_from(name: str) -> tuple[str, ...]:
-    """The derivations that this one calls, itself or through functions that have to be given
-    arguments, in the order of its code.
-
-    >>> made_from("E_max")
-    ('largest_kept_energy',)
-    >>> made_from("total_energy")
-    ('acceleration',)
+    >>> rows_of(derived_vector("launch_state"))
+    (('0', 'r'),)
     """
-    return tuple(dict.fromkeys(_called(getattr(symbolic, name), {name})))
-
-
-def _called(function: Callable[..., object], seen: set[str]) -> Iterator[str]:
-    plain = inspect.unwrap(function)
-    for name in _names_in(plain.__code__):
-        called = plain.__globals__.get(name)
-        if (
-            name in seen
-            or not callable(called)
-            or not getattr(called, "__module__", "").startswith("juggleproof.symbolic.")
-            or inspect.isclass(called)
-        ):
-            continue
-        seen.add(name)
-        if _is_derivation(called, name):
-            yield name
-        else:
-            yield from _called(called, seen)
-
-
-def _names_in(code: CodeType) -> Iterator[str]:
-    yield from code.co_names
-    for inner in code.co_consts:  # comprehensions and inner functions
-        if isinstance(inner, CodeType):
-            yield from _names_in(inner)
-
-
-def _is_derivation(function: Callable[..., object], name: str) -> bool:
-    """Whether it can be worked out as it is, and what it comes to has rows."""
-    parameters = inspect.signature(function).parameters.values()
-    if name not in dir(symbolic) or any(one.default is one.empty for one in parameters):
-        return False
-    return inspect.unwrap(function).__annotations__.get("return") in RESULTS
+    if isinstance(value, Matrix):
+        return tuple(tuple(str(term(one)) for one in row) for row in value.rows)
+    return (
+        tuple(str(term(one)) for one in (value.entries if isinstance(value, Vector) else [value])),
+    )
 
 
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:

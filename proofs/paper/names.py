@@ -4,16 +4,12 @@ within a period.
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
 from typing import TypeVar
 
-import sympy
-
-from juggleproof import symbolic
 from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import (
     Formula,
@@ -30,11 +26,17 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.proofs import claims, forms
 from juggleproof.proofs.forms import Vocabulary
-from juggleproof.proofs.paper.derivations import Origin, derived_value, made_by
+from juggleproof.proofs.ledger.derived import derived_by
+from juggleproof.proofs.paper.derivations import (
+    DERIVING,
+    Origin,
+    derived_value,
+    made_by,
+    sentence,
+)
 from juggleproof.proofs.paper.derivations import derived as derived
 from juggleproof.proofs.paper.derivations import derived_matrix as derived_matrix
 from juggleproof.proofs.paper.derivations import derived_vector as derived_vector
-from juggleproof.proofs.paper.derivations import encoded as encoded
 from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.meaning import Meaning, Printed
 from juggleproof.proofs.reading.values import (
@@ -154,17 +156,9 @@ def collide(table: Vector) -> StateFunction[Vector]:
     """C_y: the derived change of the ball's state at an impact with a table in the state y."""
 
     def after(ball: Vector) -> Vector:
-        names = sympy.symbols("ball_height ball_speed table_height table_speed")
-        struck = symbolic.collide(
-            sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:])
-        )
-        image = made_by(Origin("impact_map"), vector(encoded(struck)))
-        values = dict(
-            zip(
-                (str(name) for name in names),
-                (term(entry) for entry in (*ball.entries, *table.entries)),
-            )
-        )
+        names = ("ball_height", "ball_speed", "table_height", "table_speed")
+        image = made_by(Origin("impact_map"), derived_by(Vector, f"{DERIVING}.struck"))
+        values = dict(zip(names, (term(entry) for entry in (*ball.entries, *table.entries))))
         return at(image, values)
 
     return StateFunction(after)
@@ -542,12 +536,6 @@ def _definitions() -> tuple[Definition, ...]:
         if parameters:
             made.append(Definition(name, parameters, entries))
     return (*made, *(Definition(*row) for row in sets()))
-
-
-def sentence(function: str) -> str:
-    """What a function of `symbolic` derives: the first paragraph of its docstring."""
-    text = inspect.getdoc(getattr(symbolic, function)) or ""
-    return " ".join(text.partition("\n\n")[0].split())
 
 
 # -------------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ from one impact to the next.
 
 from __future__ import annotations
 
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     Formula,
     Statement,
@@ -505,7 +504,7 @@ def next_state_by_impact_and_flight() -> list[Statement]:
     after it, steered anew.
     """
     u3, u4, again = reals("u3 u4 again")
-    once = derived_vector("controlled_step", symbolic.u, symbolic.t)
+    once = derived_vector("controlled_step", "u", "t")
 
     def step(state: Vector, steering: Vector) -> Vector:
         return vector(

@@ -6,8 +6,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from sympy import Integer
-
 from juggleproof.certificates.language import (
     AnyStatement,
     ClaimError,
@@ -375,7 +373,7 @@ BOUND = term(derived("subharmonic_bound"))  # the real number that K_max rounds
 
 def threshold(count: int) -> Term:
     """The restitution from which on the fastest table can keep up flights of so many periods."""
-    return term(derived("restitution_threshold", Integer(count)))
+    return term(derived("restitution_threshold", count))
 
 
 @claim("eq-19", "3.5.2", "(19)", printed=r"K \le K_{max} < K + 1", parameters=("alpha", "K"))

@@ -32,7 +32,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, Run, judge_some, judge_stored
+from juggleproof.proofs.run import Options, Run, by_id, judge_some, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 if TYPE_CHECKING:
@@ -161,7 +161,7 @@ def gather(register: Path = PATH) -> Contents:
     """
     before = load_register(register)
     done = judge_stored(paper.paper_claims(), Options(DEFAULT))
-    settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, done.claims)
+    settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, by_id(done.claims))
     return contents_of(done, before)
 
 
@@ -169,8 +169,8 @@ def contents_of(done: Run, before: Register) -> Contents:
     """The contents of a report on a run over all claims of the paper, beside a register."""
     store, judgements, checked = Store(done.store), done.judgements, done.outcomes
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
-    by_id = _judged(done.claims, judgements)
-    entries = _entries(done.claims, judgements, by_id, store)
+    register = _judged(done.claims, judgements)
+    entries = _entries(done.claims, judgements, register, store)
     derived = {one.function: one for entry in entries for one in paper.behind(entry.steps)}
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
@@ -181,7 +181,7 @@ def contents_of(done: Run, before: Register) -> Contents:
         tree.theorem_line(store, checked, votes),
         _rules(store, checked, votes),
         tuple(derived.values()),
-        tuple(changes(before, by_id, partial=False)),
+        tuple(changes(before, register, partial=False)),
         tool_versions(),
     )
 
@@ -192,9 +192,9 @@ def entries_of(claims: Sequence[Claim]) -> tuple[Entry, ...]:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    judgements = judge_some(claims, paper.paper_claims(), DEFAULT)
-    by_id = {**load_register(), **_judged(claims, judgements)}
-    return _entries(claims, judgements, by_id, Store(DEFAULT))
+    judgements = judge_some(claims, paper.claims_by_id(), DEFAULT)
+    register = {**load_register(), **_judged(claims, judgements)}
+    return _entries(claims, judgements, register, Store(DEFAULT))
 
 
 def _judged(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> Register:
@@ -202,13 +202,13 @@ def _judged(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> Registe
 
 
 def _entries(
-    claims: Sequence[Claim], judgements: Sequence[Judgement], by_id: Register, store: Store
+    claims: Sequence[Claim], judgements: Sequence[Judgement], register: Register, store: Store
 ) -> tuple[Entry, ...]:
     entries = list[Entry]()
     for claim, judgement in zip(claims, judgements):
         steps = paper.derivations_of(statements_of(claim, judgement.correction))
         reading = reading_of(claim.body())
-        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading))
+        entries.append(_entry(claim, judgement, register, store, tuple(steps), reading))
     return tuple(entries)
 
 
@@ -234,7 +234,7 @@ def errata_text() -> str:
         or registers.get(claim.id, {}).get("verdict") != "holds"
         or errata.is_noted(claim)
     ]
-    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT, checked)}
+    judged = {one.id: one for one in judge_some(doubted, by_id(claims), DEFAULT, checked)}
     register = {claim.id: registered("holds", "", "", "") for claim in claims}
     for name, one in judged.items():
         register[name] = registered(one.verdict.word, one.verdict.detail, "", "")

@@ -244,7 +244,7 @@ def _theorem(contents: Contents) -> dict[str, object]:
     return {
         "scaling": ",\\; ".join(
             f"{name} = {with_macros(latex_of(value))}"
-            for name, value in zip(("x", "w"), scaling.shown[0])
+            for name, value in zip(("x", "w"), scaling.shown()[0])
         ),
         "guards": [latex_of(guard) for guard, _ in pieces],
         "images": [

@@ -203,7 +203,7 @@ def heading(claim: Claim) -> str:
 
 def entries(one: Derivation) -> str:
     """The result of a derivation: a term, a column or a matrix."""
-    shown = [[with_macros(latex_of(entry)) for entry in row] for row in one.shown]
+    shown = [[with_macros(latex_of(entry)) for entry in row] for row in one.shown()]
     if len(shown) == 1:
         return shown[0][0] if len(shown[0]) == 1 else "(" + r",\; ".join(shown[0]) + ")"
     return r"\begin{bmatrix}" + r" \\ ".join(" & ".join(row) for row in shown) + r"\end{bmatrix}"

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
-from juggleproof.certificates.store import Store
+from juggleproof.certificates.store import Store, WrittenOut
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.conclusions import PROVED
 from juggleproof.proofs.theorem import DIGEST, SENTENCE, THEOREM
@@ -17,14 +17,13 @@ from juggleproof.proofs.theorem import DIGEST, SENTENCE, THEOREM
 STANDS, LOST = f"theorem: {PROVED}", f"theorem: NOT {PROVED}"
 
 
-def rules_of(store: Store) -> dict[str, checker.Statement]:
-    """The stored statements under map rules, by name."""
-    texts = [
-        text
-        for text in store.texts.values()
-        if not text.split("\n")[1].startswith(("forall ", "sharp "))
-    ]
-    statements = checker.read_statements("\n\n".join(texts))
+def rules_of(store: Store, names: Iterable[str] | None = None) -> dict[str, checker.Statement]:
+    """The stored statements under map rules, by name: all, or those among these names and what they
+    name.
+    """
+    if not isinstance(store.texts, WrittenOut):
+        return {}
+    statements = store.texts.read(store.texts if names is None else names)
     return {
         name: one
         for name, one in statements.items()
@@ -59,7 +58,7 @@ def theorem_line(
     """
     if THEOREM not in store.texts:
         return ""
-    rules = rules_of(store)
+    rules = rules_of(store, [THEOREM])
     names = with_all_below(THEOREM, rules)
     if digest_of(store.texts[name] for name in names) != DIGEST:
         return f"{LOST}; {THEOREM}, or what it rests on, is not as the sources state it"
@@ -101,9 +100,10 @@ def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premise
     Raises ClaimError where premises are asked for and the claim neither is a map rule nor rests on
     one.
     """
-    rules = rules_of(store)
+    own = [name for name in store.texts if name.split("/")[0] == claim_id]
+    rules = rules_of(store, [*own, *resting])
     roots = [
-        *(name for name in rules if name.split("/")[0] == claim_id),
+        *(name for name in rules if name in own),
         *(name for name in resting if name in rules),
     ]
     if not roots:

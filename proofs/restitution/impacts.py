@@ -21,6 +21,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
+from juggleproof.proofs.paper.derivations import tidied
 from juggleproof.proofs.paper.names import alpha, at, claim, equals, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
@@ -31,7 +32,6 @@ from juggleproof.proofs.theorem.definition import (
     Contraction,
     contracts,
     the_map,
-    tidied,
 )
 from juggleproof.proofs.theorem.orbits import (
     AFTER,

@@ -12,9 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from sympy import Expr
-
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
@@ -24,10 +21,18 @@ from juggleproof.certificates.language import (
     iff,
     term,
 )
+from juggleproof.proofs.ledger.derived import derived_by
+from juggleproof.proofs.paper.derivations import tidied
 from juggleproof.proofs.paper.names import alpha, always, at, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import RADIUS, WEIGHTS
-from juggleproof.proofs.restitution.unequal import BORN, cleared, on_the_orbit, turned
+from juggleproof.proofs.restitution.unequal import (
+    ALONG,
+    BORN,
+    is_below_the_table,
+    on_the_orbit,
+    turned,
+)
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     IMPACT,
@@ -41,8 +46,6 @@ from juggleproof.proofs.theorem.definition import (
     descends,
     spaced,
     the_map,
-    tidied,
-    tidy,
     u,
 )
 from juggleproof.proofs.theorem.orbits import strikes
@@ -83,11 +86,7 @@ class Restitutions:
         """
         if not self.repeated:
             return self.of_alpha()
-        return self.of_alpha() & cleared(lambda back: -back[0], self.repeated)
-
-    def depth(self) -> Expr:
-        """How far below the table is the point that the repeated flights bring back."""
-        return -symbolic.normal_periodic_impact(self.repeated)[0]
+        return self.of_alpha() & is_below_the_table(self.repeated)
 
     def repeats(self) -> list[tuple[str, str]]:
         """The repeated flights, with a rank that falls by 1 each time, and is not below 0 at a slow
@@ -95,10 +94,8 @@ class Restitutions:
         """
         if not self.repeated:
             return []
-        form = symbolic.normal_sum_of_heights(self.repeated)
-        least = form.xreplace({symbolic.x: 0, symbolic.w: self.fast})
-        rank = tidy((form - least) / self.depth())
-        return [("rank", str(rank)), ("word", spaced(self.repeated))]
+        rank = derived_by(str, f"{ALONG}.rank_of_repeats", self.repeated, self.fast)
+        return [("rank", rank), ("word", spaced(self.repeated))]
 
     def exceptions(self) -> tuple[Vector, ...]:
         """The orbit of the e_K whose range begins here, and what flies to it."""

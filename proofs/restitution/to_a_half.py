@@ -18,6 +18,7 @@ from juggleproof.certificates.language import (
     equal,
     term,
 )
+from juggleproof.proofs.paper.derivations import tidied
 from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import from_here
@@ -33,7 +34,6 @@ from juggleproof.proofs.theorem.definition import (
     contracts,
     descends,
     the_map,
-    tidied,
     u,
 )
 from juggleproof.proofs.theorem.orbits import HERE, strikes

@@ -8,13 +8,9 @@ room to spare; at either end of its range one impact has none.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from sympy import Expr, factor_list, fraction, together
-
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     AnyStatement,
     Formula,
@@ -25,6 +21,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
+from juggleproof.proofs.ledger.derived import derived_by
 from juggleproof.proofs.paper.derivations import Origin, made_by
 from juggleproof.proofs.paper.names import alpha, always, claim, equals, w, x
 from juggleproof.proofs.reading.values import Vector
@@ -37,13 +34,11 @@ from juggleproof.proofs.theorem.definition import (
     contracts,
     escapes,
     opposite,
-    positive,
     the_map,
-    tidy,
 )
 from juggleproof.proofs.theorem.orbits import strikes
-from juggleproof.symbolic.algebra import State, lowest_terms
 
+ALONG = "proofs.restitution.along_flights"  # the module that loads SymPy
 FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods
 PERIODS, COUNT = sum(FLIGHTS), len(FLIGHTS)
 BORN, DIES = 8, 9  # the numbers of flights after which the impacts come that end its range
@@ -66,12 +61,8 @@ RANGE = conjunction(WIDER) & WHOLE
 
 def derived_along(name: str, flights: tuple[int, ...], *arguments: int) -> Vector:
     """A derived state along the flights: in lowest terms, and what z1 and z2 add to it."""
-    entries = []
-    for entry in getattr(symbolic, name)(flights, *arguments):
-        there = entry.subs({symbolic.z1: 0, symbolic.z2: 0})
-        kept, *added = (tidy(part) for part in (there, entry - there) if part != 0)
-        entries.append(sum(added, kept))
-    found: Vector = made_by(Origin(name, (flights, *arguments)), Vector(tuple(entries)))
+    value = derived_by(Vector, f"{ALONG}.in_lowest_terms", name, flights, *arguments)
+    found: Vector = made_by(Origin(name, (flights, *arguments)), value)
     return found
 
 
@@ -97,21 +88,23 @@ def above(state: Vector) -> Formula:
 
 def divides() -> Formula:
     """The denominators of the start are not 0: each of their factors has a sign."""
-    found = RANGE
-    for entry in symbolic.normal_periodic_impact(FLIGHTS):
-        for factor, _ in factor_list(fraction(together(entry))[1])[1]:
-            sign = 1 if factor.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
-            found = found & positive(sign * factor)
-    return found
+    signs = derived_by(tuple, f"{ALONG}.denominators", FLIGHTS)
+    return conjunction([RANGE, *(one for one in signs if isinstance(one, Formula))])
 
 
-def cleared(margin: Callable[[State], Expr], flights: tuple[int, ...]) -> Formula:
-    """The formula margin > 0 of the impact that the flights bring back, times its denominator,
-    which has one sign.
-    """
-    above, below = fraction(lowest_terms(margin(symbolic.normal_periodic_impact(flights))))
-    sign = 1 if below.subs(symbolic.alpha, Fraction(1, 2)) > 0 else -1
-    found: Formula = made_by(Origin("normal_periodic_impact", (flights,)), positive(sign * above))
+def is_below_the_table(flights: tuple[int, ...]) -> Formula:
+    """The point that the flights bring back is below the table."""
+    return _of_the_impact("is_below_the_table", flights)
+
+
+def is_a_collision(flights: tuple[int, ...]) -> Formula:
+    """The impact that the flights bring back is a collision within the period."""
+    return _of_the_impact("is_a_collision", flights)
+
+
+def _of_the_impact(name: str, flights: tuple[int, ...]) -> Formula:
+    value = derived_by(Formula, f"{ALONG}.{name}", flights)
+    found: Formula = made_by(Origin("normal_periodic_impact", (flights,)), value)
     return found
 
 
@@ -134,8 +127,7 @@ def exists() -> Formula:
     """The orbit is one: the impact after BORN flights is above the table, and that after DIES
     flights a collision.
     """
-    above_table = opposite(cleared(lambda born: -born[0], turned(BORN)))
-    return above_table & cleared(lambda dies: dies[1] - dies[0], turned(DIES))
+    return opposite(is_below_the_table(turned(BORN))) & is_a_collision(turned(DIES))
 
 
 def map_beside() -> Setting:

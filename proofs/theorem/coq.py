@@ -14,11 +14,11 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.coq.text import without_primes
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.encoding import from_sympy, written
 from juggleproof.proofs.theorem import definition as chosen
 from juggleproof.proofs.theorem.coq_templates import HEADER, PINS, THEOREMS
 from juggleproof.proofs.theorem.coq_terms import ATOM, coq_formula, coq_term, names_in, term_of
-from juggleproof.proofs.theorem.definition import NORMAL, PHYSICAL, Setting, written
+from juggleproof.proofs.theorem.definition import NORMAL, PHYSICAL, Setting
 from juggleproof.symbolic.algebra import DerivationError, alpha, lowest_terms, r
 from juggleproof.symbolic.bounds import E_max
 from juggleproof.symbolic.energy import scaling, total_energy

@@ -11,9 +11,6 @@ from fractions import Fraction
 from math import isqrt
 from typing import Union
 
-from sympy import Expr, factor, fraction
-
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     ClaimError,
     Formula,
@@ -27,8 +24,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.paper.derivations import Origin, made_by
+from juggleproof.proofs.paper.derivations import tidied, where_positive
 from juggleproof.proofs.paper.names import (
     H,
     Placed,
@@ -44,67 +40,6 @@ from juggleproof.proofs.paper.names import (
     x,
 )
 from juggleproof.proofs.reading.values import Vector
-from juggleproof.symbolic.algebra import lowest_terms
-
-# -------------------------------------------------------------------------------------------------
-# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before what
-# is taken away.
-
-
-def tidied(name: str, **values: int) -> Vector:
-    """A derived column of `symbolic` in lowest terms, with numbers put for some of its symbols.
-
-    >>> print(*tidied("e_1"))
-    4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
-    """
-    column: Vector = made_by(
-        Origin(name),
-        Vector(tuple(tidy(entry) for entry in getattr(symbolic, name)().subs(values))),
-    )
-    return column
-
-
-def written(expression: Expr) -> str:
-    """The text of an expression in lowest terms.
-
-    >>> from juggleproof.symbolic.algebra import alpha, w
-    >>> written(2 - alpha * w), written((1 - alpha) / (alpha**2 + 2 * alpha + 1))
-    ('2 - alpha*w', '(1 - alpha)/(alpha + 1)^2')
-    >>> written((alpha + 1) / (1 - alpha)), written(-alpha * w)
-    ('(alpha + 1)/(1 - alpha)', '-alpha*w')
-    """
-    return str(tidy(expression))
-
-
-def tidy(expression: Expr) -> Term:
-    """The expression in lowest terms: an expanded numerator, positive terms first, over a factored
-    denominator.
-    """
-    above, below = fraction(lowest_terms(expression))
-    if below != 1 and not _by_sign(above)[0]:
-        above, below = -above, -below
-    numerator, factored = _difference(above), factor(below)
-    if below == 1:
-        return numerator
-    return numerator / (
-        _difference(below)
-        if below.is_Add and not (factored.is_Mul or factored.is_Pow)
-        else from_sympy(factored)
-    )
-
-
-def positive(margin: Expr) -> Formula:
-    """The formula margin > 0, what is taken away on the left of <.
-
-    >>> from juggleproof.symbolic.algebra import w, x
-    >>> str(positive(w**2 - x + 1))
-    'x < w^2 + 1'
-    """
-    above, below = fraction(lowest_terms(margin))
-    if not below.is_Rational or below <= 0:
-        raise ClaimError(f"the sign of {margin} is not that of a polynomial")
-    kept, taken = _by_sign(above)
-    return _sum(taken) < _sum(kept)
 
 
 def opposite(strict: Formula) -> Formula:
@@ -119,27 +54,6 @@ def opposite(strict: Formula) -> Formula:
         raise ClaimError(f"{strict} is not one strict inequality")
     left, right = strict.sides
     return right <= left
-
-
-def _difference(polynomial: Expr) -> Term:
-    kept, taken = _by_sign(polynomial)
-    total = _sum(kept) if kept else -_sum(taken)
-    for part in taken if kept else []:
-        total = total - part
-    return total
-
-
-def _by_sign(polynomial: Expr) -> tuple[list[Term], list[Term]]:
-    parts = polynomial.expand().as_ordered_terms()
-    kept = [from_sympy(part) for part in parts if not part.could_extract_minus_sign()]
-    return kept, [from_sympy(-part) for part in parts if part.could_extract_minus_sign()]
-
-
-def _sum(parts: Sequence[Term]) -> Term:
-    total = parts[0] if parts else term(0)
-    for part in parts[1:]:
-        total = total + part
-    return total
 
 
 # -------------------------------------------------------------------------------------------------
@@ -158,9 +72,7 @@ BELOW_A_THIRD = (alpha > 0) & (3 * alpha < 1) & (1 + alpha > 0)
 FROM_A_THIRD = (3 * alpha >= 1) & (alpha < 1) & (1 + alpha > 0)
 
 SPACE = term(0) <= x
-IMPACT: Formula = made_by(
-    Origin("normal_margin"), positive(symbolic.normal_margin())
-)  # inequality (7)
+IMPACT = where_positive("normal_margin")  # inequality (7)
 PIECES = ((IMPACT, tidied("normal_f1")), (opposite(IMPACT), tidied("normal_f2")))
 FIXED: Vector = tidied("normal_e_1")
 OTHER: Vector = tidied(
@@ -374,7 +286,7 @@ class Setting:
 
 
 NORMAL = Setting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
-STRIKES_HERE: Formula = made_by(Origin("collision_margin"), positive(symbolic.collision_margin()))
+STRIKES_HERE = where_positive("collision_margin")
 PHYSICAL = Setting(
     parameters=(alpha, r, g),
     positive=(r > 0, g > 0),

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from importlib import import_module
+from types import ModuleType
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -66,14 +68,19 @@ from juggleproof.proofs.theorem.definition import (
     u,
     value_of,
 )
-from juggleproof.scenes.juggler import exact
 
 # -------------------------------------------------------------------------------------------------
 # Orbits in exact numbers with what the theorem's terms and formulas say of their states; the map
 # itself is that of `juggleproof.scenes.juggler.exact`.
 
+EXACT = "juggleproof.scenes.juggler.exact"  # loads SymPy, which few claims need
 MAX_IMPACTS = 1000  # that an orbit is followed for
 MAX_BITS = 20000  # of a numerator or denominator on an orbit
+
+
+def exact() -> ModuleType:
+    """The scene's map in exact numbers."""
+    return import_module(EXACT)
 
 
 @dataclass(frozen=True)
@@ -105,7 +112,7 @@ class State:
     @property
     def strikes(self) -> bool:
         """Whether this period has an impact."""
-        return exact.strikes(self.x, self.w)
+        return bool(exact().strikes(self.x, self.w))
 
     @property
     def speed_squared(self) -> Fraction:
@@ -138,17 +145,17 @@ def a_state(alpha: Fraction, x: Fraction, w: Fraction) -> State:
 
 def flight_length(state: State) -> int:
     """How many periods without an impact follow from this state on."""
-    return exact.flight_length(state.x, state.w)
+    return int(exact().flight_length(state.x, state.w))
 
 
 def flown(state: State, periods: int) -> State:
     """The state after so many periods without an impact."""
-    return State(state.alpha, *exact.flight(state.x, state.w, periods))
+    return State(state.alpha, *exact().flight(state.x, state.w, periods))
 
 
 def struck(state: State) -> State:
     """The state after a period with an impact."""
-    return State(state.alpha, *exact.impact(state.alpha, state.x, state.w))
+    return State(state.alpha, *exact().impact(state.alpha, state.x, state.w))
 
 
 def step(state: State) -> State:

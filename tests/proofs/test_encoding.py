@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from juggleproof import symbolic
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.paper.names import encoded
+from juggleproof.proofs.paper.deriving import encoded
 from tests.proofs.reading.paper_names import value_at
 
 NAMES = sympy.symbols("x y alpha")

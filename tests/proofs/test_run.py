@@ -24,6 +24,7 @@ from juggleproof.proofs.judgement import Judgement, Resources
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import (
     Options,
+    by_id,
     claims_of_file,
     judge_some,
     judge_stored,
@@ -248,8 +249,11 @@ def by_lemma(folder: Path, lemma: str, user: str) -> tuple[Path, Path]:
 def test_rejects_a_proof_by_a_lemma_that_is_refuted(tmp_path: Path) -> None:
     path, store = by_lemma(tmp_path, "x**2 < 0", "a**2 < 0")
     claims = claims_of_file(path)
-    assert [one.verdict.word for one in judge_some(claims, claims, store)] == ["false", "false"]
-    assert [one.verdict.word for one in judge_some(claims[1:], claims, store)] == ["false"]
+    assert [one.verdict.word for one in judge_some(claims, by_id(claims), store)] == [
+        "false",
+        "false",
+    ]
+    assert [one.verdict.word for one in judge_some(claims[1:], by_id(claims), store)] == ["false"]
     stored = judge_stored(claims, Options(store, ("exact",), jobs=1))
     assert [one.verdict.word for one in stored.judgements] == ["false", "false"]
     done = run(claims, Options(store, ("exact",), jobs=1))
@@ -270,7 +274,7 @@ def test_rejects_what_the_votes_contradict_in_one_line(tmp_path: Path) -> None:
 def test_a_proof_by_a_lemma_that_is_certified_holds(tmp_path: Path) -> None:
     path, store = by_lemma(tmp_path, "x**2 >= 0", "a**2 >= 0")
     claims = claims_of_file(path)
-    (judged,) = judge_some(claims[1:], claims, store)
+    (judged,) = judge_some(claims[1:], by_id(claims), store)
     assert judged.verdict.word == "holds" and "use" in str(judged.certificates["user/main"])
 
 

@@ -21,7 +21,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.command.show import export_coq
-from juggleproof.proofs.run import claims_of_file, judge_some
+from juggleproof.proofs.run import by_id, claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
@@ -95,7 +95,7 @@ def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
 def judged() -> tuple[dict[str, str], dict[str, Any]]:
     """The texts of the statements of the maps, and their certificates."""
     claims = claims_of_file(MAPS)
-    judgements = judge_some(claims, claims, MAPS.with_suffix(".certificates"))
+    judgements = judge_some(claims, by_id(claims), MAPS.with_suffix(".certificates"))
     assert {word for one in judgements for word in one.outcomes.values()} == {"certified"}
     texts = {name: text for one in judgements for name, text in one.statements}
     return texts, {name: entry for one in judgements for name, entry in one.certificates.items()}

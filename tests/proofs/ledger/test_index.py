@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
-from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.ledger import index
-from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper import claims_by_id, modules_of_claims, paper_claims
 
 LOADED = """import sys
 from juggleproof.proofs.command.main import run
 code = run(["list"])
-print(code, [m for m in ("sympy", "rich", "z3", "juggleproof.proofs.paper") if m in sys.modules],
-      file=sys.stderr)
+names = ("sympy", "rich", "z3", "juggleproof.proofs.paper.names")
+print(code, [one for one in names if one in sys.modules], file=sys.stderr)
+"""
+ONE = """import sys
+from juggleproof.proofs.paper import SECTIONS, claims_by_id
+claim = claims_by_id()["eq-37"]
+print(claim.id, [one for one in SECTIONS if f"juggleproof.proofs.paper.{one}" in sys.modules])
 """
 
 
 def test_the_index_is_what_the_sources_say_holds() -> None:
     """`juggleproof certify --accept` writes it anew."""
-    assert index.load_index() == index.index_of(paper_claims())
+    assert index.load_index(modules_of_claims()) == index.index_of(paper_claims())
 
 
 def test_list_imports_no_claim_and_no_solver_holds() -> None:
@@ -30,15 +33,24 @@ def test_list_imports_no_claim_and_no_solver_holds() -> None:
         [sys.executable, "-c", LOADED], capture_output=True, text=True, check=True
     )
     assert done.stderr == "0 []\n"
-    assert len(done.stdout.splitlines()) == len(index.load_index())
+    assert len(done.stdout.splitlines()) == len(claims_by_id())
 
 
-def test_rejects_an_index_that_cannot_be_read(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(index, "PATH", tmp_path / "index.json")
-    for text in (None, "[{", ""):
+def test_an_index_that_is_not_of_the_sources_is_not_read_holds(tmp_path: Path) -> None:
+    """It is of other sources, is none, or is missing: what the sources say is told."""
+    modules, path = modules_of_claims(), tmp_path / "index.json"
+    stored = json.loads(index.PATH.read_text())
+    assert stored["sources"] == index.digest_of(modules) != index.digest_of(modules[1:])
+    stored["claims"][0]["says"] = "Anything."
+    path.write_text(json.dumps(stored))
+    assert index.load_index(modules, path)[0]["says"] == "Anything."
+    for text in (json.dumps({**stored, "sources": "0"}), "[{", "[]", None):
+        path.unlink()
         if text is not None:
-            index.PATH.write_text(text)
-        with pytest.raises(ClaimError, match="no index .*certify --accept"):
-            index.load_index()
+            path.write_text(text)
+        assert index.load_index(modules, path) == index.index_of(paper_claims())
+
+
+def test_a_claim_that_is_asked_for_loads_its_module_alone_holds() -> None:
+    done = subprocess.run([sys.executable, "-c", ONE], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["eq-37", "['a1_a2_energy']"]

@@ -19,6 +19,7 @@ from juggleproof.certificates.language import origins_in
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import Origin
+from juggleproof.proofs.paper.deriving import result
 
 calls: dict[str, set[str]] = {}
 working: list[str] = []
@@ -84,5 +85,5 @@ def called_derivations() -> dict[str, list[str]]:
         if name in nodes:
             function()
         else:
-            worked_out(name, function, *arguments)
+            worked_out(name, result, name, *arguments)
     return {name: sorted(found) for name, found in calls.items()}

@@ -18,6 +18,7 @@ from juggleproof import symbolic
 from juggleproof.certificates.language import Term
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.judgement import statements_of
+from juggleproof.proofs.ledger.derived import derive_again
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import findings_in
 
@@ -68,6 +69,7 @@ def count_marks_as_zero() -> None:
 
 
 def main() -> None:
+    derive_again()
     for name in dir(symbolic):
         function = getattr(symbolic, name)
         if isinstance(getattr(function, "__wrapped__", function), FunctionType):

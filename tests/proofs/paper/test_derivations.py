@@ -21,8 +21,8 @@ from juggleproof.proofs.paper.derivations import (
     derivations_of,
     derived,
     derived_vector,
-    made_from,
 )
+from juggleproof.proofs.paper.deriving import made_from
 from juggleproof.proofs.run import findings_in
 from tests.proofs.paper.called_derivations import called_derivations
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -47,7 +47,7 @@ def test_every_formula_of_every_statement_reads_back_holds() -> None:
 
 def test_every_derivation_reads_back_holds() -> None:
     entries = dict.fromkeys(
-        entry for one in contents().derivations for row in one.shown for entry in row
+        entry for one in contents().derivations for row in one.shown() for entry in row
     )
     assert len(entries) > 50
     assert differences((entry, latex_of(entry)) for entry in entries) == []
@@ -255,7 +255,9 @@ def test_an_export_judges_only_what_is_asked_for_holds(
 ) -> None:
     judged = list[str]()
 
-    def recorded(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -> list[Judgement]:
+    def recorded(
+        chosen: Sequence[Claim], claims: Mapping[str, Claim], folder: Path
+    ) -> list[Judgement]:
         judged.extend(one.id for one in chosen)
         return judge_some(chosen, claims, folder)
 

@@ -1,18 +1,178 @@
-"""Derived expressions as the paper writes such: collected by what varies, each coefficient
-factored, 1 - alpha below the line, T for 2 r/g.
+"""What the functions of `symbolic` come to, as terms: as they are, in lowest terms, and as the
+paper writes such: collected by what varies, each coefficient factored, 1 - alpha below the line, T
+for 2 r/g.
+
+This file loads SymPy, and is called where nothing is kept of what it derives.
 """
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Hashable, Iterator
 from fractions import Fraction
+from types import CodeType
+from typing import Union
 
-from sympy import Expr, Rational, Symbol, cancel, expand, factor, fraction, together
+from sympy import (
+    Expr,
+    ImmutableMatrix,
+    MatrixBase,
+    Rational,
+    Symbol,
+    cancel,
+    expand,
+    factor,
+    fraction,
+    symbols,
+    together,
+)
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import ClaimError, Term, names_in, real, term
-from juggleproof.proofs.encoding import from_sympy
+from juggleproof.certificates.language import ClaimError, Formula, Term, names_in, real, term
+from juggleproof.proofs.encoding import from_sympy, positive, tidy
+from juggleproof.proofs.reading.values import Matrix, Vector
 
+RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
 VARYING = ("x", "beta", "z1", "tau", "t", "v", "z2", "w", "u", "s")
+Rows = tuple[tuple[str, ...], ...]
+Derived = Union[Term, Vector, Matrix]
+
+
+def value(name: str, *arguments: Hashable) -> Derived:
+    """What a function of `symbolic` comes to; the name of a symbol stands for it.
+
+    >>> print(value("E_max"))
+    r^2*(alpha + 1)^2/(2*(alpha - 1)^2)
+    """
+    return encoded(result(name, *arguments))
+
+
+def result(name: str, *arguments: Hashable) -> Expr | MatrixBase:
+    """The value of the function; several expressions as a column, and an extremum as the state to
+    which it belongs.
+    """
+    named = (getattr(symbolic, one, one) if isinstance(one, str) else one for one in arguments)
+    found = getattr(symbolic, name)(*named)
+    if hasattr(found, "attained"):
+        return found.state
+    return ImmutableMatrix(found) if isinstance(found, tuple) else found
+
+
+def encoded(value: Expr | MatrixBase) -> Derived:
+    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
+    alpha is named s.
+
+    Raises ClaimError for floats, functions and other roots.
+    """
+    if isinstance(value, MatrixBase):
+        if value.shape[1] == 1:
+            return Vector(tuple(_term(entry) for entry in value))
+        return Matrix(
+            tuple(
+                tuple(_term(value[i, j]) for j in range(value.shape[1]))
+                for i in range(value.shape[0])
+            )
+        )
+    return _term(value)
+
+
+def _term(expression: Expr) -> Term:
+    s = real("s")
+    return from_sympy(
+        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
+    )
+
+
+def struck() -> Derived:
+    """The ball's state after an impact, in the four components before it."""
+    names = symbols("ball_height ball_speed table_height table_speed")
+    return encoded(symbolic.collide(ImmutableMatrix(names[:2]), ImmutableMatrix(names[2:])))
+
+
+def in_lowest_terms(name: str, *values: tuple[str, int]) -> Vector:
+    """A column of `symbolic` in lowest terms, with numbers put for some of its symbols.
+
+    >>> print(*in_lowest_terms("e_1"))
+    4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
+    """
+    return Vector(tuple(tidy(entry) for entry in getattr(symbolic, name)().subs(dict(values))))
+
+
+def margin(name: str) -> Formula:
+    """The formula that a margin of `symbolic` is positive."""
+    return positive(getattr(symbolic, name)())
+
+
+# -------------------------------------------------------------------------------------------------
+# What is said of a derivation: its sentence, its entries in the paper's manner, and what it calls.
+
+
+def sentence(name: str) -> str:
+    """What a function of `symbolic` derives: the first paragraph of its docstring.
+
+    >>> sentence("launch_state")
+    'The table as it leaves the ground: r_0 = (0, r) (section 3.1).'
+    """
+    text = inspect.getdoc(getattr(symbolic, name)) or ""
+    return " ".join(text.partition("\n\n")[0].split())
+
+
+def in_paper_form(name: str, *arguments: Hashable) -> Rows:
+    """The entries in the paper's manner, where T stands for 2 r/g."""
+    value = result(name, *arguments)
+    parts = list(value) if isinstance(value, MatrixBase) else [value]  # by rows
+    width = value.shape[1] if isinstance(value, MatrixBase) and value.shape[1] > 1 else len(parts)
+    texts = tuple(str(paper_form(one)) for one in parts)
+    return tuple(texts[start : start + width] for start in range(0, len(texts), width))
+
+
+def made_from(name: str) -> tuple[str, ...]:
+    """The derivations that this one calls, itself or through functions that have to be given
+    arguments, in the order of its code.
+
+    >>> made_from("E_max")
+    ('largest_kept_energy',)
+    >>> made_from("total_energy")
+    ('acceleration',)
+    """
+    return tuple(dict.fromkeys(_called(getattr(symbolic, name), {name})))
+
+
+def _called(function: Callable[..., object], seen: set[str]) -> Iterator[str]:
+    plain = inspect.unwrap(function)
+    for name in _names_in(plain.__code__):
+        called = plain.__globals__.get(name)
+        if (
+            name in seen
+            or not callable(called)
+            or not getattr(called, "__module__", "").startswith("juggleproof.symbolic.")
+            or inspect.isclass(called)
+        ):
+            continue
+        seen.add(name)
+        if _is_derivation(called, name):
+            yield name
+        else:
+            yield from _called(called, seen)
+
+
+def _names_in(code: CodeType) -> Iterator[str]:
+    yield from code.co_names
+    for inner in code.co_consts:  # comprehensions and inner functions
+        if isinstance(inner, CodeType):
+            yield from _names_in(inner)
+
+
+def _is_derivation(function: Callable[..., object], name: str) -> bool:
+    """Whether it can be worked out as it is, and what it comes to has rows."""
+    parameters = inspect.signature(function).parameters.values()
+    if name not in dir(symbolic) or any(one.default is one.empty for one in parameters):
+        return False
+    return inspect.unwrap(function).__annotations__.get("return") in RESULTS
+
+
+# -------------------------------------------------------------------------------------------------
+# The paper's manner.
 
 
 def paper_form(expression: Expr) -> Term:
