@@ -39,6 +39,7 @@ class CertifyOptions(argparse.Namespace):
     only: list[str] | None
     routes: str
     fresh: bool
+    revote: bool
     jobs: int
     budget: int
     accept: bool
@@ -123,6 +124,7 @@ def _options(options: CertifyOptions) -> Options:
         options.jobs,
         options.fresh,
         tuple(options.only or ()),
+        options.revote,
     )
 
 

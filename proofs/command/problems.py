@@ -31,7 +31,7 @@ def command(parsed: argparse.Namespace) -> int:
     return certify(ProblemOptions(**vars(parsed)))
 
 
-NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings", "report", "output")
+NOT_FOR_SCRIPTS = ("only", "accept", "revote", "junit", "markdown", "timings", "report", "output")
 
 
 def certify(options: ProblemOptions) -> int:

@@ -83,6 +83,7 @@ NOT_FOR_SINE = (
     "report",
     "output",
     "fresh",
+    "revote",
 )
 
 
