@@ -222,6 +222,7 @@ class Judge:
     def __init__(self, claim: Claim, resources: Resources) -> None:
         self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
+        self.premises: dict[str, dict[str, checker.Statement]] = {}  # of rules that were searched
         self.is_trial = self.lacks_lemmas = False
         self.where = claim.where  # file and line of what is settled
 
@@ -338,7 +339,8 @@ class Judge:
             self.judgement.votes[name] = self.votes(name, text, outcome)
         if isinstance(statement, MapRule) and outcome == "certified":
             self.known[name] = read(text, name)
-            for premise in checker.premises_of(self.known[name], self.known).values():
+            premises = self.premises.get(name) or checker.premises_of(self.known[name], self.known)
+            for premise in premises.values():
                 self.judgement.votes[premise.name] = self.votes(
                     premise.name, premise.text(), outcome
                 )
@@ -353,9 +355,10 @@ class Judge:
         return place if place.rpartition(":")[0] == own else self.claim.where
 
     def search_rule(
-        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]]
+        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]], confirm: bool
     ) -> Certificate:
-        """A proof of each premise of a map rule, or why some have none.
+        """A proof of each premise of a map rule, or why some have none; with `confirm` the checker
+        confirms each before the search goes on.
 
         Raises ClaimError where the premises cannot be written, and for a lemma that is for none of
         them, or cannot be read.
@@ -364,6 +367,7 @@ class Judge:
         premises = premises_of(rule, self.known, stated)
         if isinstance(premises, str):
             return {"unknown": premises}
+        self.premises[rule.name] = premises
         for name in lemmas:
             if name not in premises or premises[name].get("exists"):
                 raise ClaimError(
@@ -378,7 +382,7 @@ class Judge:
 
         budget = self.resources.budget
         try:
-            found = dict(search_premises(premises, self.known, budget, lemmas, is_false))
+            found = dict(search_premises(premises, self.known, budget, lemmas, is_false, confirm))
         except checker.Rejected as reason:
             raise ClaimError(f"{rule.name}: {reason}") from None
         proofs = {name: proof for name, proof in found.items() if proof is not None}
@@ -442,7 +446,7 @@ class Judge:
         """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
-            return self.search_rule(parsed, getattr(statement, "lemmas", {}))
+            return self.search_rule(parsed, getattr(statement, "lemmas", {}), confirm)
         certificate: Certificate
         try:
             certificate = search_certificate(
