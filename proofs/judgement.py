@@ -12,7 +12,7 @@ from typing import TypedDict
 from juggleproof.certificates.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
-from juggleproof.certificates.votes.vote import ANSWERS, Vote
+from juggleproof.certificates.votes.vote import ANSWERS, Budget, Vote
 from juggleproof.proofs.claims import Claim, Verdict, as_body, assertions
 
 ROUTES = ("exact", "z3", "boxes")
@@ -37,7 +37,7 @@ class RecordedVote(TypedDict):
 
 
 class RecordedVotes(TypedDict):
-    """The votes on one statement, and the digest of what they were cast on."""
+    """The votes on one statement, and the digest of what was asked."""
 
     on: str
     votes: list[RecordedVote]
@@ -95,6 +95,13 @@ def digest(text: str) -> str:
     return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]
 
 
+def digest_of_question(text: str, budget: Budget) -> str:
+    """The digest of all that a vote depends on but our own sources: the text of the statement, the
+    budget, and the versions of the tools that vote.
+    """
+    return digest(f"{budget}\n{text}")
+
+
 # -------------------------------------------------------------------------------------------------
 # Resources and judgements.
 
@@ -102,7 +109,8 @@ def digest(text: str) -> str:
 @dataclass(frozen=True)
 class Resources:
     """What a claim is judged with: which routes vote, how much counted work a statement may take,
-    and the findings of an earlier run by claim.
+    and the findings of an earlier run by claim.  `votes` has the recorded votes that need not be
+    cast again, by claim and by the digest of what was asked.
 
     `lemmas` has the texts of statements that other claims state, by name; `checked` the checker's
     outcomes of the stored statements, by name, when it read the whole store at the start of this
@@ -113,6 +121,7 @@ class Resources:
     budget: int = DEFAULT_BUDGET
     store: Store | None = None
     findings: Mapping[str, Finding] = field(default_factory=dict)
+    votes: Mapping[str, Mapping[str, RecordedVotes]] = field(default_factory=dict)
     lemmas: Mapping[str, str] = field(default_factory=dict)
     checked: Mapping[str, str] = field(default_factory=dict)
 
@@ -125,6 +134,7 @@ class Resources:
             self,
             store=self.store.only(used) if self.store else None,
             findings={id: one for id, one in self.findings.items() if id == claim.id},
+            votes={id: one for id, one in self.votes.items() if id == claim.id},
             checked={
                 name: outcome
                 for name, outcome in self.checked.items()

@@ -30,6 +30,7 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.votes.casting import cast_votes
+from juggleproof.certificates.votes.vote import Budget as Asking
 from juggleproof.certificates.votes.vote import Vote, agree
 from juggleproof.certificates.votes.z3 import Model, vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -58,7 +59,15 @@ from juggleproof.proofs.forms import (
     read,
     speaks_of_range,
 )
-from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
+from juggleproof.proofs.judgement import (
+    Finding,
+    Judgement,
+    RecordedVotes,
+    Resources,
+    Sharp,
+    digest,
+    digest_of_question,
+)
 from juggleproof.proofs.orbit_rules import premises_of, read_rule, why
 from juggleproof.proofs.ranges import (
     range_of_rule,
@@ -213,6 +222,7 @@ class Judge:
     def __init__(self, claim: Claim, resources: Resources) -> None:
         self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
+        self.premises: dict[str, dict[str, checker.Statement]] = {}  # of rules that were searched
         self.is_trial = self.lacks_lemmas = False
         self.where = claim.where  # file and line of what is settled
 
@@ -329,7 +339,8 @@ class Judge:
             self.judgement.votes[name] = self.votes(name, text, outcome)
         if isinstance(statement, MapRule) and outcome == "certified":
             self.known[name] = read(text, name)
-            for premise in checker.premises_of(self.known[name], self.known).values():
+            premises = self.premises.get(name) or checker.premises_of(self.known[name], self.known)
+            for premise in premises.values():
                 self.judgement.votes[premise.name] = self.votes(
                     premise.name, premise.text(), outcome
                 )
@@ -344,9 +355,10 @@ class Judge:
         return place if place.rpartition(":")[0] == own else self.claim.where
 
     def search_rule(
-        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]]
+        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]], confirm: bool
     ) -> Certificate:
-        """A proof of each premise of a map rule, or why some have none.
+        """A proof of each premise of a map rule, or why some have none; with `confirm` the checker
+        confirms each before the search goes on.
 
         Raises ClaimError where the premises cannot be written, and for a lemma that is for none of
         them, or cannot be read.
@@ -355,6 +367,7 @@ class Judge:
         premises = premises_of(rule, self.known, stated)
         if isinstance(premises, str):
             return {"unknown": premises}
+        self.premises[rule.name] = premises
         for name in lemmas:
             if name not in premises or premises[name].get("exists"):
                 raise ClaimError(
@@ -369,7 +382,7 @@ class Judge:
 
         budget = self.resources.budget
         try:
-            found = dict(search_premises(premises, self.known, budget, lemmas, is_false))
+            found = dict(search_premises(premises, self.known, budget, lemmas, is_false, confirm))
         except checker.Rejected as reason:
             raise ClaimError(f"{rule.name}: {reason}") from None
         proofs = {name: proof for name, proof in found.items() if proof is not None}
@@ -399,30 +412,28 @@ class Judge:
         return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
-        """One vote a route; votes that an earlier run recorded on this very text, with these tools,
-        are quoted as such, unless they contradict the outcome.
+        """One vote a route: as it is on record, where the very same was asked and no vote
+        contradicts the outcome, or else cast now.
         """
-        routes = [route for route in self.resources.routes if route != "exact"]
-        earlier = self.finding.get("votes", {}).get(name)
-        if earlier and earlier["on"] == digest(text):
-            recorded = [
-                Vote(one["route"], one["answer"], one["detail"], recorded=True)
-                for one in earlier["votes"]
-                if one["route"] in routes
-            ]
-            if {vote.route for vote in recorded} == {*routes} and agree(name, outcome, recorded):
+        routes, budget = [route for route in self.resources.routes if route != "exact"], Asking()
+        on = digest_of_question(text, budget)
+        earlier = self.resources.votes.get(self.claim.id, {}).get(on)
+        if earlier:
+            quoted = _as_votes(earlier, routes)
+            if {vote.route for vote in quoted} == {*routes} and agree(name, outcome, quoted):
                 self.judgement.recorded[name] = earlier
-                return recorded
-        cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
-        if set(routes) == {"z3", "boxes"}:
-            self.judgement.recorded[name] = {
-                "on": digest(text),
-                "votes": [
-                    {"route": vote.route, "answer": vote.answer, "detail": str(vote)}
-                    for vote in cast
-                ],
-            }
-        return cast
+                return quoted
+        if not routes:
+            return ()
+        votes: RecordedVotes = {
+            "on": on,
+            "votes": [
+                {"route": vote.route, "answer": vote.answer, "detail": str(vote)}
+                for vote in cast_votes(read(text, name), outcome, routes, budget)
+            ],
+        }
+        self.judgement.recorded[name] = votes
+        return _as_votes(votes, routes)
 
     def search(
         self, statement: AnyStatement, parsed: checker.Statement, confirm: bool
@@ -435,7 +446,7 @@ class Judge:
         """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
-            return self.search_rule(parsed, getattr(statement, "lemmas", {}))
+            return self.search_rule(parsed, getattr(statement, "lemmas", {}), confirm)
         certificate: Certificate
         try:
             certificate = search_certificate(
@@ -765,6 +776,15 @@ def _stated(roles: Roles, claim: Claim) -> Roles:
     says nothing of a map's.
     """
     return roles if claim.vocabulary.domains else NO_ROLES
+
+
+def _as_votes(recorded: RecordedVotes, routes: Sequence[str]) -> tuple[Vote, ...]:
+    """The votes of these routes, as they are recorded."""
+    return tuple(
+        Vote(one["route"], one["answer"], one["detail"])
+        for one in recorded["votes"]
+        if one["route"] in routes
+    )
 
 
 def _renamed(statement: AnyStatement, name: str) -> AnyStatement:

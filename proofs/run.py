@@ -21,6 +21,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.processes import alone, own_pool, spread
 from juggleproof.certificates.store import (
+    DEFAULT,
     Store,
     canonical,
     plain_file,
@@ -44,6 +45,7 @@ from juggleproof.proofs.judgement import (
     ROUTES,
     Finding,
     Judgement,
+    RecordedVotes,
     Resources,
     is_finding,
 )
@@ -65,9 +67,10 @@ Progress = Callable[[Claim, Judgement], None]
 class Options:
     """How claims are judged: the folder of their statements and certificates, by which routes, with
     how much counted work for each statement, in how many processes (0: one a core), whether stored
-    certificates are ignored, and which claims (none: all).
+    certificates are ignored, which claims (none: all), and whether each vote is cast again.
 
-    Raises ClaimError, one line, for routes that are unknown or lack the exact one.
+    Raises ClaimError, one line, for routes that are unknown or lack the exact one, or of which not
+    all are asked again.
     """
 
     store: Path
@@ -76,6 +79,7 @@ class Options:
     jobs: int = 0
     fresh: bool = False
     only: tuple[str, ...] = ()
+    revote: bool = False
 
     def __post_init__(self) -> None:
         if "exact" not in self.routes or not set(self.routes) <= set(ROUTES):
@@ -83,6 +87,8 @@ class Options:
                 f"--routes {','.join(self.routes)}: choose from {', '.join(ROUTES)}; exact is"
                 " always among them, since only a certificate certifies"
             )
+        if self.revote and {*self.routes} != {*ROUTES}:
+            raise ClaimError("--revote: asks each route again; leave out --routes")
 
     @property
     def processes(self) -> int:
@@ -183,7 +189,8 @@ def judge_stored(
             options.budget,
             Store(Path(os.devnull) if options.fresh else options.store),
             {} if options.fresh else findings_in(options.store),
-            lemmas(by_id(claims), chosen),
+            votes={} if options.revote else votes_on_record(options.store, claims),
+            lemmas=lemmas(by_id(claims), chosen),
         )
         resources = replace(resources, checked=reading.outcomes())
         if not is_checked_after:
@@ -275,6 +282,19 @@ def findings_in(folder: Path) -> dict[str, Finding]:
         return {}
     entries = data.items() if isinstance(data, dict) else ()
     return {claim: one for claim, one in entries if is_finding(one)}
+
+
+def votes_on_record(folder: Path, claims: Sequence[Claim]) -> dict[str, dict[str, RecordedVotes]]:
+    """The recorded votes by claim and by the digest of what was asked: those of the folder and, for
+    the paper's claims, those that stand beside the committed certificates.
+    """
+    is_paper = any(claim.is_of_package for claim in claims)
+    votes: dict[str, dict[str, RecordedVotes]] = {}
+    for one in dict.fromkeys([DEFAULT, folder] if is_paper else [folder]):
+        for claim, finding in findings_in(one).items():
+            recorded = finding.get("votes", {}).values()
+            votes.setdefault(claim, {}).update((each["on"], each) for each in recorded)
+    return votes
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:

@@ -344,9 +344,11 @@ def search_premises(
     budget: int,
     lemmas: Mapping[str, Sequence[str]] | None = None,
     is_false: Callable[[str], bool] = lambda name: False,
+    confirm: bool = True,
 ) -> Iterator[tuple[str, Proof | None]]:
     """The premises of a map rule in order, each with a proof or None; each may take the whole
     budget, and one that `is_false`, which is asked after a cheap attempt, takes no more.
+    `confirm=False` leaves it to the caller to have the proofs checked, and to search again.
 
     Raises Rejected, with the name of the premise, where one cannot be read.
     """
@@ -358,7 +360,9 @@ def search_premises(
                 break
             part, own = Budget(shares[effort]), (lemmas or {}).get(name, ())
             try:
-                proof = search_proof(premise, known, part, effort=effort, lemmas=own)
+                proof = search_proof(
+                    premise, known, part, effort=effort, confirm=confirm, lemmas=own
+                )
             except Exhausted:
                 continue
             except checker.Rejected as reason:

@@ -58,8 +58,7 @@ class Vote:
     """The answer of one route about one statement: `holds` or `fails` decide it; `unknown`,
     `enclosed` and `not applicable` do not.
 
-    `model` is an exact point (name, value) at which the statement fails.  A vote that is `recorded`
-    was cast by an earlier run, and is quoted.
+    `model` is an exact point (name, value) at which the statement fails.
     """
 
     route: str
@@ -68,7 +67,6 @@ class Vote:
     work: int = 0
     model: tuple[tuple[str, str], ...] = ()
     enclosures: tuple[Enclosure, ...] = ()
-    recorded: bool = False
 
     @property
     def decided(self) -> bool:

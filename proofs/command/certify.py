@@ -41,6 +41,7 @@ class CertifyOptions(argparse.Namespace):
     routes: str
     fresh: bool
     rederive: bool
+    revote: bool
     jobs: int
     budget: int
     accept: bool
@@ -159,6 +160,7 @@ def _options(options: CertifyOptions) -> Options:
         options.jobs,
         options.fresh,
         tuple(options.only or ()),
+        options.revote,
     )
 
 

@@ -119,6 +119,12 @@ def build_parser() -> argparse.ArgumentParser:
         help="derive everything again by SymPy, and compare it with what is kept",
     )
     certify.add_argument(
+        "--revote",
+        action="store_true",
+        help="ask Z3 and the boxes again of each statement; else a vote is quoted where statement,"
+        " budget and versions are those of its record",
+    )
+    certify.add_argument(
         "--jobs",
         type=_count,
         default=0,

@@ -35,6 +35,7 @@ NOT_FOR_SCRIPTS = (
     "only",
     "rederive",
     "accept",
+    "revote",
     "junit",
     "markdown",
     "timings",

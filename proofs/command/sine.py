@@ -84,6 +84,7 @@ NOT_FOR_SINE = (
     "report",
     "output",
     "fresh",
+    "revote",
 )
 
 

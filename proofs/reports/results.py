@@ -225,11 +225,9 @@ def summary(judgements: Sequence[Judgement]) -> str:
             for words in (("holds", "fails"), ("enclosed",))
         )
         if cast:
-            quoted = sum(vote.recorded for vote in asked)
             lines.append(
-                f"{route} votes: {decided} decided of {len(asked)} asked"
+                f"{route} votes on record: {decided} decided of {len(asked)} asked"
                 + (f", {enclosed} enclosed" if enclosed else "")
-                + (f"; {quoted} recorded by an earlier run" if quoted else "")
             )
     return "\n".join(lines)
 

@@ -84,8 +84,7 @@ def theorem_line(
         f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
         f" {kinds}"
         + (
-            f";\n         {'recorded ' if any(vote.recorded for vote in cast) else ''}votes for the"
-            f" premises: {', '.join(decided)} of {count}"
+            f";\n         recorded votes for the premises: {', '.join(decided)} of {count}"
             if decided
             else ""
         )

@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,6 +17,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.certificates.votes.z3 import vote_and_model
+from juggleproof.proofs import judging
 from juggleproof.proofs.claims import place_in_file
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.conclusions import RULES, conclusion, meaning
@@ -465,6 +467,21 @@ def test_reasons_are_the_same_from_run_to_run_holds(tmp_path: Path) -> None:
         folder = path.with_suffix(".certificates")
         stored.append([(folder / name).read_bytes() for name in (STATEMENTS, CERTIFICATES)])
     assert stored[0] == stored[1] and b"false at a = " in stored[0][1]
+
+
+def test_a_rule_whose_proofs_the_checker_rejects_is_searched_again_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, search = list[bool](), judging.search_premises
+
+    def first_in_vain(*rest: Any) -> Any:
+        asked.append(rest[-1])
+        for name, proof in search(*rest):
+            yield name, proof if rest[-1] else ("proof", [], ("close",))
+
+    monkeypatch.setattr(judging, "search_premises", first_in_vain)
+    assert certify(file_of(tmp_path)) == 0
+    assert asked == [False, True, False, True]  # the map, and what is claimed of it
 
 
 def test_a_stored_rule_is_open_where_its_map_is_open_now_holds(

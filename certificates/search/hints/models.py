@@ -117,38 +117,42 @@ STARTS, STEPS = 12, 40
 MARGINS = (0.2, 0.02, 0.001, 0.0)  # by how much inequalities are to be met, ever less
 
 
-class Residual:
-    """What a polynomial misses of its relation, with the gradient."""
+class Residuals:
+    """What polynomials miss of their relations, with the gradients; all of them at once.
 
-    def __init__(self, poly: fmpq_mpoly, relation: str, variables: Sequence[int]) -> None:
-        self.relation = relation
-        self.powers = np.array(
-            [[m[v] for v in variables] for m in poly.monoms()], dtype=np.int64
-        ).reshape(-1, len(variables))
-        values = [float(int(c.p) / int(c.q)) for c in poly.coeffs()]
-        self.values = np.array(values) / max(map(abs, values), default=1.0)
+    Shapes, for M monomials of R polynomials in n variables: `powers` (M, n), `values` (M,) and
+    `starts` (R,), the place of each polynomial's first monomial.
+    """
 
-    def at(self, point: Array, margin: float) -> tuple[float, Array]:
-        """The residual at a point (n,), and its gradient (n,)."""
-        table = point[None, :] ** self.powers
-        whole = table.prod(axis=1) @ self.values
-        gradient = np.array(
-            [
-                (
-                    self.values
-                    * self.powers[:, v]
-                    * point[v] ** np.maximum(self.powers[:, v] - 1, 0)
-                    * np.delete(table, v, axis=1).prod(axis=1)
-                ).sum()
-                for v in range(len(point))
-            ]
-        )
-        if self.relation == "=":
-            return float(whole), gradient
-        if self.relation == "!=":
-            return 0.0, np.zeros(len(point))
-        short = margin - float(whole)
-        return (short, -gradient) if short > 0 else (0.0, np.zeros(len(point)))
+    def __init__(self, facts: Sequence[tuple[fmpq_mpoly, str]], variables: Sequence[int]) -> None:
+        powers, values, starts = list[list[int]](), list[float](), list[int]()
+        for poly, _ in facts:
+            starts.append(len(values))
+            own = [float(int(c.p) / int(c.q)) for c in poly.coeffs()]
+            most = max(map(abs, own), default=1.0)
+            powers += [[m[v] for v in variables] for m in poly.monoms()] or [[0] * len(variables)]
+            values += [c / most for c in own] or [0.0]
+        self.powers = np.array(powers, dtype=np.int64).reshape(-1, len(variables))
+        self.below = np.maximum(self.powers - 1, 0)
+        self.values, self.starts = np.array(values), np.array(starts, dtype=np.int64)
+        self.ladder = np.arange(self.powers.max(initial=0) + 1)[:, None]
+        self.equal = np.array([relation == "=" for _, relation in facts], dtype=bool)
+        self.bound = np.array([relation in (">", ">=") for _, relation in facts], dtype=bool)
+
+    def at(self, point: Array, margin: float) -> tuple[Array, Array]:
+        """The residuals (R,) at a point (n,), and their gradients (R, n)."""
+        along, powers = np.arange(len(point)), point**self.ladder
+        table = powers[self.powers, along]
+        before, after = np.ones_like(table), np.ones_like(table)
+        np.cumprod(table[:, :-1], axis=1, out=before[:, 1:])
+        np.cumprod(table[:, :0:-1], axis=1, out=after[:, -2::-1])
+        slopes = self.values[:, None] * self.powers * powers[self.below, along] * before * after
+        whole = np.add.reduceat(self.values * table.prod(axis=1), self.starts)
+        gradients = np.add.reduceat(slopes, self.starts, axis=0)
+        short = self.bound & (margin - whole > 0)
+        sign = np.where(self.equal, 1.0, np.where(short, -1.0, 0.0))
+        missed = np.where(self.equal, whole, np.where(short, margin - whole, 0.0))
+        return missed, np.where(sign[:, None] == 0, 0.0, sign[:, None] * gradients)
 
 
 def approximate_points(
@@ -162,7 +166,7 @@ def approximate_points(
     random = np.random.default_rng(11)
     for _ in range(STARTS if variables else 0):
         atoms = list(_alternative(condition.tree, random))
-        residuals = [Residual(condition.polys[k], relation, at) for k, relation in atoms]
+        residuals = Residuals([(condition.polys[k], relation) for k, relation in atoms], at)
         start = random.normal(0.0, 1.5, len(variables))
         for margin in MARGINS:
             point = _descended(residuals, start, margin, budget)
@@ -186,15 +190,13 @@ def _alternative(tree: Tree, random: np.random.Generator) -> Iterator[tuple[int,
         yield from _alternative(tree[1][int(random.integers(len(tree[1])))], random)
 
 
-def _descended(
-    residuals: Sequence[Residual], point: Array, margin: float, budget: Budget
-) -> Array | None:
+def _descended(residuals: Residuals, point: Array, margin: float, budget: Budget) -> Array | None:
     """The point to which the steps lead, if all residuals vanish there."""
     damping = 1e-2
     with np.errstate(all="ignore"):
-        value, jacobian = _all(residuals, point, margin)
+        value, jacobian = residuals.at(point, margin)
         for _ in range(STEPS):
-            budget.spend(10 + 6 * len(residuals) * (1 + len(point) // 3))
+            budget.spend(10 + 6 * len(residuals.starts) * (1 + len(point) // 3))
             size = float(value @ value)
             if not np.isfinite(size):
                 return None
@@ -203,7 +205,7 @@ def _descended(
             step = np.linalg.solve(
                 jacobian.T @ jacobian + damping * np.eye(len(point)), -jacobian.T @ value
             )
-            there, slope = _all(residuals, point + step, margin)
+            there, slope = residuals.at(point + step, margin)
             if float(there @ there) < size:
                 point, value, jacobian, damping = (
                     point + step,
@@ -216,10 +218,3 @@ def _descended(
             if damping > 1e8:
                 return None
     return None
-
-
-def _all(residuals: Sequence[Residual], point: Array, margin: float) -> tuple[Array, Array]:
-    pairs = [residual.at(point, margin) for residual in residuals]
-    return np.array([value for value, _ in pairs]), np.array(
-        [gradient for _, gradient in pairs]
-    ).reshape(len(pairs), len(point))

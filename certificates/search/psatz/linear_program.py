@@ -214,30 +214,35 @@ def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
         rules.append((leading.tolist(), sign * int(values[0]), list(tail)))
     done: dict[int, tuple[int, Form]] = {}
 
-    def normal(key: int, exponents: list[int], depth: int) -> tuple[int, Form]:
-        """A positive number, and the monomial times it."""
-        if depth > DEEPEST:
-            raise RecursionError
-        if key not in done:
-            done[key] = 1, {key: 1}
-            for leading, lead, tail in rules:
-                if all(map(ge, exponents, leading)):
-                    parts = [
-                        (*normal(key + move, list(map(add, exponents, moves)), depth + 1), c)
-                        for move, moves, c in tail
-                    ]
-                    scale = lcm(*(own for own, _, _ in parts))
-                    size = sum(len(form) for _, form, _ in parts)
-                    budget.spend(size * (1 + scale.bit_length() // 64) // 8)
-                    total: Form = {}
-                    for own, form, c in parts:
-                        for k, value in form.items():
-                            total[k] = total.get(k, 0) + scale // own * c * value
-                    done[key] = lead * scale, total
-                    break
-        return done[key]
+    def reduce(key: int, exponents: list[int], depth: int) -> None:
+        """Puts a positive number, and the monomial times it, into `done`."""
+        done[key] = 1, {key: 1}
+        for leading, lead, tail in rules:
+            if all(map(ge, exponents, leading)):
+                if tail and depth == DEEPEST:
+                    raise RecursionError
+                parts = []
+                for move, moves, c in tail:
+                    other = key + move
+                    if other not in done:
+                        reduce(other, list(map(add, exponents, moves)), depth + 1)
+                    parts.append((*done[other], c))
+                scale = lcm(*(own for own, _, _ in parts))
+                size = sum(len(form) for _, form, _ in parts)
+                budget.spend(size * (1 + scale.bit_length() // 64) // 8)
+                total: Form = {}
+                for own, form, c in parts:
+                    multiple = scale // own * c
+                    for k, value in form.items():
+                        total[k] = total.get(k, 0) + multiple * value
+                done[key] = lead * scale, total
+                break
 
-    found = [normal(*one, 0) for one in zip(keys.tolist(), program.exponents(keys).tolist())]
+    own_keys = keys.tolist()
+    for key, exponents in zip(own_keys, program.exponents(keys).tolist()):
+        if key not in done:
+            reduce(key, exponents, 0)
+    found = [done[key] for key in own_keys]
     common = lcm(*(scale for scale, _ in found))
     return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 

@@ -1,8 +1,11 @@
 """Points, counterexamples and witnesses."""
 
+import numpy as np
 import pytest
+from flint import Ordering, fmpq_mpoly_ctx
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.search.hints.models import Residuals
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from tests.certificates.search.cases import UNIT, budget, read, search_points
@@ -361,3 +364,31 @@ def test_a_witness_near_a_boundary(case):
     statement = read(NEAR_A_BOUNDARY[case])
     unknown = {name for line in statement.get("exists") for name in line}
     assert [set(terms) for terms in leaves(witness(statement))] == [unknown]
+
+
+# -------------------------------------------------------------------------------------------------
+# Points in floats, which guide the search.
+
+
+def test_residuals_and_gradients_are_those_of_each_polynomial_holds():
+    """Of each fact, divided by its largest coefficient: all numbers here are exact in floats, but
+    for the thirds.
+    """
+    ring = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex)
+    x, y, _ = ring.gens()
+    facts = [
+        (x**2 * y - 3, "="),
+        (1 - x, ">"),  # met with room to spare
+        (y - 2, ">="),
+        (x * y + 1, "!="),  # no point misses it but by chance
+        (x * 0, "="),
+    ]
+    missed, gradients = Residuals(facts, [0, 1]).at(np.array([0.5, -1.5]), 0.25)
+    assert missed.tolist() == [-1.125, 0, 2, 0, 0]
+    expected = [[-1 / 2, 1 / 12], [0, 0], [0, -1 / 2], [0, 0], [0, 0]]
+    assert np.allclose(gradients, expected, rtol=1e-15, atol=0)
+
+
+def test_residuals_of_no_fact_vanish_holds():
+    missed, gradients = Residuals([], [0, 2]).at(np.array([0.5, 2.0]), 0.25)
+    assert missed.shape == (0,) and gradients.shape == (0, 2)
