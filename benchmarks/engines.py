@@ -25,7 +25,6 @@ from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.benchmarks.part import THIRD_ROW
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.scenes.part import body, fresh_notes, scene, standing
-from juggleproof.scenes.part.body import plain
 from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.onsets import jittered
 from juggleproof.scenes.part.setting import Array, Scene
@@ -92,11 +91,11 @@ def by_law(one: Impact) -> Array:
     e, mu, *before = map(Fraction, (one.block.e, one.block.mu, *one.start[3:].tolist()))
     k2 = (Fraction(one.block.a) ** 2 + Fraction(one.block.b) ** 2) / 3
     B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
-    sigma = plain(first_slide)(S0, B1, B3, mu)  # type: ignore[arg-type]  # exact numbers too
-    mode = plain(mode_of)(S0, C0, B1, B2, B3, e, mu, sigma)  # type: ignore[arg-type]
+    sigma = first_slide(S0, B1, B3, mu)  # type: ignore[arg-type]  # exact numbers too
+    mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)  # type: ignore[arg-type]
     if mode == JAMMING:
         raise ArithmeticError(f"a corner jams at mu = {one.block.mu}")
-    P_x, P_y = plain(impulse)(mode, S0, C0, B1, B2, B3, e, mu, sigma)  # type: ignore[arg-type]
+    P_x, P_y = impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)  # type: ignore[arg-type]
     changes = (P_x, P_y, (x * P_y - y * P_x) / k2)
     return np.array([float(v + change) for v, change in zip(before, changes)])
 

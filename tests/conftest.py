@@ -16,11 +16,16 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+# Nothing that commands keep is used but machine code, which depends on its sources alone.
+CHOSEN = os.environ.get("JUGGLEPROOF_CACHE", "")
 os.environ["JUGGLEPROOF_CACHE"] = "off"
 # as the commands have it, before a test loads NumPy: threads that wait for small matrices cost more
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+if CHOSEN == "off":
+    CHOSEN = str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "machine-code")
 os.environ.setdefault(
-    "NUMBA_CACHE_DIR", str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "machine-code")
+    "NUMBA_CACHE_DIR",
+    CHOSEN or f"{os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'}/juggleproof",
 )
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False

@@ -2,7 +2,8 @@
 `python -m juggleproof.benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
 Writes what was measured, pickled, in CPU seconds.  `cold` is the first answer, with everything that
-the method has to load; `warm` the least of what follows, if time is left.
+the method has to load, but for what is kept from run to run; `warm` the least of what follows, if
+time is left.
 """
 
 from __future__ import annotations
@@ -38,6 +39,7 @@ def measured() -> Measured:
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE | BLOCKS)[name]
     signal.signal(signal.SIGTERM, _over)
     signal.signal(signal.SIGXCPU, _over)
+    method.prepare()
     most = int(cpu_seconds() + 2 * seconds + GRACE) + 1  # then it is killed, whatever it does
     resource.setrlimit(resource.RLIMIT_CPU, (most, most))
     allow(seconds)

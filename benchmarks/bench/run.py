@@ -176,11 +176,14 @@ class Run:
     """A run: prints as it goes, counts what is wrong."""
 
     def __init__(self, wanted: Wish, folder: Path, report: Report) -> None:
-        self.wanted, self.folder, self.report, self.wrong = wanted, folder, report, 0
+        self.wanted, self.folder, self.report = wanted, folder, report
+        self.wrong, self.answered = 0, False
         self.judged: list[table.Judged] = []
 
     def all(self) -> int:
-        """Every question; 1 where an enclosure does not hold the truth, else 0."""
+        """Every question; 1 where an enclosure does not hold the truth, no method that is present
+        answers a question, or nothing is answered at all; else 0.
+        """
         print(head(self.wanted))
         for name in self.wanted.names:
             print(f"\n== {name}")
@@ -197,7 +200,7 @@ class Run:
             )
         if not can_plot():
             print(ABSENT)
-        return 1 if self.wrong else 0
+        return 1 if self.wrong or not self.answered else 0
 
     def energy(self, name: str) -> None:
         """One of the questions about energy."""
@@ -307,11 +310,19 @@ class Run:
         results: table.Results,
         truth: Fraction,
     ) -> None:
-        """Prints the table and what is wrong, and writes the plot."""
+        """Prints the table and what is wrong, and writes the plot; none where nothing was
+        measured.
+        """
         self.report("")
         print(table.measured(present, sizes, results, truth))
         for line in table.faults(present, results):
             print(line)
+        measurements = [one for by_size in results.values() for one in by_size.values()]
+        if all(one.answer is None for one in measurements):
+            print("nothing was measured")
+            self.wrong += bool(present)
+            return
+        self.answered = True
         wrong = table.wrong(present, results, truth)
         self.wrong += len(wrong)
         print("\n".join(wrong) or "every enclosure holds the truth")

@@ -35,8 +35,8 @@ def bench(
     quick: bool,
     output: Path | None,
 ) -> int:
-    """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
-    one line, for what cannot be measured.
+    """Runs the benchmark; 1 where an enclosure does not hold the closed form, or nothing was
+    measured.  Raises ClaimError, one line, for what cannot be measured.
     """
     from juggleproof.benchmarks.bench.run import Run, wish
 

@@ -137,7 +137,7 @@ def table(setting: Scene, count: int) -> dict[str, object]:
     """
     drive = setting.drive
     if isinstance(drive, Record):
-        p, times = setting.parameters(), [k / RATE for k in range(count)]
+        p, times = setting.parameters().tolist(), [k / RATE for k in range(count)]
         return {
             "recorded": True,
             "x": [round(body.table_place(p, t), 7) for t in times],

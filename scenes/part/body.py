@@ -5,22 +5,36 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from math import cos, floor, pi, sin
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 # -------------------------------------------------------------------------------------------------
 # The compiler: numba where it is installed, and the same functions in plain Python where it is not.
+#
+# By itself numba optimizes every function, and makes machine code of it, and does so again with all
+# that it calls for each of its callers: that was most of what compiling took.  Here one kernel is
+# compiled.  All that it calls are its parts: numba translates them one by one, and optimizes them
+# and makes machine code of them once, with the kernel.
 
 try:
     import numba
 except ImportError:  # the optional extra `part`
     numba = None
+if numba is not None:
+    from numba import types
+    from numba.core.codegen import JITCodeLibrary
+    from numba.core.compiler import Compiler
+    from numba.core.typing.templates import builtin_registry
+    from numba.extending import models, register_model
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 COMPILED = numba is not None
 KERNELS = ("body", "flight", "strike", "rest", "motion")  # the files that are compiled
+# Sums keep their order and nothing is contracted, so that results are the same wherever sin and cos
+# are.  No array is made: references to arrays are not counted, which saves a tenth.
+OPTIONS = {"error_model": "numpy", "_nrt": False}
 
 
 def kernel_digest() -> str:
@@ -56,45 +70,95 @@ def _folder() -> Path | None:
 FOLDER = _folder() if COMPILED else None
 
 
-def compiled(function: Kernel) -> Kernel:
-    """The function compiled for floats, without the interpreter's lock; as it is where numba is
-    absent.
-
-    Sums keep their order and nothing is contracted, so that results are the same wherever sin and
-    cos are.  It can make no array: references to arrays are not counted, which saves a tenth.
+def kernel(function: Kernel) -> Kernel:
+    """The function compiled for floats when it is first called, without the interpreter's lock, and
+    kept on disk; as it is where numba is absent.
     """
-    return _made(function, _nrt=False)
-
-
-def inlined(function: Kernel) -> Kernel:
-    """The same, as a part of each kernel that calls it, which saves another tenth where many events
-    pass through it.
-    """
-    return _made(function, _nrt=False, forceinline=True)
-
-
-def making_arrays(function: Kernel) -> Kernel:
-    """The same for a kernel that makes arrays."""
-    return _made(function)
-
-
-def _made(function: Kernel, **options: bool) -> Kernel:
     if numba is None:
         return function
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(FOLDER or "")
     try:
-        made: Kernel = numba.njit(
-            cache=FOLDER is not None, nogil=True, error_model="numpy", **options
-        )(function)
+        made: Kernel = numba.njit(cache=FOLDER is not None, nogil=True, **OPTIONS)(function)
     finally:
         numba.config.CACHE_DIR = before
     return made
 
 
-def plain(function: Kernel) -> Kernel:
-    """The function in plain Python: it takes exact numbers too."""
-    return getattr(function, "py_func", function)
+def compiled(function: Kernel) -> Kernel:
+    """The function as a part of the kernel; called from Python it is plain Python, and takes exact
+    numbers too.
+    """
+    return _part(function)
+
+
+def inlined(function: Kernel) -> Kernel:
+    """The same, put in wherever it is called, which saves another tenth where many events pass
+    through it.
+    """
+    return _part(function, forceinline=True)
+
+
+def _part(function: Kernel, **options: bool) -> Kernel:
+    if numba is not None:
+        wrappers = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        part = numba.njit(pipeline_class=_PartCompiler, **wrappers, **OPTIONS, **options)(function)
+        builtin_registry.register_global(function, _Part(part))
+    return function
+
+
+if numba is not None:
+
+    class _Part(types.Dispatcher):  # type: ignore[misc]
+        """What the compiler takes a part for: a function that is compiled once for each set of
+        types, whatever constants it is called with.
+        """
+
+        def __init__(self, part: object) -> None:
+            self.part = part  # the base class lets go of it
+            super().__init__(part)
+
+        def get_call_type(self, context: object, args: Iterable[object], kws: object) -> object:
+            return super().get_call_type(context, tuple(map(types.unliteral, args)), kws)
+
+    register_model(_Part)(models.OpaqueModel)
+
+    class _PartLibrary(JITCodeLibrary):  # type: ignore[misc]
+        """The code of a part as it was translated, which the kernel takes in with that of all parts
+        that it calls.  It never runs by itself: what numba does to make it run is left out.
+        """
+
+        def finalize(self) -> None:
+            self._finalized = True
+
+        def _get_module_for_linking(self) -> object:
+            whole = self._final_module.clone()
+            for one in self._all_called({self}):
+                whole.link_in(one._final_module, preserve=True)
+            for function in whole.functions:
+                if not function.is_declaration:
+                    function.linkage = "linkonce_odr"  # the kernel may have it from others too
+            return whole
+
+        def _all_called(self, seen: set[object]) -> Iterator[Any]:
+            for one in self._linking_libraries:
+                if one not in seen:
+                    seen.add(one)
+                    yield one
+                    if isinstance(one, _PartLibrary):
+                        yield from one._all_called(seen)
+
+        @property
+        def codegen(self) -> _PartLibrary:
+            return self
+
+        def set_env(self, name: str, environment: object) -> None:
+            pass
+
+    class _PartCompiler(Compiler):  # type: ignore[misc]
+        def __init__(self, typingctx: object, targetctx: Any, library: object, *more: object):
+            library = _PartLibrary(targetctx.codegen(), "part")
+            super().__init__(typingctx, targetctx, library, *more)
 
 
 # -------------------------------------------------------------------------------------------------

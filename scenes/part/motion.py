@@ -11,17 +11,20 @@ from juggleproof.scenes.part.body import (
     MODE,
     NOTES,
     PIVOT,
+    STATE,
     STEPS,
     THETA,
     TIME,
     TOO_MANY_EVENTS,
     Floats,
     compiled,
-    making_arrays,
+    kernel,
 )
 from juggleproof.scenes.part.flight import land
 from juggleproof.scenes.part.rest import lie, note_turn, pivot
 from juggleproof.scenes.part.strike import strike_all
+
+Rows = NDArray[np.float64]
 
 # -------------------------------------------------------------------------------------------------
 # Orbits.
@@ -68,19 +71,6 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     return DONE
 
 
-@making_arrays
-def follow_all(
-    p: Floats, states: NDArray[np.float64], until: float, notes: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Moves n blocks on, a row of `states` (n, 10) and of `notes` (n, 16) each; how each run
-    ended, shape (n,).
-    """
-    codes = np.zeros(len(states))
-    for k in range(len(states)):
-        codes[k] = follow(p, states[k], until, notes[k])
-    return codes
-
-
 # -------------------------------------------------------------------------------------------------
 # Places at given times.
 #
@@ -88,28 +78,41 @@ def follow_all(
 # soon makes another orbit of that.
 
 
-@making_arrays
+@compiled
+def copied(z: Floats, other: Floats) -> None:
+    """Makes the other state the same as z."""
+    for k in range(STATE):
+        other[k] = z[k]
+
+
+@compiled
 def sample(
-    p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, samples: NDArray[np.float64]
+    p: Floats,
+    z: Floats,
+    times: Floats,
+    notes: Floats,
+    samples: Rows,
+    earlier: Floats,
+    spare: Floats,
 ) -> int:
     """One block at times that do not fall, a row of `samples` each, while it is moved on, event by
-    event, to the last; DONE, or why it gave up.
+    event, to the last; DONE, or why it gave up.  `earlier`, a state, and `spare` notes are room to
+    work in.
 
     Between two events the block is where a copy comes to that sets out from the earlier one; the
     block itself does not stop.
     """
-    earlier, scratch = z.copy(), np.zeros(NOTES)
     last, k = len(samples) - 1, 0
     begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
     while k <= last:
-        earlier[:] = z
+        copied(z, earlier)
         if z[TIME] < times[last]:
             code = next_event(p, z, times[last], notes)
             if code != DONE:
                 return code
         while k <= last and times[k] <= z[TIME]:
-            samples[k] = earlier
-            code = follow(p, samples[k], times[k], scratch)
+            copied(earlier, samples[k])
+            code = follow(p, samples[k], times[k], spare)
             if code != DONE:
                 return code
             k += 1
@@ -121,18 +124,39 @@ def sample(
     return DONE
 
 
-@making_arrays
-def sample_all(
-    p: Floats,
-    states: NDArray[np.float64],
-    times: Floats,
-    notes: NDArray[np.float64],
-    samples: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """The same for many blocks, one after another; `samples` has the shape (blocks, times, 10); how
-    each run ended.
+# -------------------------------------------------------------------------------------------------
+# Many blocks, one after another.  This is the one kernel: all else is a part of it, so that nothing
+# is compiled twice.
+
+
+@kernel
+def move_all(
+    p: Floats, states: Rows, times: Floats, notes: Rows, samples: Rows, room: Rows, codes: Rows
+) -> None:
+    """Moves n blocks on to the last of `times`, a row of `states` (n, 10) and of `notes` (n, 16)
+    each; `samples` (n, len(times), 10) is where they are at each of these, or has the shape
+    (n, 0, 10), and `room` (2, 16) is to work in.  `codes` (n,) tells how each run ended.
+    """
+    for k in range(len(states)):
+        if samples.shape[1] == 0:
+            codes[k] = follow(p, states[k], times[-1], notes[k])
+        else:
+            codes[k] = sample(p, states[k], times, notes[k], samples[k], room[0], room[1])
+
+
+def follow_all(p: Floats, states: Rows, until: float, notes: Rows) -> Rows:
+    """Moves n blocks on to a time, a row of `states` (n, 10) and of `notes` (n, 16) each; how each
+    run ended, shape (n,).
+    """
+    return sample_all(
+        p, states, np.array([until], dtype=float), notes, np.empty((len(states), 0, STATE))
+    )
+
+
+def sample_all(p: Floats, states: Rows, times: Floats, notes: Rows, samples: Rows) -> Rows:
+    """The same to the last of the times, which do not fall; `samples`, of shape (n, len(times),
+    10), is filled with where the blocks are at each of these.
     """
     codes = np.zeros(len(states))
-    for k in range(len(states)):
-        codes[k] = sample(p, states[k], times, notes[k], samples[k])
+    move_all(p, states, times, notes, samples, np.zeros((2, NOTES)), codes)
     return codes

@@ -43,7 +43,7 @@ def resting_faces(
     MOVING for a part that does not lie after 64 s.
     """
     still = replace(setting, A_x=0.0, A_y=0.0, drive=None)
-    p = setting.parameters()
+    p = setting.parameters().tolist()
     after = states.copy()
     after[:, body.MODE :] = 0.0  # in flight: what lies is as fast as the table was
     for k, t in enumerate(states[:, body.TIME].tolist()):

@@ -10,13 +10,14 @@ import sys
 import time
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import sympy
 
 from juggleproof import symbolic
+from juggleproof.benchmarks.bench import child, run, table
 from juggleproof.benchmarks.bench import methods as methods_ours
-from juggleproof.benchmarks.bench import run, table
 from juggleproof.benchmarks.bench.answers import (
     Answer,
     GaveUp,
@@ -280,6 +281,44 @@ def test_a_method_that_gives_up_is_ended_and_shown() -> None:
     assert table.faults([METHODS["sampling"]], own)[0].startswith(
         "float sampling at 1e-12: gave up"
     )
+
+
+@pytest.mark.parametrize("present", [True, False])
+def test_rejects_a_run_that_measures_nothing(
+    present: bool,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    method = dataclasses.replace(methods_ours.BLOCKS["blocks"], present=lambda: present)
+    monkeypatch.setattr(run, "BLOCKS", {"blocks": method})
+    monkeypatch.setattr(
+        run, "measure", lambda method, work, size, _: Measured(method.name, size, reason="gave up")
+    )
+    wish = run.Wish(("part",), (), 1.0, False)
+    assert run.Run(wish, tmp_path, lambda what: None).all() == 1
+    assert "nothing was measured" in capsys.readouterr().out
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_kept_is_made_before_anything_is_measured_holds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    done = list[str]()
+    method = dataclasses.replace(
+        METHODS["sampling"],
+        prepare=lambda: done.append("prepared"),
+        solve=lambda work, size: done.append("solved"),
+    )
+    monkeypatch.setattr(child, "METHODS", {"sampling": method})
+    monkeypatch.setattr(child, "allow", lambda seconds: None)
+    monkeypatch.setattr(child.signal, "signal", lambda *given: None)
+    monkeypatch.setattr(child.resource, "setrlimit", lambda *given: None)
+    monkeypatch.setattr(child.pickle, "load", lambda file: None)
+    monkeypatch.setattr(sys, "argv", ["child", "sampling", "1/10", "0.01"])
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=None))
+    assert child.measured().cold is not None
+    assert done[0] == "prepared" and set(done[1:]) == {"solved"}
 
 
 def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:

@@ -16,7 +16,7 @@ from mpmath import matrix, mpf
 
 from juggleproof.scenes.part import body, moving, run, scene, standing
 from juggleproof.scenes.part.ensemble import fresh_notes
-from juggleproof.scenes.part.motion import follow
+from juggleproof.scenes.part.motion import follow, follow_all
 from juggleproof.scenes.part.rest import lie, lift_off, pivot, slip_time, stop_time
 from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import lie_down
@@ -294,8 +294,8 @@ def test_face_that_friction_cannot_hold_does_not_stick_holds() -> None:
 
 def test_face_that_rests_for_long_does_not_run_out_of_steps_holds() -> None:
     block = scene(e=0.5, mu=0.3, A_x=2e-6, f_x=60.0, A_y=6e-5, tolerance=1e-9)
-    p, z, notes = block.parameters(), lying(block, turns=1), fresh_notes(1)[0]
-    assert follow(p, z, 3000.0, notes) == body.DONE
+    z, notes = lying(block, turns=1), fresh_notes(1)[0]
+    assert follow_all(block.parameters(), z[None], 3000.0, notes[None])[0] == body.DONE
     assert (
         z[body.MODE] == body.FACE
         and abs(z[body.X] - 2e-6 * math.sin(120 * math.pi * 3000)) < 1e-9

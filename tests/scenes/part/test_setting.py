@@ -26,7 +26,9 @@ from juggleproof.scenes.part import (
     standing,
     table_one,
 )
+from juggleproof.scenes.part.drive import harmonics
 from juggleproof.scenes.part.ensemble import Job, advanced
+from juggleproof.scenes.part.setting import Array
 
 ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
@@ -183,7 +185,7 @@ def test_machine_code_is_kept_anew_where_a_compiled_file_changes_holds() -> None
     assert set(body.KERNELS) == {
         path.stem
         for path in folder.glob("*.py")
-        if re.search(r"^@(body\.)?compiled", path.read_text(encoding="utf-8"), re.MULTILINE)
+        if re.search(r"(?m)^@(compiled|inlined|kernel)$", path.read_text(encoding="utf-8"))
     }
     assert (body.FOLDER is not None) is body.COMPILED
 
@@ -216,3 +218,16 @@ def test_names_of_the_door_mean_the_same_whatever_is_imported_first_holds(first:
     }
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         getattr(__import__("juggleproof.scenes.part", fromlist=["part"]), "nothing")  # noqa: B009
+
+
+def test_parts_of_a_kernel_are_what_they_are_in_plain_python_and_translated_once_holds() -> None:
+    numba = pytest.importorskip("numba")
+    p = scene(e=0.5, mu=0.3, drive=harmonics([(1e-3, 20, 0.5)], [(2e-4, 60, 0.1)])).parameters()
+
+    def several(p: Array, t: float) -> tuple[float, float, float]:
+        return body.table_lift(p, t), body.shaken(p, t, 0, 1), body.shaken(p, t, 1, 0)
+
+    made = numba.njit(several, error_model="numpy", _nrt=False)
+    assert all(made(p, t) == several(p, t) for t in (0.0, 0.3, 1.7))
+    parts = dict(body.builtin_registry.globals)
+    assert [len(parts[one].part.overloads) for one in (body.table_lift, body.shaken)] == [1, 1]

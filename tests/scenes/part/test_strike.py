@@ -25,19 +25,13 @@ from juggleproof.scenes.part import (
     table_one,
 )
 from juggleproof.scenes.part import strike as striking
-from juggleproof.scenes.part.body import plain
 from juggleproof.scenes.part.setting import Array
-from juggleproof.scenes.part.strike import impulse
+from juggleproof.scenes.part.strike import first_slide, impulse, mode_of
 
 # -------------------------------------------------------------------------------------------------
 # The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
 # slide at first, and where friction jams it.
 
-mode_of, first_slide, plain_impulse = (
-    plain(strike.mode_of),
-    plain(strike.first_slide),
-    plain(strike.impulse),
-)
 MODES = {
     strike.SLIDING: "sliding",
     strike.STICKING_IN_COMPRESSION: "sticking-in-compression",
@@ -101,7 +95,7 @@ def test_impulse_is_the_derived_one_holds() -> None:
         if mode == strike.JAMMING:
             continue
         seen[MODES[mode] + (" from no sliding" if S0 == 0 else "")] += 1
-        assert list(plain_impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
+        assert list(impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
             "contact_impulse", MODES[mode]
         )(S0, C0, B1, B2, B3, e, mu, sigma)
     assert sum(seen.values()) >= 500 and all(seen[name] >= 20 for name in MODES.values()), seen
@@ -161,7 +155,7 @@ def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds()
             given = (Fraction(0), Fraction(-1), Fraction(2), Fraction(2), B3, Fraction(1, 2), mu)
             sigma = first_slide(*(given[k] for k in (0, 2, 4, 6)))
             mode = mode_of(*given, sigma)
-            P_x, P_y = plain_impulse(mode, *given, sigma)
+            P_x, P_y = impulse(mode, *given, sigma)
             S = given[2] * P_x - B3 * P_y
             assert S == 0 if sticks is not False else S * B3 < 0, (B3, mu, S)
 
@@ -175,7 +169,7 @@ def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
         assert modes[0] == modes[1]
         if modes[0] != strike.JAMMING:
             (x, y), (left, up) = (
-                plain_impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
+                impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
             )
             assert (x, y) == (-left, up)
 
@@ -217,12 +211,8 @@ def struck(law: Law, monkeypatch: pytest.MonkeyPatch) -> Array:
     z, notes = moving(block, 0, 0.1, 0.3, 0.5, -0.5, 3.0)[0], fresh_notes(1)[0]
     p, c, s = block.parameters(), np.cos(0.3), np.sin(0.3)
     monkeypatch.setattr(striking, "impulse", law)
-    assert (
-        plain(striking.strike_at)(
-            p, z, body.corner_x(p, 0, c, s), body.corner_y(p, 0, c, s), 0.0, 0.0, notes
-        )
-        == body.DONE
-    )
+    x, y = body.corner_x(p, 0, c, s), body.corner_y(p, 0, c, s)
+    assert striking.strike_at(p, z, x, y, 0.0, 0.0, notes) == body.DONE
     return notes
 
 
@@ -240,7 +230,7 @@ def struck(law: Law, monkeypatch: pytest.MonkeyPatch) -> Array:
 def test_wrong_impulse_is_counted_holds(
     wrong: Law, counted: set[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    notes = struck(lambda *given: wrong(*plain(impulse)(*given)), monkeypatch)
+    notes = struck(lambda *given: wrong(*impulse(*given)), monkeypatch)
     assert {
         k for k in (body.PULLS, body.CONES, body.GAINS, body.CLOSINGS) if notes[k]
     } == counted and notes[body.IMPACTS] == 1
