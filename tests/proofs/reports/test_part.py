@@ -160,6 +160,7 @@ def test_rejects_records_that_are_no_results(
     assert kept_results() is None
 
 
+@pytest.mark.exhaust
 def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A run as short as can be: it is shown and kept where it is the report's, which a longer one
     would be, and not where something was chosen.
