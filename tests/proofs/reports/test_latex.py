@@ -45,6 +45,7 @@ def test_every_formula_of_every_statement_reads_back_holds() -> None:
     assert differences(pairs) == []
 
 
+@pytest.mark.exhaust
 def test_every_derivation_reads_back_holds() -> None:
     entries = dict.fromkeys(
         entry for one in contents().derivations for row in one.shown for entry in row
