@@ -57,6 +57,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: order.get(scope_of(item.nodeid), len(order)))
 
 
+def pytest_collection_finish() -> None:
+    """What collecting has loaded stays, and is searched for garbage no more."""
+    gc.freeze()
+
+
 def pytest_sessionfinish() -> None:
     """One search for garbage at the end; pytest's own, five times over in all that is loaded, would
     take 10 s.
