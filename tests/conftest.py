@@ -37,20 +37,34 @@ settings.load_profile("suite")
 pytest_plugins = ["pytester"]
 
 
-# The folders that take longest come first, so that no process is left with one of them at the end.
-LONGEST = ("tests/proofs/coq", "tests/proofs/reports", "tests/proofs/stability", "tests/benchmarks")
-TOGETHER = {"tests/proofs": "tests/proofs/reports"}  # one process, which judges the paper once
+# What takes longest comes first, so that no process is left with it at the end.
+LONGEST = (
+    "tests/proofs/reports",
+    "tests/proofs/coq",
+    "tests/certificates/reader/test_reader.py",
+    "tests/scenes/part",
+    "tests/docs/test_commands.py",
+)
+# Folders whose tests judge the paper, begin Coq or compile kernels once for all of them.
+WHOLE = {"tests/proofs/reports", "tests/proofs/coq", "tests/scenes/part"}
+TOGETHER = {"tests/proofs/test_pytest_plugin.py": "tests/proofs/reports"}  # it asks for that run
 
 
-def folder_of(nodeid: str) -> str:
-    """The folder of a test, of those together the one that they are named by."""
-    folder = nodeid.partition("::")[0].rpartition("/")[0]
-    return TOGETHER.get(folder, folder)
+def scope_of(nodeid: str) -> str:
+    """What goes to one process with a test: its file, or a folder."""
+    path = nodeid.partition("::")[0]
+    folder = path.rpartition("/")[0]
+    return TOGETHER.get(path, folder if folder in WHOLE or path[:6] != "tests/" else path)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    order = {folder: place for place, folder in enumerate(LONGEST)}
-    items.sort(key=lambda item: order.get(folder_of(item.nodeid), len(order)))
+    order = {scope: place for place, scope in enumerate(LONGEST)}
+    items.sort(key=lambda item: order.get(scope_of(item.nodeid), len(order)))
+
+
+def pytest_collection_finish() -> None:
+    """What collecting has loaded stays, and is searched for garbage no more."""
+    gc.freeze()
 
 
 def pytest_sessionfinish() -> None:
@@ -63,15 +77,15 @@ def pytest_sessionfinish() -> None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Tests of a folder go to one process, which judges, derives and compiles for all of them; the
-    folders in the order in which they are collected.
+    """Tests of a file go to one process, which derives once for all of them, as do those of some
+    folders; in the order in which they are collected.
     """
     from xdist.scheduler import LoadScopeScheduling
 
     config.option.loadscopereorder = False
 
-    class ByFolder(LoadScopeScheduling):
+    class ByScope(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            return folder_of(nodeid)
+            return scope_of(nodeid)
 
-    return ByFolder(config, log)
+    return ByScope(config, log)

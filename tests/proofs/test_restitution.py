@@ -5,6 +5,7 @@ without any of their hypotheses.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
@@ -83,6 +84,7 @@ WEAKENED = [
 ]
 
 
+@cache  # a rule stands in several rows
 def outcome(name: str, text: str) -> str:
     """The checker's, of this text with the certificate that is stored for the statement."""
     statement = checker.read_statements(text)[name]

@@ -26,6 +26,7 @@ FILES = (
 )
 
 
+@pytest.mark.exhaust
 def test_the_rules_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     asked = [
         f"{file}.{name}"
@@ -329,6 +330,7 @@ def test_every_change_is_of_a_line_that_is_there_holds() -> None:
     assert not absent
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(WEAKER)[::SHARE])
 def test_rejects_a_weaker_rule(name: str, development: Coq) -> None:
     file, old, new = WEAKER[name]

@@ -41,6 +41,7 @@ def test_the_statements_are_those_of_the_table_holds() -> None:
     assert (STATEMENTS).read_bytes() == current().encode()
 
 
+@pytest.mark.exhaust
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     names = theorems(STATEMENTS.read_text(), "Theorem|Lemma")
     rules = [
@@ -156,6 +157,7 @@ TABLES: dict[str, Callable[[Attraction], Attraction]] = {
 }
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(TABLES)[::SHARE])
 def test_rejects_a_changed_table(name: str, development: Coq) -> None:
     theorem = TABLES[name](coq.ball())
@@ -199,6 +201,7 @@ TEXTS = {
 }
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(TEXTS)[::SHARE])
 def test_rejects_a_changed_statement(name: str, development: Coq) -> None:
     old, new = TEXTS[name]

@@ -41,12 +41,14 @@ THEOREMS = {
 }
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(DEFINITIONS)[::SHARE])
 def test_rejects_a_changed_definition(name: str, development: Coq) -> None:
     assert [file for file in order() if file in PHYSICS] == list(PHYSICS)
     assert rejects(development, PHYSICS[0], *DEFINITIONS[name], later=PHYSICS[1:])
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(THEOREMS)[::SHARE])
 def test_rejects_a_changed_theorem(name: str, development: Coq) -> None:
     assert rejects(development, PHYSICS[-1], *THEOREMS[name])

@@ -86,12 +86,14 @@ CHANGES = {
 }
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("name", list(CHANGES)[::SHARE])
 def test_rejects_a_changed_law_or_finding(name: str, development: Coq) -> None:
     file, old, new = CHANGES[name]
     assert rejects(development, file, old, new, later=SINE[SINE.index(file) + 1 :])
 
 
+@pytest.mark.exhaust
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Coq) -> None:
     names = [
         f"{file.removesuffix('.v')}.{name}" for file in SINE for name in theorems(source(file))

@@ -12,7 +12,7 @@ from pathlib import Path
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
-from juggleproof.proofs.reports.contents import Contents, contents_of, gather
+from juggleproof.proofs.reports.contents import Contents, contents_of
 from juggleproof.proofs.reports.page import Picture, build, pictures
 from juggleproof.proofs.reports.results import Result, Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, Run, claims_of_file, run
@@ -68,12 +68,6 @@ def paper_run() -> tuple[Run, str]:
 def contents() -> Contents:
     """Of this run: what a report gathers, as the next is for."""
     return contents_of(paper_run()[0], load_register())
-
-
-@cache
-def gathered() -> Contents:
-    """As the command gathers them, in processes of its own."""
-    return gather()
 
 
 def paper(

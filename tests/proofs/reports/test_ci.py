@@ -25,7 +25,7 @@ from juggleproof.proofs.reports.ci import (
 )
 from juggleproof.proofs.reports.errata import WRONG
 from juggleproof.proofs.reports.results import Results
-from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, gathered, own, paper, refuted
+from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper, refuted
 
 # -------------------------------------------------------------------------------------------------
 # The JUnit report counts rightly, has the usual attributes only, and skips nothing.
@@ -106,7 +106,7 @@ def test_paper_as_registered_has_no_failure_holds() -> None:
 
 
 def test_report_and_run_write_the_same_holds() -> None:
-    assert as_junit(gathered()) == as_junit(paper())
+    assert as_junit(contents()) == as_junit(paper())
 
 
 def test_change_is_a_failure_with_before_and_after_holds() -> None:
@@ -269,7 +269,7 @@ def test_summary_of_the_paper_says_that_nothing_changed_holds() -> None:
         and "\n## Changes of verdicts since the register\n\nNo change.\n" in text
     )
     assert f"{len(load_register())} claims: " in text and "Unknown" not in text
-    assert text == markdown(results) == markdown(gathered())
+    assert text == markdown(results) == markdown(contents())
     read = rendered(text)
     assert read.tags.count("tr") == len(results.claims) + 1 and all(
         any(one.id == cell for cell in read.cells) for one in results.claims
@@ -363,7 +363,7 @@ def test_badge_of_the_paper_is_green_holds() -> None:
         f"theorem proved, {len(load_register())} claims, {unknown} unknown",
         True,
     )
-    assert badge(gathered()) == badge(paper())
+    assert badge(contents()) == badge(paper())
 
 
 def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:

@@ -17,9 +17,16 @@ from juggleproof.proofs.command import report
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import pages
 from juggleproof.proofs.reports.ci import badge, markdown
-from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json, results_of
+from juggleproof.proofs.reports.contents import (
+    SCHEMA,
+    SCHEMA_FILE,
+    TOOLS,
+    as_json,
+    gather,
+    results_of,
+)
 from juggleproof.proofs.reports.results import Results
-from tests.proofs.reports.runs import FALSE, OPEN, contents, gathered, own, paper
+from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
 
 Document = dict[str, Any]  # as JSON has it
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
@@ -90,11 +97,13 @@ def test_sharp_ranges_stand_by_reading_holds() -> None:
 
 
 def test_report_and_run_write_the_same_document_holds() -> None:
-    assert as_json(gathered()) == as_json(paper())
+    assert as_json(contents()) == as_json(paper())
 
 
+@pytest.mark.exhaust
 def test_report_gathers_what_a_run_comes_to_holds() -> None:
-    assert gathered() == contents()
+    """As the command gathers it, in processes of its own."""
+    assert gather() == contents()
 
 
 @pytest.mark.parametrize(

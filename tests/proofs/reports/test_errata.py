@@ -8,11 +8,13 @@ import json
 import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.ledger.ledger import load_ledger
 from juggleproof.proofs.ledger.places import is_heading, place_of
 from juggleproof.proofs.paper import paper_claims
@@ -20,16 +22,29 @@ from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import contents, errata, pages
 from juggleproof.proofs.reports.contents import errata_text
 from juggleproof.proofs.reports.tree import theorem_line
-from juggleproof.proofs.run import FINDINGS
+from juggleproof.proofs.run import FINDINGS, judge_some
 from juggleproof.proofs.theorem import THEOREM
 
 TITLES = list(errata.GROUPS.values())
 
 
+JUDGED = dict[str, Judgement]()  # by the first errata that are made
+CHECKED = dict[str, str]()
+
+
 @pytest.fixture(scope="module")
 def everything() -> str:
-    """The errata, as they are printed."""
-    return errata_text()
+    """The errata, as they are printed; what was judged for them is kept."""
+
+    def judged(*arguments: Any) -> list[Judgement]:
+        found = judge_some(*arguments)
+        JUDGED.update((one.id, one) for one in found)
+        CHECKED.update(arguments[-1])
+        return found
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(contents, "judge_some", judged)
+        return errata_text()
 
 
 @pytest.fixture(scope="module")
@@ -232,6 +247,9 @@ def test_a_refuted_print_that_the_register_lets_hold_is_listed_holds(
 ) -> None:
     forged = {name: {**entry, "verdict": "holds"} for name, entry in load_register().items()}
     monkeypatch.setattr(contents, "load_register", lambda: forged)
+    # what is judged, and what the checker says, has no register in it
+    monkeypatch.setattr(contents, "outcomes_of", lambda *_: CHECKED)
+    monkeypatch.setattr(contents, "judge_some", lambda some, *_: [JUDGED[one.id] for one in some])
     assert errata_text() == everything
 
 

@@ -28,7 +28,7 @@ from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
 from juggleproof.proofs.run import judge_some
 from tests.proofs.reports.comparison import differences, read_latex
-from tests.proofs.reports.runs import contents, gathered
+from tests.proofs.reports.runs import contents
 
 # -------------------------------------------------------------------------------------------------
 # Formulas.
@@ -45,6 +45,7 @@ def test_every_formula_of_every_statement_reads_back_holds() -> None:
     assert differences(pairs) == []
 
 
+@pytest.mark.exhaust
 def test_every_derivation_reads_back_holds() -> None:
     entries = dict.fromkeys(
         entry for one in contents().derivations for row in one.shown() for entry in row
@@ -237,7 +238,7 @@ def test_templates_hold_no_formula_of_the_paper_holds() -> None:
 
 
 def test_bytes_repeat_holds() -> None:
-    assert {name: content.decode() for name, content in files(gathered()).items()} == made()
+    assert {name: content.decode() for name, content in files(contents()).items()} == made()
 
 
 def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
@@ -275,6 +276,7 @@ def test_rejects_an_equation_that_the_paper_does_not_print(
     assert run(["export", "latex", "no-such"]) == 2
 
 
+@pytest.mark.exhaust
 @latex
 @pytest.mark.parametrize("document", ["juggleproof", "juggleproof-twocolumn"])
 def test_documents_compile_without_a_fault_holds(document: str) -> None:
@@ -282,6 +284,7 @@ def test_documents_compile_without_a_fault_holds(document: str) -> None:
     assert pdf.startswith(b"%PDF") and faults == []
 
 
+@pytest.mark.exhaust
 @latex
 def test_the_fragments_need_only_amsmath_holds() -> None:
     given = {
@@ -300,6 +303,7 @@ def equations() -> dict[str, str]:
     return {one.claim.id: equation(one) for one in contents().entries if one.claim.printed}
 
 
+@pytest.mark.exhaust
 @latex
 def test_every_equation_compiles_alone_holds() -> None:
     """Each in a group, which ends what it defines."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from selenium.webdriver.remote.webdriver import WebDriver
     from selenium.webdriver.remote.webelement import WebElement
 
+pytestmark = pytest.mark.exhaust
 Load = Callable[..., "WebDriver"]  # of a place in a page
 RULE = "rule-theorem-in-units/contracts"
 PREMISE = "premise-theorem-in-units/contracts.closer-1"

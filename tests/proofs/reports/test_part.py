@@ -8,6 +8,8 @@ from dataclasses import asdict, replace
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -160,6 +162,28 @@ def test_rejects_records_that_are_no_results(
     assert kept_results() is None
 
 
+def run_of(ensembles: int, horizon: float) -> Any:
+    """What is asked of a run of table I: ensembles and length of its rows."""
+    row = SimpleNamespace(chaotic=(False,) * ensembles, horizon=horizon)
+    return SimpleNamespace(rows=[row, row])
+
+
+def test_rejects_a_run_of_table_one_that_is_not_the_reports() -> None:
+    likely, whole = part.chosen(part.recorded()).reading, run_of(part.ENSEMBLES, part.HORIZON)
+    setting = likely.scene(A_x=1e-3, f_x=30.0)
+    assert likely.amplitudes == "peak-to-peak"
+    assert part.is_of_the_report(setting, whole, "peak-to-peak", part.SEED)
+    for other in (
+        (replace(setting, mu=0.1), whole, "peak-to-peak", part.SEED),
+        (setting, run_of(part.ENSEMBLES - 1, part.HORIZON), "peak-to-peak", part.SEED),
+        (setting, run_of(part.ENSEMBLES, part.HORIZON / 2), "peak-to-peak", part.SEED),
+        (setting, whole, "peak", part.SEED),
+        (setting, whole, "peak-to-peak", part.SEED + 1),
+    ):
+        assert not part.is_of_the_report(*other)
+
+
+@pytest.mark.exhaust
 def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A run as short as can be: it is shown and kept where it is the report's, which a longer one
     would be, and not where something was chosen.

@@ -42,10 +42,14 @@ SUM = made(
 )
 
 
-def test_a_number_is_a_zero_in_an_interval_and_the_map_is_settled_holds() -> None:
+def test_a_number_is_a_zero_in_an_interval_holds() -> None:
     found = by_an_equation(HASSELL)
     assert isinstance(found, WithEquation) and has_a_zero(HASSELL, found)
     assert found.system.domain == "e^3 + 3*e^2 + 3*e - 1 = 0 and e > 1/4 and e < 17/64"
+
+
+@pytest.mark.exhaust
+def test_a_map_whose_fixed_point_is_a_number_is_settled_holds() -> None:
     outcome = search_stability(HASSELL)
     assert outcome.finding.verdict == "proved"
     assert outcome.finding.sentence == (
@@ -104,6 +108,7 @@ def test_rejects_that_there_is_a_zero_where_there_is_none(name: str) -> None:
     assert not has_a_zero(HASSELL, WithEquation(system, "e", polynomial, where))
 
 
+@pytest.mark.exhaust
 def test_what_samples_alone_say_of_the_zero_is_said_to_rest_on_them_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

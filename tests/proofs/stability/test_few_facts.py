@@ -56,6 +56,7 @@ show {}*e - 2*x_next > 0
 """
 
 
+@pytest.mark.exhaust
 def test_what_is_given_of_the_next_state_is_left_out_holds() -> None:
     premise = checker.read_statements(STAGE.format("3"))["m/stage"]
     proof = proof_without_next(premise, {})

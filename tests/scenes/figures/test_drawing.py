@@ -114,6 +114,7 @@ def test_figures_drawn_again_are_the_same_holds() -> None:
     assert drawing.svg(again, "fig-12") == drawing.svg(figure("fig-12"), "fig-12")
 
 
+@pytest.mark.exhaust
 def test_same_bytes_in_every_process_holds() -> None:
     seed = "1" if os.environ.get("PYTHONHASHSEED") == "0" else "0"  # another than this one's
     run = subprocess.run(
