@@ -1,0 +1,53 @@
+"""Claims searched anew: what is found has the verdicts of the register.
+
+    python -m tests.exhaust.fresh CLAIM ..
+
+Prints a line for each claim: its name, its seconds, and `passed`, or `failed` with what differs.
+The claims that they may use statements of are loaded too, and these statements are taken from the
+store.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.claims import claims_in
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.results import results_of_run
+from juggleproof.proofs.run import Options, run
+from tests.exhaust.sources import Sources
+from tests.exhaust.stages import Stages
+
+
+def searched(names: Sequence[str]) -> list[tuple[str, float, str]]:
+    """(claim, seconds, what differs from the register or is rejected) of each claim."""
+    claims = claims_in(Stages(Sources()).modules_of(names))
+    with tempfile.TemporaryDirectory() as folder:
+        store = Path(folder, "store")
+        shutil.copytree(DEFAULT, store)
+        done = run(claims, Options(store, jobs=1, fresh=True, only=tuple(names)))
+        results = results_of_run(
+            done.claims, done.judgements, load_register(), rejected=done.rejected, partial=True
+        )
+    wrong = {one.claim: str(one) for one in results.changes}
+    for name, reason in done.rejected:
+        claim = name.split("/")[0]
+        wrong.setdefault(claim, f"the checker rejects {name}: {reason}")
+    return [(name, done.seconds[name], wrong.get(name, "")) for name in names]
+
+
+def main(names: Sequence[str]) -> int:
+    """Searches the claims; returns 1 where one is not as registered."""
+    found = searched(names)
+    for name, seconds, why in found:
+        print(name, f"{seconds:.3f}", "failed" if why else "passed", why, sep="\t")
+    return int(any(why for _, _, why in found))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
