@@ -1,6 +1,6 @@
 """Every published map in examples comes out as docs/stability.md says, with no rank typed in it;
 what is written is read by the checker, by `certify` without a search, and by coqc.  `make test`
-compiles one of them; with JUGGLEPROOF_MUTANTS=many (as CI sets it) an attraction and an escape.
+compiles one of them; with JUGGLEPROOF_MUTANTS=many (make exhaust) an attraction and an escape.
 """
 
 from __future__ import annotations

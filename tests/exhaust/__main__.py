@@ -9,6 +9,7 @@ python -m tests.exhaust --due          # names those that are due
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -111,6 +112,7 @@ def main(
     arguments: Sequence[str] | None = None, root: Path = ROOT, path: Path = record.PATH
 ) -> int:
     """Does what the options say; returns 1 where a stage fails, or CI refuses one."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends what runs
     parser = argparse.ArgumentParser(prog="python -m tests.exhaust")
     parser.add_argument("stage", nargs="?", default="")
     parser.add_argument("--ci", action="store_true")

@@ -2,7 +2,7 @@
 
     python -m tests.exhaust.fresh CLAIM ..
 
-Prints a line for each claim: its name, its seconds, and `passed`, or `failed` with what differs.
+Prints a line for each claim: its stage, its seconds, and `passed`, or `failed` above what differs.
 The claims that they may use statements of are loaded too, and these statements are taken from the
 store.
 """
@@ -45,7 +45,8 @@ def main(names: Sequence[str]) -> int:
     """Searches the claims; returns 1 where one is not as registered."""
     found = searched(names)
     for name, seconds, why in found:
-        print(name, f"{seconds:.3f}", "failed" if why else "passed", why, sep="\t")
+        print(f"fresh/{name}", f"{seconds:.3f}", "failed" if why else "passed", sep="\t")
+        print(why, end="\n" if why else "")
     return int(any(why for _, _, why in found))
 
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import os
+import queue
+import signal
 import subprocess
 import sys
 import threading
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
 from tests.exhaust.record import FAILED, PASSED
-from tests.exhaust.stages import FRESH, Stage
+from tests.exhaust.stages import FRESH, MUTANTS, Stage
 
 LANES = 2
 TOGETHER = 90  # claims that one process searches, which loads what they share once
@@ -29,24 +31,33 @@ class Done(NamedTuple):
 
 
 class Job(NamedTuple):
-    """Stages that one process runs."""
+    """Stages that one process runs: it prints a line for each, its name, CPU seconds and result,
+    where they are more than one.
+    """
 
     stages: Sequence[Stage]
 
     @property
     def command(self) -> list[str]:
-        """The command of the one stage; of claims, one command with all their names."""
+        """The command of the one stage; of several, one with the last words of all."""
         first, *others = self.stages
         words = [*first.command, *(other.command[-1] for other in others)]
         return [sys.executable, *words[1:]] if words[0] == "python" else words
 
 
 def jobs(stages: Sequence[Stage]) -> list[Job]:
-    """The stages as jobs, those that take long in one process first; claims together."""
+    """The stages as jobs: those that load the same are run together, and begin first."""
     claims = [stage for stage in stages if stage.name.startswith(FRESH)]
+    mutants = [stage for stage in stages if stage.name.startswith(MUTANTS)]
     parts = math.ceil(len(claims) / TOGETHER)
-    together = [Job(claims[part::parts]) for part in range(parts)]
-    return [*together, *(Job([stage]) for stage in stages if stage not in claims)]
+    together = [mutants, *(claims[part::parts] for part in range(parts))]
+    alone = [[stage] for stage in stages if not stage.name.startswith((FRESH, MUTANTS))]
+    return [Job(one) for one in (*together, *alone) if one]
+
+
+def is_told(job: Job) -> bool:
+    """Whether the process of a job tells of each stage."""
+    return job.stages[0].name.startswith((FRESH, MUTANTS))
 
 
 class Lanes:
@@ -55,18 +66,25 @@ class Lanes:
     def __init__(self, root: Path) -> None:
         self.root = root
         self.lock = threading.Lock()
-        self.running: set[subprocess.Popen[bytes]] = set()
+        self.running: set[subprocess.Popen[str]] = set()
         self.ended = False
+        self.done: queue.SimpleQueue[Done | BaseException | None] = queue.SimpleQueue()
 
     def run(self, stages: Sequence[Stage]) -> Iterator[Done]:
-        """What becomes of each stage, as it is done; stops all when it is closed."""
+        """What becomes of each stage, as it is done; ends all when it is closed."""
+        left = jobs(stages)
+        waiting = len(left)
         pool = ThreadPoolExecutor(LANES)
         try:
-            left: set[Future[list[Done]]] = {pool.submit(self.job, job) for job in jobs(stages)}
-            while left:
-                done, left = wait(left, return_when=FIRST_COMPLETED)
-                for one in done:
-                    yield from one.result()
+            for job in left:
+                pool.submit(self.job, job)
+            while waiting:
+                done = self.done.get()
+                if isinstance(done, BaseException):
+                    raise done
+                waiting -= done is None
+                if done is not None:
+                    yield done
         finally:
             self.end()
             pool.shutdown(cancel_futures=True)
@@ -76,50 +94,62 @@ class Lanes:
         with self.lock:
             self.ended = True
             for process in self.running:
-                process.terminate()
+                os.killpg(process.pid, signal.SIGTERM)
 
-    def job(self, job: Job) -> list[Done]:
-        """Runs a job; nothing is told of one that was ended."""
+    def job(self, job: Job) -> None:
+        """Runs a job, and hands on what is done, with None at the end."""
+        try:
+            for done in self.follow(job):
+                self.done.put(done)
+            self.done.put(None)
+        except BaseException as problem:
+            self.done.put(problem)
+
+    def follow(self, job: Job) -> Iterator[Done]:
+        """What becomes of the stages of a job; nothing is told of one that was ended."""
         log = self.root / LOGS / f"{job.stages[0].name.replace('/', '-')}.log"
         log.parent.mkdir(parents=True, exist_ok=True)
-        with log.open("wb") as out:
-            with self.lock:
-                if self.ended:
-                    return []
-                process = subprocess.Popen(
-                    job.command, cwd=self.root, env=environment(), stdout=out, stderr=out
-                )
-                self.running.add(process)
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
+        with self.lock:
+            if self.ended:
+                return
+            process = subprocess.Popen(
+                job.command,
+                cwd=self.root,
+                env=environment(),
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                start_new_session=True,
+            )
+            self.running.add(process)
+        left = {stage.name: stage for stage in job.stages}
+        failed = False
+        if process.stdout is None:
+            raise ValueError("a process without output")
+        with log.open("w", encoding="utf-8") as out, process.stdout as lines:
+            for line in lines:
+                out.write(line)
+                out.flush()
+                cells = line.rstrip("\n").split("\t")
+                if is_told(job) and len(cells) == 3 and cells[0] in left:
+                    failed = failed or cells[2] != PASSED
+                    yield Done(left.pop(cells[0]), math.ceil(float(cells[1])), cells[2])
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
         with self.lock:
             self.running.discard(process)
             if self.ended:
-                return []
-        text = log.read_text(encoding="utf-8", errors="replace")
-        seconds = used.ru_utime + used.ru_stime
-        return results(job.stages, process.returncode, seconds, text)
+                return
+        seconds = math.ceil(used.ru_utime + used.ru_stime)
+        if is_told(job):
+            if process.returncode and not failed and not left:
+                raise ValueError(f"{' '.join(job.command[:4])} failed after its last line: {log}")
+            yield from (Done(stage, seconds, FAILED) for stage in left.values())
+        else:
+            yield Done(job.stages[0], seconds, FAILED if process.returncode else PASSED)
 
 
 def environment() -> dict[str, str]:
     """What a stage is run with: more than the share of the suite, and no figures that are kept."""
     return {**os.environ, "JUGGLEPROOF_MUTANTS": "many", "JUGGLEPROOF_CACHE": "off"}
-
-
-def results(stages: Sequence[Stage], code: int, seconds: float, text: str) -> list[Done]:
-    """What a process that ended with a code and printed a text says of its stages.
-
-    Claims pass by the line that each has; one without fails.  Where all that are told of passed,
-    but the process failed, all fail.
-    """
-    if not stages[0].name.startswith(FRESH):
-        return [Done(stages[0], math.ceil(seconds), FAILED if code else PASSED)]
-    told = {}
-    for line in text.splitlines():
-        cells = line.split("\t")
-        if len(cells) == 4 and cells[2] in (PASSED, FAILED):
-            told[FRESH + cells[0]] = math.ceil(float(cells[1])), cells[2]
-    failed = any(result == FAILED for _, result in told.values())
-    if bool(code) != failed:
-        told = {}
-    return [Done(stage, *told.get(stage.name, (math.ceil(seconds), FAILED))) for stage in stages]

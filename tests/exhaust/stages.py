@@ -21,7 +21,7 @@ SINE = ("flights", "cells", "checker")
 FORMATS = ("html", "latex", "markdown", "json", "badge", "figures", "pdf")
 SHARES = 8  # of the store, for Coq
 SEARCH = ("juggleproof.proofs.run", "juggleproof.proofs.register")
-FRESH = "fresh/"
+FRESH, MUTANTS = "fresh/", "mutants/checker/"
 NEW_CLAIM = 20  # CPU seconds that CI grants to a claim that no line tells of
 STATEMENT = re.compile(r"[\w.+-]+/[\w.+-]+")
 
