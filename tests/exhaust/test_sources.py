@@ -166,7 +166,7 @@ def test_an_import_inside_a_function_asks_for_what_it_brings_holds(
     more = "\ndef late():\n    from juggleproof.symbolic import alpha\n    return alpha\n"
     file = "certificates/sine/flights.py"
     with changed(copied, stages.sources, file, more) as other:
-        after = dict((stage.name, stage) for stage in Stages(other).mutants())
+        after = {stage.name: stage for stage in Stages(other).mutants()}
     brought = "symbolic/corner_impact.py"  # by the lazy package
     assert brought in after["mutants/sine/flights"].files
     assert brought not in stages.all["mutants/sine/flights"].files

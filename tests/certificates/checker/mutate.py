@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import types
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -241,13 +242,18 @@ def transplant(old: Any, new: Any) -> None:
                 transplant(vars(old)[name], value)
 
 
-def noticed(mutant: Mutant, rows: Iterable[tuple[Case, Functions | None]]) -> str:
-    """What notices the mutant that is installed: "tables", "store" or ""."""
-    for case, found in rows:
+def noticed(
+    mutant: Mutant, rows: Sequence[tuple[Case, Functions | None]], first: Iterable[int]
+) -> str:
+    """What notices the mutant that is installed: "tables" and the number of the row that does,
+    "store" or ""; these rows are tried first.
+    """
+    for number in dict.fromkeys([*first, *range(len(rows))]):
+        case, found = rows[number]
         if found is None or not mutant.function or (mutant.file, mutant.function) in found:
             signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
             if not case.holds():
-                return "tables"
+                return f"tables {number}"
     before = outcomes_of_store()
     outcomes_of_store.cache_clear()
     signal.setitimer(signal.ITIMER_VIRTUAL, 5 * SECONDS)
@@ -257,20 +263,26 @@ def noticed(mutant: Mutant, rows: Iterable[tuple[Case, Functions | None]]) -> st
         return "store"
 
 
+# The rows that noticed a mutant of a function, the last one last: they notice others of it, too.
+rejecting: defaultdict[tuple[str, str], list[int]] = defaultdict(list)
+
+
 def judged(index: int, follow: bool) -> tuple[str, float]:
     """The same, in a process of its own, and its CPU seconds; one that does not end, or too late,
     is noticed.
     """
     end, begin = os.pipe()
+    place = (MUTANTS[index].file, MUTANTS[index].function)
     child = os.fork()
     if child == 0:
         try:
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             signal.alarm(120)  # for one that waits
+            rows: Sequence[tuple[Case, Functions | None]]
             rows = followed() if follow else [(case, None) for case in cases()]
             try:
                 install(MUTANTS[index])
-                found = noticed(MUTANTS[index], rows)
+                found = noticed(MUTANTS[index], rows, reversed(rejecting[place]))
             except Exception:  # a table of the checker that cannot be built
                 found = "tables"
             os.write(begin, found.encode() or b"-")
@@ -280,7 +292,9 @@ def judged(index: int, follow: bool) -> tuple[str, float]:
     with open(end, "rb") as pipe:
         answer = pipe.read().decode()
     _, _, used = os.wait4(child, 0)
-    found = answer.removeprefix("-") if answer else "tables"
+    found, _, number = (answer.removeprefix("-") if answer else "tables").partition(" ")
+    if number:
+        rejecting[place] = [one for one in rejecting[place] if one != int(number)] + [int(number)]
     return found, used.ru_utime + used.ru_stime
 
 
