@@ -17,8 +17,8 @@ from pathlib import Path
 
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.claims import claims_in
-from juggleproof.proofs.register import load_register
-from juggleproof.proofs.reports.results import results_of_run
+from juggleproof.proofs.judgement import Judgement
+from juggleproof.proofs.register import differences, load_register, registered
 from juggleproof.proofs.run import Options, run
 from tests.exhaust.sources import Sources
 from tests.exhaust.stages import Stages
@@ -31,14 +31,24 @@ def searched(names: Sequence[str]) -> list[tuple[str, float, str]]:
         store = Path(folder, "store")
         shutil.copytree(DEFAULT, store)
         done = run(claims, Options(store, jobs=1, fresh=True, only=tuple(names)))
-        results = results_of_run(
-            done.claims, done.judgements, load_register(), rejected=done.rejected, partial=True
-        )
-    wrong = {one.claim: str(one) for one in results.changes}
+    after = {claim.id: entry(judged) for claim, judged in zip(done.claims, done.judgements)}
+    wrong = {one.claim: str(one) for one in differences(load_register(), after, partial=True)}
     for name, reason in done.rejected:
-        claim = name.split("/")[0]
-        wrong.setdefault(claim, f"the checker rejects {name}: {reason}")
+        wrong.setdefault(name.split("/")[0], f"the checker rejects {name}: {reason}")
     return [(name, done.seconds[name], wrong.get(name, "")) for name in names]
+
+
+def entry(judged: Judgement) -> dict[str, str]:
+    """What the register has of a claim that is judged so."""
+    sharp = [
+        (f"{part.rstrip('.')}: " if part else "") + one.text for part, one in judged.sharp.items()
+    ]
+    return registered(
+        judged.verdict.word,
+        judged.verdict.detail,
+        judged.correction["text"] if judged.correction else "",
+        "; ".join(dict.fromkeys(sharp)),
+    )
 
 
 def main(names: Sequence[str]) -> int:

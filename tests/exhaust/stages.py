@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from juggleproof.certificates.coq.files import share_of
 from tests.exhaust.sources import Sources
 
 STORE = "certificates/store"
@@ -191,8 +190,10 @@ class Stages:
 
     def coq(self) -> Iterator[Stage]:
         """The stored statements as lemmas of Coq, in shares by the digest of their names."""
+        from juggleproof.certificates.coq.files import share_of  # what searches claims does without
+
         _, every = self.sources.closure(["juggleproof.certificates.coq.__main__"])
-        files = sorted({*(self.sources.modules[one] for one in every), "Makefile"})
+        files = sorted({*(self.sources.modules[one] for one in every), "Makefile", *LOCKS})
         for place in range(SHARES):
             names = self.reached(set(share_of(self.store, SHARES, place)))
             said = [*self.definitions, *(self.store[name] for name in names)]

@@ -189,10 +189,10 @@ def test_a_statement_asks_for_its_claim_and_its_certificate_for_its_share_holds(
             if stage.digest(sources) != before[stage.name]
         }
 
-    rows, _, certificate = stages.store["eq-37/main"].rpartition("\n")
-    (share,) = due("eq-37/main", f"{rows}\n{certificate} ")
+    rows, _, certificate = stages.store["eq-37/bound"].rpartition("\n")
+    (share,) = due("eq-37/bound", f"{rows}\n{certificate} ")
     assert share.startswith("coq-store/")
-    assert due("eq-37/main", f"{rows}\nshow 1 > 0\n{certificate}") == {share, f"{FRESH}eq-37"}
+    assert due("eq-37/bound", f"{rows}\nshow 1 > 0\n{certificate}") == {share, f"{FRESH}eq-37"}
 
 
 # ------------------------------------------------------------ what is really opened
