@@ -12,6 +12,7 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,7 +26,9 @@ from tests.exhaust.stages import Stages
 
 
 def searched(names: Sequence[str]) -> list[tuple[str, float, str]]:
-    """(claim, seconds, what differs from the register or is rejected) of each claim."""
+    """(claim, its part of the CPU seconds of all, what differs from the register or is rejected) of
+    each claim.
+    """
     claims = claims_in(Stages(Sources()).modules_of(names))
     with tempfile.TemporaryDirectory() as folder:
         store = Path(folder, "store")
@@ -35,7 +38,8 @@ def searched(names: Sequence[str]) -> list[tuple[str, float, str]]:
     wrong = {one.claim: str(one) for one in differences(load_register(), after, partial=True)}
     for name, reason in done.rejected:
         wrong.setdefault(name.split("/")[0], f"the checker rejects {name}: {reason}")
-    return [(name, done.seconds[name], wrong.get(name, "")) for name in names]
+    rate = time.process_time() / (sum(done.seconds.values()) or 1)
+    return [(name, rate * done.seconds[name], wrong.get(name, "")) for name in names]
 
 
 def entry(judged: Judgement) -> dict[str, str]:

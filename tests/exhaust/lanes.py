@@ -23,7 +23,7 @@ LOGS = Path("build/exhaust")
 
 
 class Done(NamedTuple):
-    """What became of a stage: its CPU seconds rounded up, and `passed` or `failed`."""
+    """What became of a stage: its CPU seconds rounded, and `passed` or `failed`."""
 
     stage: Stage
     seconds: int
@@ -134,14 +134,14 @@ class Lanes:
                 cells = line.rstrip("\n").split("\t")
                 if is_told(job) and len(cells) == 3 and cells[0] in left:
                     failed = failed or cells[2] != PASSED
-                    yield Done(left.pop(cells[0]), math.ceil(float(cells[1])), cells[2])
+                    yield Done(left.pop(cells[0]), round(float(cells[1])), cells[2])
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         with self.lock:
             self.running.discard(process)
             if self.ended:
                 return
-        seconds = math.ceil(used.ru_utime + used.ru_stime)
+        seconds = round(used.ru_utime + used.ru_stime)
         if is_told(job):
             if process.returncode and not failed and not left:
                 raise ValueError(f"{' '.join(job.command[:4])} failed after its last line: {log}")
