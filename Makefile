@@ -5,14 +5,22 @@ BIN := $(VENV)/bin
 
 JOBS ?= $(shell nproc)
 SHARE ?= 1
+PLACE ?= 0
+FILES ?= 16
+STORE := build/coq-store/$(PLACE)-of-$(SHARE)
+STAGE ?=
 
-.PHONY: certify test lint coq coq-store docs figure clean
+.PHONY: certify test exhaust lint coq coq-store docs figure clean
 
 certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
 
 test: $(VENV)/tools
 	$(BIN)/python -m pytest -n 2 --dist loadfile
+
+# What is too long for every run: the stages whose sources changed since they were recorded, or with STAGE=NAME one.
+exhaust: $(VENV)/tools
+	$(BIN)/python -m tests.exhaust $(STAGE)
 
 lint: $(VENV)/tools
 	$(BIN)/ruff check .
@@ -26,18 +34,18 @@ coq:
 	@rm -rf build/coq && mkdir -p build && cp -r proofs/coq build
 	@cd build/coq && for file in $$(grep '\.v$$' _CoqProject); do echo "coqc $$file"; coqc -q $$(grep '^-Q' _CoqProject) $$file || exit 1; done
 
-# The stored statements as Coq lemmas, each proved by its certificate: all of them, or with SHARE=12 one in 12.
+# The stored statements as Coq lemmas, each proved by its certificate: all of them, or with SHARE=12 one in 12, with PLACE=5 another.
 coq-store: $(VENV)/installed
 	@command -v coqc >/dev/null || { echo "coqc is needed: Debian's package is called coq"; exit 1; }
-	@rm -rf build/coq-store
-	$(BIN)/python -m juggleproof.certificates.coq build/coq-store --share $(SHARE)
-	@$(MAKE) --no-print-directory --keep-going -j $(JOBS) $$(ls build/coq-store/*.v | sed 's/v$$/vo/')
+	@rm -rf $(STORE)
+	$(BIN)/python -m juggleproof.certificates.coq $(STORE) --share $(SHARE) --place $(PLACE) --files $(FILES)
+	@$(MAKE) --no-print-directory --keep-going -j $(JOBS) $$(ls $(STORE)/*.v | sed 's/v$$/vo/')
 
-build/coq-store/Part%.vo: build/coq-store/Part%.v build/coq-store/Prelude.vo
-	cd build/coq-store && coqc -q -Q . Store Part$*.v
+$(STORE)/Part%.vo: $(STORE)/Part%.v $(STORE)/Prelude.vo
+	cd $(STORE) && coqc -q -Q . Store Part$*.v
 
-build/coq-store/Prelude.vo: build/coq-store/Prelude.v
-	cd build/coq-store && coqc -q -Q . Store Prelude.v
+$(STORE)/Prelude.vo: $(STORE)/Prelude.v
+	cd $(STORE) && coqc -q -Q . Store Prelude.v
 
 # The pages of docs as a site in build/site; a broken link is an error.
 docs: $(VENV)/tools

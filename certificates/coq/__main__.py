@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from juggleproof.certificates.coq.files import export, share_of, write
+from juggleproof.certificates.coq.files import FILES, export, share_of, write
 from juggleproof.certificates.store import DEFAULT, Store
 
 
@@ -17,10 +17,16 @@ def main() -> None:
     parser.add_argument(
         "--share", type=int, default=1, metavar="N", help="one statement in N, by digest"
     )
+    parser.add_argument(
+        "--place", type=int, default=0, metavar="K", help="which of the shares, from 0 to N - 1"
+    )
+    parser.add_argument("--files", type=int, default=FILES, metavar="M", help="in so many files")
     parsed = parser.parse_args()
+    if not (parsed.files > 0 and 0 <= parsed.place < parsed.share):
+        parser.error("--place is from 0 to one less than --share, and --files at least 1")
     store = Store(parsed.store)
-    exported = export(store, share_of(store.texts, parsed.share))
-    write(exported, parsed.folder)
+    exported = export(store, share_of(store.texts, parsed.share, parsed.place))
+    write(exported, parsed.folder, parsed.files)
     print("\n".join(exported.table()))
 
 

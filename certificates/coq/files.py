@@ -79,9 +79,9 @@ def export(store: Store, names: Iterable[str] | None = None) -> Export:
     return Export(texts, reasons, classes, needs)
 
 
-def share_of(names: Iterable[str], share: int) -> list[str]:
-    """One statement in so many, chosen by the digest of its name."""
-    return [name for name in names if int(sha256(name.encode()).hexdigest(), 16) % share == 0]
+def share_of(names: Iterable[str], share: int, place: int = 0) -> list[str]:
+    """One statement in so many, chosen by the digest of its name; each is in that of one place."""
+    return [name for name in names if int(sha256(name.encode()).hexdigest(), 16) % share == place]
 
 
 def write(exported: Export, folder: Path, files: int = FILES) -> None:

@@ -1,4 +1,4 @@
-"""The set of problems is what docs/your-own.md says of it; the whole of it is answered in CI by
+"""The set of problems is what docs/your-own.md says of it; the whole of it is answered by
 `python -m juggleproof.benchmarks.problems`.
 """
 

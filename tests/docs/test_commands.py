@@ -55,8 +55,8 @@ ELSEWHERE = {
     "juggleproof certify": (".ci/run", "juggleproof certify --jobs"),
     **{
         f"juggleproof report --format {form} -o DIR": (
-            ".ci/run",
-            f"--format {form}",
+            "tests/exhaust/reports.py",
+            '"report", "--format", form',
         )
         for form in ("html", "latex", "markdown", "json", "figures", "pdf")
     },
@@ -71,7 +71,7 @@ ELSEWHERE = {
     "juggleproof check": ("tests/proofs/command/test_check.py", "check(None)"),
     "python -I -S certificates/sine certificates/sine/wide": (
         ".ci/run",
-        "python3 -I -S certificates/sine certificates/sine/wide",
+        '"$python" -I -S certificates/sine certificates/sine/wide',
     ),
     "python -I -S certificates/checker": (
         "tests/proofs/paper/test_claims.py",
@@ -113,9 +113,12 @@ ELSEWHERE = {
     ),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
         "tests/certificates/checker/test_mutants.py",
-        "found = dict(judge_all(",
+        "judge_all(chosen, follow=False)",
     ),
-    "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
+    "python -m juggleproof.benchmarks.problems": (
+        "tests/exhaust/stages.py",
+        '"juggleproof.benchmarks.problems", "--votes"',
+    ),
     "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
     "juggleproof simulate part --sweep readings -o scenes/part/sweep.json": (
         "tests/proofs/command/test_simulate_part.py",

@@ -1,5 +1,5 @@
 """The site, and the pictures of README.md and of the pages; that of many orbits with
-JUGGLEPROOF_MUTANTS=many, as CI sets it.
+JUGGLEPROOF_MUTANTS=many (make exhaust).
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def test_figures_of_the_report_are_what_the_program_draws_holds(slug: str) -> No
     assert committed == on_white, "run `make figure`"
 
 
-@pytest.mark.skipif(not MANY, reason="39,900 orbits are followed in CI")
+@pytest.mark.skipif(not MANY, reason="39,900 orbits are followed in make exhaust")
 def test_what_orbits_tend_to_is_what_the_program_draws_holds(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed")
     drawn = tmp_path / "bifurcation.svg"

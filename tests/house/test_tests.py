@@ -12,10 +12,17 @@ import pytest
 from tests.house.graph import PACKAGES, ROOT, tree_of
 
 TESTS = ROOT / "tests"
-# What is no package: the house itself, the pages, the action; the tables of rules, a folder of
-# cases for each rule of the checker, which is tested as one; and a reader of certificates of its
-# own.
-OTHERS = {"house", "docs", "action", "certificates/checker", "certificates/checker/rules"}
+# What is no package: the house itself, the pages, the action, the long runs; the tables of rules, a
+# folder of cases for each rule of the checker, which is tested as one; and a reader of certificates
+# of its own.
+OTHERS = {
+    "house",
+    "docs",
+    "action",
+    "exhaust",
+    "certificates/checker",
+    "certificates/checker/rules",
+}
 OTHERS |= {"certificates/reader"}
 
 

@@ -1,7 +1,9 @@
 """A mutation test of the checker: every mutant changes what becomes of a case of the tests beside
 this file, or of a short stored certificate; those that cannot are in `equivalent.txt`, by reason.
 
-    python -m tests.certificates.checker.mutate [PART OF A KEY ..]
+    python -m tests.certificates.checker.mutate [BEGINNING OF A KEY ..]
+
+Exit 1 where nothing notices a mutant that is not listed, or one that is listed is noticed.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import types
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -239,13 +242,18 @@ def transplant(old: Any, new: Any) -> None:
                 transplant(vars(old)[name], value)
 
 
-def noticed(mutant: Mutant, rows: Iterable[tuple[Case, Functions | None]]) -> str:
-    """What notices the mutant that is installed: "tables", "store" or ""."""
-    for case, found in rows:
+def noticed(
+    mutant: Mutant, rows: Sequence[tuple[Case, Functions | None]], first: Iterable[int]
+) -> str:
+    """What notices the mutant that is installed: "tables" and the number of the row that does,
+    "store" or ""; these rows are tried first.
+    """
+    for number in dict.fromkeys([*first, *range(len(rows))]):
+        case, found = rows[number]
         if found is None or not mutant.function or (mutant.file, mutant.function) in found:
             signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
             if not case.holds():
-                return "tables"
+                return f"tables {number}"
     before = outcomes_of_store()
     outcomes_of_store.cache_clear()
     signal.setitimer(signal.ITIMER_VIRTUAL, 5 * SECONDS)
@@ -255,18 +263,26 @@ def noticed(mutant: Mutant, rows: Iterable[tuple[Case, Functions | None]]) -> st
         return "store"
 
 
-def judged(index: int, follow: bool) -> str:
-    """The same, in a process of its own; one that does not end, or too late, is noticed."""
+# The rows that noticed a mutant of a function, the last one last: they notice others of it, too.
+rejecting: defaultdict[tuple[str, str], list[int]] = defaultdict(list)
+
+
+def judged(index: int, follow: bool) -> tuple[str, float]:
+    """The same, in a process of its own, and its CPU seconds; one that does not end, or too late,
+    is noticed.
+    """
     end, begin = os.pipe()
+    place = (MUTANTS[index].file, MUTANTS[index].function)
     child = os.fork()
     if child == 0:
         try:
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             signal.alarm(120)  # for one that waits
+            rows: Sequence[tuple[Case, Functions | None]]
             rows = followed() if follow else [(case, None) for case in cases()]
             try:
                 install(MUTANTS[index])
-                found = noticed(MUTANTS[index], rows)
+                found = noticed(MUTANTS[index], rows, reversed(rejecting[place]))
             except Exception:  # a table of the checker that cannot be built
                 found = "tables"
             os.write(begin, found.encode() or b"-")
@@ -275,18 +291,21 @@ def judged(index: int, follow: bool) -> str:
     os.close(begin)
     with open(end, "rb") as pipe:
         answer = pipe.read().decode()
-    os.waitpid(child, 0)
-    return answer.removeprefix("-") if answer else "tables"
+    _, _, used = os.wait4(child, 0)
+    found, _, number = (answer.removeprefix("-") if answer else "tables").partition(" ")
+    if number:
+        rejecting[place] = [one for one in rejecting[place] if one != int(number)] + [int(number)]
+    return found, used.ru_utime + used.ru_stime
 
 
-def judge_all(indices: Sequence[int], follow: bool) -> Iterator[tuple[str, str]]:
-    """(key, what notices it) of these mutants."""
+def judge_all(indices: Sequence[int], follow: bool) -> Iterator[tuple[str, str, float]]:
+    """(key, what notices it, CPU seconds) of these mutants."""
     outcomes_of_store()
     if follow:
         followed()
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
         found = pool.map(judged, indices, [follow] * len(indices))
-        yield from ((MUTANTS[index].key, one) for index, one in zip(indices, found))
+        yield from ((MUTANTS[index].key, *one) for index, one in zip(indices, found))
 
 
 def score(found: dict[str, str]) -> str:
@@ -296,17 +315,29 @@ def score(found: dict[str, str]) -> str:
     return f"| {' | '.join(f'{count:,}' for count in counts)} |"
 
 
-def main(parts: list[str]) -> None:
-    chosen = [
-        k for k, one in enumerate(MUTANTS) if not parts or any(part in one.key for part in parts)
-    ]
-    found = dict(judge_all(chosen, follow=True))
-    known = equivalent()
-    for key, one in found.items():
-        if (one == "") != (key in known):
-            print("nothing notices" if one == "" else "listed, but noticed:", key)
+def main(parts: list[str]) -> int:
+    """Tries the mutants whose keys begin so, and prints a line for each file when it is done;
+    returns 1 where one is not as listed, or none is tried.
+    """
+    known, found, failed = equivalent(), dict[str, str](), False
+    for file in FILES:
+        begins = tuple(part for part in parts if f"{part}.".startswith(f"{file}."))
+        keys = [k for k, one in enumerate(MUTANTS) if one.file == file]
+        if begins or not parts:
+            keys = [k for k in keys if not parts or MUTANTS[k].key.startswith(begins)]
+            judged = list(judge_all(keys, follow=True))
+            wrong = [key for key, one, _ in judged if (one == "") != (key in known)]
+            for key, one, _ in judged:
+                if key in wrong:
+                    print("listed, but noticed:" if one else "nothing notices", key)
+            result = "failed" if wrong or not judged else "passed"
+            failed = failed or result == "failed"
+            found.update((key, one) for key, one, _ in judged)
+            seconds = sum(used for _, _, used in judged)
+            print(f"mutants/checker/{file}", f"{seconds:.0f}", result, sep="\t", flush=True)
     print(score(found))
+    return int(failed or not found)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main(sys.argv[1:]))

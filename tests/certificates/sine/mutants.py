@@ -1,12 +1,20 @@
 """Mutants of the second checker, from `mutants.txt`: one formula or guard changed in its text; and
 what notices them.
+
+    python -m tests.certificates.sine.mutants [BEGINNING OF A FILE'S NAME ..]
+
+Exit 1 where nothing notices a mutant.
 """
 
 from __future__ import annotations
 
+import os
+import sys
 import types
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
+from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
@@ -205,3 +213,21 @@ def noticed(mutant: Mutant) -> bool:
         if isinstance(error, ValueError) and "stands" in str(error):
             raise
         return True
+
+
+def main(parts: list[str]) -> int:
+    """Tries the mutants of the files whose names begin so; returns 1 where one is not noticed, or
+    none is tried.
+    """
+    chosen = [one for one in read() if not parts or f"{one.file}.".startswith(tuple(parts))]
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
+        found = list(pool.map(noticed, chosen))
+    for one, seen in zip(chosen, found):
+        if not seen:
+            print("nothing notices", one.file, one.name)
+    print(f"{len(found)} mutants, {sum(found)} noticed")
+    return int(not chosen or not all(found))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -7,7 +7,7 @@ import pytest
 from tests.proofs.coq.development import Coq, order, rejects
 from tests.share import share
 
-SHARE = share(4, 1, 1)
+SHARE = share(4, 1)
 PHYSICS = ("Executions.v", "Bouncing.v", "Existence.v", "FromPhysics.v")
 
 DEFINITIONS = {

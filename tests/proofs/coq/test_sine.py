@@ -7,7 +7,7 @@ import pytest
 from tests.proofs.coq.development import Coq, order, rejects, rest_on_the_reals, source, theorems
 from tests.share import share
 
-SHARE = share(6, 1, 1)
+SHARE = share(6, 1)
 SINE = tuple(file for file in order() if file.startswith("Sine"))
 
 # (file, what it says, what it does not prove)

@@ -1,7 +1,7 @@
 """Every hypothesis of every certified statement is needed, or its presence is explained.
 
-`make test` searches the statements of a fixed sample of claims; with JUGGLEPROOF_MUTANTS=many (as
-CI sets it) all of them, and writes the table to build/hypotheses.txt. What is expected, the counts
+`make test` searches the statements of a fixed sample of claims; with JUGGLEPROOF_MUTANTS=many (make
+exhaust) all of them, and writes the table to build/hypotheses.txt. What is expected, the counts
 and the names of what is undecided, `python -m tests.proofs.paper.hypothesis_table` brings up to
 date.
 """

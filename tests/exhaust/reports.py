@@ -1,0 +1,42 @@
+"""A report is the same to the byte when it is made again, without what the first has kept.
+
+python -m tests.exhaust.reports FORMAT
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from juggleproof.proofs import kept
+from juggleproof.proofs.command.main import run
+
+
+def made(form: str, folder: Path) -> dict[str, bytes]:
+    """The files of a report by name; what it keeps is kept beside them.
+
+    Raises ValueError where it is not made.
+    """
+    os.environ[kept.VARIABLE] = str(folder / "kept")
+    if run(["report", "--format", form, "-o", str(folder / "made")]) != 0:
+        raise ValueError(f"no report as {form}")
+    paths = (path for path in (folder / "made").rglob("*") if path.is_file())
+    return {path.relative_to(folder / "made").as_posix(): path.read_bytes() for path in paths}
+
+
+def main(form: str) -> int:
+    """Makes it twice; returns 1 where the two differ."""
+    with tempfile.TemporaryDirectory() as folder:
+        first, second = (made(form, Path(folder, name)) for name in ("1", "2"))
+    differ = sorted(
+        name for name in {*first, *second} if first.get(name, b"") != second.get(name, b"")
+    )
+    for name in differ:
+        print(f"{name} differs from run to run")
+    return int(bool(differ) or not first)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
