@@ -13,7 +13,7 @@ STAGE ?=
 .PHONY: certify test exhaust lint coq coq-store docs figure clean
 
 certify: $(VENV)/installed
-	$(BIN)/juggleproof certify
+	$(BIN)/juggleproof certify --rederive
 
 test: $(VENV)/tools
 	$(BIN)/python -m pytest -n 2 --dist loadfile

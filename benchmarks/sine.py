@@ -14,9 +14,9 @@ from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from juggleproof.benchmarks.commands import arguments_of, measure
 from juggleproof.benchmarks.figures import ABSENT, as_svg, can_plot, new_figure
 from juggleproof.benchmarks.generated import DOCS, Generated
-from juggleproof.benchmarks.speed import arguments_of, measure
 from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import check_line, read_statement
 from juggleproof.certificates.sine.cover import GRIDS, cover

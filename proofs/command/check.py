@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.checked import Reading
 from juggleproof.proofs.claims import CheckedApart, claims_in
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.reports.tree import LOST, theorem_line
@@ -28,8 +30,9 @@ def check(folder: Path | None) -> int:
     """
     where = folder or DEFAULT
     try:
-        with busy("checking"):
-            results = checker.check_folder(str(where))
+        with busy("checking"), Reading(where, os.cpu_count() or 1) as reading:
+            reading.outcomes()
+        results = reading.results or checker.check_folder(str(where))
     except checker.Rejected as reason:
         raise ClaimError(
             f"{where}: {reason}; name a folder that `juggleproof certify` wrote"

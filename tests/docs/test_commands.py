@@ -44,7 +44,7 @@ SMALLER = {
     "juggleproof certify sine --picture wide.svg": "--alpha 0.05 --gamma 3.1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
-    "python -m juggleproof.benchmarks.speed": "--only=--help --runs 1",
+    "python -m juggleproof.benchmarks.commands": "--only=--help --runs 1",
     "python -m juggleproof.benchmarks.stability": "--only skew-tent",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }

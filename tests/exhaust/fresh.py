@@ -33,7 +33,7 @@ def searched(names: Sequence[str]) -> list[tuple[str, float, str]]:
     with tempfile.TemporaryDirectory() as folder:
         store = Path(folder, "store")
         shutil.copytree(DEFAULT, store)
-        done = run(claims, Options(store, jobs=1, fresh=True, only=tuple(names)))
+        done = run(claims, Options(store, jobs=1, fresh=True, revote=True, only=tuple(names)))
     after = {claim.id: entry(judged) for claim, judged in zip(done.claims, done.judgements)}
     wrong = {one.claim: str(one) for one in differences(load_register(), after, partial=True)}
     for name, reason in done.rejected:

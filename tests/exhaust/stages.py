@@ -175,7 +175,7 @@ class Stages:
     def claims(self) -> dict[str, str]:
         """The module of each claim, in the paper's order."""
         index = json.loads((self.sources.root / INDEX).read_text(encoding="utf-8"))
-        return {entry["id"]: entry["module"] for entry in index}
+        return {entry["id"]: entry["module"] for entry in index["claims"]}
 
     def used_by(self, claim: str) -> list[str]:
         """The statements of a claim, those that its module names, and all that they rest on."""
