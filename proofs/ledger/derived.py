@@ -22,8 +22,7 @@ from juggleproof.proofs.reading.values import Matrix, Vector
 
 PATH = Path(__file__).with_name("derived.json")
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGE = "juggleproof."
-ENCODER = "proofs.encoding"
+ENCODER = "juggleproof.proofs.encoding"
 RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
 JOINED = ("and", "or", "not", "implies", "iff")
 Value = Union[Term, Formula, Vector, Matrix, str, tuple["Value", ...]]
@@ -49,7 +48,7 @@ class Kept:
             return {}
 
     def value(self, function: str, *arguments: Hashable) -> Value:
-        """What a function, named by its module in this package, comes to: as it is kept, else by
+        """What a function, named with its module, comes to: as it is kept, else by
         calling it.
 
         Raises ClaimError where its text would not be read as the same value.
@@ -59,7 +58,7 @@ class Kept:
             self.asked[name] = self.held[name]
             return unpacked(self.held[name])
         module, _, called = function.rpartition(".")
-        value: Value = getattr(import_module(PACKAGE + module), called)(*arguments)
+        value: Value = getattr(import_module(module), called)(*arguments)
         self.asked[name] = packed(value)
         if unpacked(self.asked[name]) != value:
             raise ClaimError(f"{name} comes to what its text is not read as")
@@ -98,7 +97,7 @@ def derive_again() -> None:
 def derived_by(kind: type[Kind], function: str, *arguments: Hashable) -> Kind:
     """What a function comes to, as `Kept.value`; raises ClaimError where it is of another kind.
 
-    >>> str(derived_by(Formula, "proofs.paper.deriving.margin", "normal_margin"))
+    >>> str(derived_by(Formula, "juggleproof.proofs.paper.deriving.margin", "normal_margin"))
     'x < w'
     """
     value = kept().value(function, *arguments)
@@ -112,7 +111,9 @@ def digest_of(names: Iterable[str]) -> str:
     the functions of these names stand.
     """
     modules = {name.partition("(")[0].rpartition(".")[0] for name in names} | {ENCODER}
-    paths = [ROOT / f"{module.replace('.', '/')}.py" for module in sorted(modules)]
+    paths = [
+        ROOT / f"{module.partition('.')[2].replace('.', '/')}.py" for module in sorted(modules)
+    ]
     digest = hashlib.sha256()
     for path in (*sorted((ROOT / "symbolic").glob("*.py")), *paths):
         content = path.read_bytes()

@@ -23,7 +23,7 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs.ledger.derived import derived_by, kept
 from juggleproof.proofs.reading.values import Matrix, Vector
 
-DERIVING = "proofs.paper.deriving"  # the module that loads SymPy
+DERIVING = "juggleproof.proofs.paper.deriving"  # the module that loads SymPy
 Rows = tuple[tuple[str, ...], ...]
 Derived = Union[Term, Vector, Matrix]
 Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)

@@ -38,7 +38,7 @@ from juggleproof.proofs.theorem.definition import (
 )
 from juggleproof.proofs.theorem.orbits import strikes
 
-ALONG = "proofs.restitution.along_flights"  # the module that loads SymPy
+ALONG = "juggleproof.proofs.restitution.along_flights"  # the module that loads SymPy
 FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods
 PERIODS, COUNT = sum(FLIGHTS), len(FLIGHTS)
 BORN, DIES = 8, 9  # the numbers of flights after which the impacts come that end its range

@@ -12,6 +12,7 @@ from tests.exhaust.sources import Sources
 
 STORE = "certificates/store"
 INDEX = "proofs/ledger/index.json"
+DERIVED = "proofs/ledger/derived.json"
 REGISTER = "proofs/register.json"
 LOCKS = ("requirements.lock",)
 TEST_LOCKS = (*LOCKS, "requirements-report.lock", "requirements-test.lock", "pyproject.toml")
@@ -161,7 +162,7 @@ class Stages:
             if entries not in begun:
                 _, every = self.sources.closure(entries)
                 files = {self.sources.modules[one] for one in every}
-                begun[entries] = sorted({*files, "tests/exhaust/fresh.py", *LOCKS})
+                begun[entries] = sorted({*files, *self.derived, "tests/exhaust/fresh.py", *LOCKS})
             texts = [self.store[name].rpartition("\n")[0] for name in reached]
             yield Stage(
                 FRESH + claim,
@@ -170,6 +171,13 @@ class Stages:
                 json.dumps([self.definitions, texts, register.get(claim)]),
                 NEW_CLAIM,
             )
+
+    @cached_property
+    def derived(self) -> set[str]:
+        """What is kept of derivations, and the modules that derive it."""
+        held = json.loads((self.sources.root / DERIVED).read_text(encoding="utf-8"))["derived"]
+        modules = {name.partition("(")[0].rpartition(".")[0] for name in held}
+        return {DERIVED, *(self.sources.modules[one] for one in modules)}
 
     @cached_property
     def claims(self) -> dict[str, str]:

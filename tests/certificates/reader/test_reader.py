@@ -56,6 +56,7 @@ LIMITS = {"a number too long", "a denominator too long", *AT_LIMITS}
 SHARE = share(20, 1)
 
 
+@pytest.mark.exhaust  # the reader takes minutes for the store
 def test_every_stored_certificate_has_the_checkers_outcome_holds() -> None:
     theirs = {name: outcome for name, outcome, _ in checker.check_folder(str(DEFAULT))}
     assert read_folder(DEFAULT) == theirs
@@ -144,9 +145,9 @@ def outcome(name: str, entry: Any) -> str:
         return "rejected"
 
 
-def test_rejects_every_stored_sum_with_another_coefficient() -> None:
+def test_rejects_stored_sums_with_another_coefficient() -> None:
     count = 0
-    for name, entry in stored()[1].items():
+    for name, entry in islice(stored()[1].items(), 0, None, SHARE):
         lists = (value for _, value in places(entry, []) if isinstance(value, list))
         sums = [value for value in lists if value[:1] == ["psatz"]]
         if sums:
@@ -156,7 +157,7 @@ def test_rejects_every_stored_sum_with_another_coefficient() -> None:
             assert outcome(name, entry) == "rejected", name
             term[0] = old
             count += 1
-    assert count > 500
+    assert count > 500 // SHARE
 
 
 def test_rejects_stored_entries_under_another_outcome() -> None:

@@ -24,7 +24,7 @@ from juggleproof.proofs.claims import stated_texts
 from juggleproof.proofs.paper import paper_claims
 print(sum(len(stated_texts(claim)) for claim in paper_claims()), "sympy" in sys.modules)
 """
-NAME = "proofs.paper.deriving.value('E_max')"
+NAME = "juggleproof.proofs.paper.deriving.value('E_max')"
 
 terms = st.recursive(
     st.one_of(st.sampled_from(["x", "w", "alpha"]).map(real), st.fractions().map(term)),
@@ -68,9 +68,9 @@ def test_a_kept_value_is_taken_while_its_sources_are_the_same_holds(
     held = data["derived"]
     assert isinstance(held, dict) and data["sources"] == digest_of(held)
     path.write_text(json.dumps({**data, "derived": {**held, NAME: "x"}}))
-    assert Kept(path).value("proofs.paper.deriving.value", "E_max") == real("x")
+    assert Kept(path).value("juggleproof.proofs.paper.deriving.value", "E_max") == real("x")
     monkeypatch.setattr(derived, "digest_of", lambda names: "of other sources")
-    plain = Kept(path).value("proofs.paper.deriving.value", "E_max")
+    plain = Kept(path).value("juggleproof.proofs.paper.deriving.value", "E_max")
     assert str(plain) == "r^2*(alpha + 1)^2/(2*(alpha - 1)^2)"
 
 
@@ -105,4 +105,4 @@ def test_rejects_a_kept_value_that_is_not_derived(tmp_path: Path) -> None:
 
 def test_rejects_a_value_of_another_kind() -> None:
     with pytest.raises(ClaimError, match="comes to Term"):
-        derived.derived_by(Vector, "proofs.paper.deriving.value", "E_max")
+        derived.derived_by(Vector, "juggleproof.proofs.paper.deriving.value", "E_max")
