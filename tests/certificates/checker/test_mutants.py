@@ -1,8 +1,8 @@
 """The tests beside this file, and the short stored certificates, notice every mutant of the checker
 but those that say the same.
 
-A fixed share is tried here.  `make exhaust` tries all of them, a file at a time, by
-`python -m tests.certificates.checker.mutate`.
+A fixed share is tried here, with JUGGLEPROOF_MUTANTS=many a larger one.  `make exhaust` tries all
+of them, a file at a time, by `python -m tests.certificates.checker.mutate`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ import hashlib
 from pathlib import Path
 
 from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all
+from tests.share import share
 
-SHARE = 350  # one mutant in so many
+SHARE = share(350, 100)  # one mutant in so many
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "adding-a-rule.md"
 KEYS = [one.key for one in MUTANTS]
 

@@ -53,7 +53,7 @@ from tests.share import share
 
 HERE = Path(__file__).parent
 LIMITS = {"a number too long", "a denominator too long", *AT_LIMITS}
-SHARE = share(20, 1)
+SHARE = share(20, 10)
 
 
 @pytest.mark.exhaust  # the reader takes minutes for the store

@@ -15,7 +15,7 @@ from tests.certificates.sine.impacts import PRECISION
 from tests.certificates.sine.states import CODE, STEPS, box, escapes
 from tests.share import share
 
-SHARE = share(60, 10_000)  # of impacts, for each grid
+SHARE = share(60, 2_500)  # of impacts, for each grid
 GRIDS = range(len(states.GRIDS))
 BOUNDED = range(len(bounds.GRIDS))
 
@@ -28,7 +28,7 @@ def test_first_impacts_are_in_the_enclosure_holds(grid: int) -> None:
 
 @pytest.mark.parametrize("grid", BOUNDED)
 def test_bounds_hold_at_all_corners_of_cells_and_boxes(grid: int) -> None:
-    assert not broken_bounds(CODE, bounds.GRIDS[grid], share(15, 400), seed=grid)
+    assert not broken_bounds(CODE, bounds.GRIDS[grid], share(15, 100), seed=grid)
 
 
 def test_walks_find_the_first_zero_of_a_known_height_holds() -> None:

@@ -1,7 +1,7 @@
 """Every mutant of the second checker is noticed by what the tests beside this file look at.
 
-A share is tried here.  `make exhaust` tries all of them, by
-`python -m tests.certificates.sine.mutants`.
+A share is tried here, with JUGGLEPROOF_MUTANTS=many a larger one.  `make exhaust` tries all of
+them, by `python -m tests.certificates.sine.mutants`.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ import hashlib
 import pytest
 
 from tests.certificates.sine.mutants import Mutant, noticed, read, text_of
+from tests.share import share
 
-SHARE = 128  # one mutant in so many
+SHARE = share(128, 4)  # one mutant in so many
 MUTANTS = read()
 
 
