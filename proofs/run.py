@@ -69,8 +69,8 @@ class Options:
     how much counted work for each statement, in how many processes (0: one a core), whether stored
     certificates are ignored, which claims (none: all), and whether each vote is cast again.
 
-    Raises ClaimError, one line, for routes that are unknown or lack the exact one, or of which not
-    all are asked again.
+    Raises ClaimError, one line, for routes that are unknown or lack the exact one, and for votes
+    that are to be cast again by some routes only.
     """
 
     store: Path

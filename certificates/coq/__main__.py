@@ -20,7 +20,7 @@ def main() -> None:
     parser.add_argument(
         "--place", type=int, default=0, metavar="K", help="which of the shares, from 0 to N - 1"
     )
-    parser.add_argument("--files", type=int, default=FILES, metavar="M", help="in so many files")
+    parser.add_argument("--files", type=int, default=FILES, metavar="M", help="write M files")
     parsed = parser.parse_args()
     if not (parsed.files > 0 and 0 <= parsed.place < parsed.share):
         parser.error("--place is from 0 to one less than --share, and --files at least 1")

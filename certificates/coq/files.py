@@ -80,7 +80,7 @@ def export(store: Store, names: Iterable[str] | None = None) -> Export:
 
 
 def share_of(names: Iterable[str], share: int, place: int = 0) -> list[str]:
-    """One statement in so many, chosen by the digest of its name; each is in that of one place."""
+    """The names whose digest leaves the remainder `place` when it is divided by `share`."""
     return [name for name in names if int(sha256(name.encode()).hexdigest(), 16) % share == place]
 
 

@@ -30,7 +30,7 @@ def stored_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, st
 
 
 def digest_of(modules: Sequence[str]) -> str:
-    """A digest of the sources of modules, none of which is imported, and of the ledger."""
+    """A digest of the ledger and of the sources of modules, which are not imported."""
     digest = hashlib.sha256(ROWS.read_bytes())
     for name in modules:
         spec = find_spec(name)

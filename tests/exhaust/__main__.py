@@ -56,8 +56,8 @@ def refused(
     if not reasons and whole > IN_ALL:
         longest = max(bounds, key=lambda name: bounds[name] or 0)
         return [
-            f"{len(bounds)} stages, of which {longest} is the longest, take {whole} CPU s, and what"
-            " they depend on has changed: run `make exhaust`, and commit tests/exhaust/record.tsv"
+            f"{len(bounds)} stages take {whole} CPU s, {longest} most, and what they depend on has"
+            " changed: run `make exhaust`, and commit tests/exhaust/record.tsv"
         ]
     return [
         f"{name} {why}: run `make exhaust STAGE={name}`, and commit tests/exhaust/record.tsv"

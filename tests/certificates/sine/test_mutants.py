@@ -14,7 +14,7 @@ import pytest
 from tests.certificates.sine.mutants import Mutant, noticed, read, text_of
 from tests.share import share
 
-SHARE = share(128, 4)  # one mutant in so many
+SHARE = share(128, 4)  # of this number of mutants one is tried
 MUTANTS = read()
 
 
