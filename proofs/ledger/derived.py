@@ -54,9 +54,10 @@ class Kept:
         Raises ClaimError where its text would not be read as the same value.
         """
         name = f"{function}({', '.join(map(repr, arguments))})"
-        if name in self.held:
+        if name in self.held and name not in self.asked:
             self.asked[name] = self.held[name]
-            return unpacked(self.held[name])
+        if name in self.asked:  # kept, or derived before
+            return unpacked(self.asked[name])
         module, _, called = function.rpartition(".")
         value: Value = getattr(import_module(module), called)(*arguments)
         self.asked[name] = packed(value)

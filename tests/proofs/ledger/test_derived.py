@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from juggleproof.certificates.language import ClaimError, Term, real, term
 from juggleproof.proofs.ledger import derived
 from juggleproof.proofs.ledger.derived import Kept, digest_of, packed, unpacked
+from juggleproof.proofs.paper import deriving
 from juggleproof.proofs.reading.values import Matrix, Vector
 
 STATED = """import sys
@@ -101,6 +102,14 @@ def test_rejects_a_kept_value_that_is_not_derived(tmp_path: Path) -> None:
     assert again.otherwise() == NAME
     del again.asked[NAME]
     assert again.otherwise() == NAME
+
+
+def test_a_value_is_derived_once_holds(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = list[str]()
+    monkeypatch.setattr(deriving, "value", lambda name: calls.append(name) or real(name))
+    anew = Kept(Path("none.json"))
+    found = [anew.value("juggleproof.proofs.paper.deriving.value", "x") for _ in range(2)]
+    assert found == [real("x")] * 2 and calls == ["x"]
 
 
 def test_rejects_a_value_of_another_kind() -> None:
