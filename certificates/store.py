@@ -213,12 +213,16 @@ class Store:
         """The stored certificate of this name; None where there is none, or the file cannot be
         read.
         """
+        try:
+            return self.certificates()[name]
+        except checker.Rejected:
+            return None
+
+    def certificates(self) -> Lines:
+        """The stored certificates by name; raises Rejected where their file cannot be read."""
         if self._lines is None:
-            try:
-                self._lines = lines_of(checker.load(str(self.folder / CERTIFICATES)))
-            except checker.Rejected:
-                self._lines = Lines("")
-        return self._lines[name]
+            self._lines = lines_of(checker.load(str(self.folder / CERTIFICATES)))
+        return self._lines
 
     def only(self, claims: Collection[str]) -> Store:
         """What the store has of some claims, read from their files: plain data."""

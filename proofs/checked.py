@@ -175,13 +175,12 @@ def outcomes_of(folder: Path, names: Iterable[str]) -> dict[str, str]:
     Raises ClaimError, one line, where the folder cannot be read.
     """
     try:
-        checker.load(str(folder / CERTIFICATES))
         file = written_out(checker.load(str(folder / STATEMENTS), checker.MAX_STATEMENTS))
-        store = Store(folder)
+        certificates = Store(folder).certificates()
         wanted = dict.fromkeys(name for name in names if name in file)
         below = [*wanted]
         for name in below:
-            under = {*lemmas_of(store.certificate_named(name)), *file.named_by(name)}
+            under = {*lemmas_of(certificates[name]), *file.named_by(name)}
             new = sorted(one for one in under if one in file and one not in wanted)
             wanted.update(dict.fromkeys(new))
             below += new
@@ -192,8 +191,7 @@ def outcomes_of(folder: Path, names: Iterable[str]) -> dict[str, str]:
     known: dict[str, checker.Statement] = {}
     earlier: dict[str, checker.Statement] = {}
     for name, statement in statements.items():
-        certificate = store.certificate_named(name)
-        outcomes[name], _ = checker.check_one(statement, certificate, known, earlier)
+        outcomes[name], _ = checker.check_one(statement, certificates[name], known, earlier)
         earlier[name] = statement
         if outcomes[name] == "certified":
             known[name] = statement

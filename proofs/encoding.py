@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 
 from sympy import Expr, factor, fraction
@@ -43,10 +43,21 @@ def from_sympy(expression: Expr, roots: Mapping[Expr, Term] | None = None) -> Te
 
 
 def _sum(expression: Expr, roots: Mapping[Expr, Term] | None) -> Term:
+    return signed_sum(
+        (negative, from_sympy(-part if negative else part, roots))
+        for part in expression.as_ordered_terms()
+        for negative in [part.could_extract_minus_sign()]
+    )
+
+
+def signed_sum(parts: Iterable[tuple[bool, Term]]) -> Term:
+    """The sum of terms in order, each with whether it is taken away; 0 where there are none.
+
+    >>> str(signed_sum([(True, real("x")), (False, real("y")), (True, term(2))]))
+    '-x + y - 2'
+    """
     total: Term | None = None
-    for part in expression.as_ordered_terms():
-        negative = part.could_extract_minus_sign()
-        piece = from_sympy(-part if negative else part, roots)
+    for negative, piece in parts:
         if total is None:
             total = -piece if negative else piece
         else:

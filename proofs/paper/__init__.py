@@ -27,6 +27,7 @@ claims of one's own are judged without.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from typing import TYPE_CHECKING
 
 from juggleproof.proofs import part, restitution, sine, theorem
@@ -80,6 +81,7 @@ def modules_of_claims() -> list[str]:
     return [f"{package}.{section}" for package, sections in packages for section in sections]
 
 
+@cache
 def claims_by_id() -> Mapping[str, Claim]:
     """The claims of the paper by id, in its order; each loads its module when it is first used."""
     return IndexedClaims(modules_of_claims())

@@ -29,7 +29,7 @@ from sympy import (
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import ClaimError, Formula, Term, names_in, real, term
-from juggleproof.proofs.encoding import from_sympy, positive, tidy
+from juggleproof.proofs.encoding import from_sympy, positive, signed_sum, tidy
 from juggleproof.proofs.reading.values import Matrix, Vector
 
 RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
@@ -214,18 +214,10 @@ def _equal_to(plain: Expr, written: Term) -> Term:
 
 def _sum_in_paper_form(addends: list[tuple[Expr, Expr]]) -> Term:
     """The sum of coefficients times monomials."""
-    total: Term | None = None
-    for coefficient, monomial in addends:
-        negative, part = _coefficient(factor(coefficient))
-        piece = _times(part, from_sympy(monomial))
-        total = (
-            (-piece if negative else piece)
-            if total is None
-            else total - piece
-            if negative
-            else total + piece
-        )
-    return total if total is not None else term(0)
+    parts = ((*_coefficient(factor(coefficient)), monomial) for coefficient, monomial in addends)
+    return signed_sum(
+        (negative, _times(part, from_sympy(monomial))) for negative, part, monomial in parts
+    )
 
 
 def _symbol(name: str) -> Symbol:
@@ -339,20 +331,14 @@ def _ascending(base: Expr) -> Term:
     """A sum in alpha alone by ascending powers; anything else as it is."""
     if not base.is_Add or base.free_symbols != {symbolic.alpha}:
         return from_sympy(base)
-    total: Term | None = None
-    for part in sorted(
+    parts = sorted(
         base.as_ordered_terms(), key=lambda one: one.as_powers_dict().get(symbolic.alpha, 0)
-    ):
-        negative = part.could_extract_minus_sign()
-        piece = from_sympy(-part if negative else part)
-        total = (
-            (-piece if negative else piece)
-            if total is None
-            else total - piece
-            if negative
-            else total + piece
-        )
-    return total if total is not None else term(0)
+    )
+    return signed_sum(
+        (negative, from_sympy(-part if negative else part))
+        for part in parts
+        for negative in [part.could_extract_minus_sign()]
+    )
 
 
 def _product_in_paper_form(factors: list[tuple[Term, int]]) -> Term:

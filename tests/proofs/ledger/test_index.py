@@ -37,7 +37,7 @@ def test_list_imports_no_claim_and_no_solver_holds() -> None:
 
 
 def test_an_index_that_is_not_of_the_sources_is_not_read_holds(tmp_path: Path) -> None:
-    """It is of other sources, is none, or is missing: what the sources say is told."""
+    """Where it is of other sources, is no index, or is missing, the claims are loaded."""
     modules, path = modules_of_claims(), tmp_path / "index.json"
     stored = json.loads(index.PATH.read_text())
     assert stored["sources"] == index.digest_of(modules) != index.digest_of(modules[1:])
