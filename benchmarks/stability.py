@@ -25,10 +25,7 @@ from juggleproof.benchmarks.generated import DOCS, Generated
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
-from juggleproof.proofs.stability.given import (
-    Map,
-    read_file,
-)
+from juggleproof.proofs.stability.maps import Map, read_file
 from juggleproof.proofs.stability.samples import Floats, region
 
 ROOT = Path(__file__).resolve().parents[1]

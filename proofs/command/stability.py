@@ -15,7 +15,7 @@ from juggleproof.proofs.conclusions import conclusion
 from juggleproof.proofs.run import claims_of_file
 from juggleproof.proofs.stability.claiming import as_claims
 from juggleproof.proofs.stability.findings import MapVerdict
-from juggleproof.proofs.stability.given import Map, of_rule, pairs_of, read_file
+from juggleproof.proofs.stability.maps import Map, of_rule, pairs_of, read_file
 from juggleproof.proofs.stability.search import Outcome, search_stability
 
 

@@ -1,13 +1,13 @@
-"""Stability of a map that is given alone: its fixed point, a function that falls, and for which
-parameters, or an orbit that stays away; nothing here has to be believed, since all that is said is
-certified by the checker.
+"""Stability of a map that is given alone: its fixed point, a function that falls along its orbits,
+and for which parameters, or an orbit that stays away.  Nothing here has to be believed: the checker
+certifies all that is said.
 
 In reading order, each importing those before it only:
 
-- `given`: the map, read from a file or a map rule; text evaluated in floats, rationals and SymPy.
-- `by_sign`: proofs by cases of signs that a search of functions suggests.
-- `few_facts`: proofs from few facts, which are named.
-- `certifying`: statements certified one after another, within counted work.
+- `terms`: terms and formulas as text, evaluated in floats, rationals and SymPy.
+- `maps`: maps as text, read from a file or a map rule.
+- `premise_searches`: searches for proofs of a premise that a family of functions suggests.
+- `certifying`: candidates, and statements that are certified within counted work.
 - `samples`: samples of parameters and states; points that move with the parameters.
 - `points`: fixed points by elimination, and their multipliers.
 - `domains`: for which parameters a fixed point can be stable.
@@ -15,9 +15,11 @@ In reading order, each importing those before it only:
 - `entering`: boxes that every orbit enters.
 - `refuting`: periodic orbits in exact terms.
 - `settings`: a fixed point with a part of the domain.
-- `attracting`, `failing`: that the point is stable and attracts every state, or not.
-- `algebraic`, `by_equation`: fixed points that are no square roots, as parameters: in place of an
-  old one, or with the equation that elimination leaves.
+- `findings`: what certified statements say of the map, as a sentence.
+- `attracting`: the list of strategies that show a point to be stable and to attract every state.
+- `failing`: that a point is not stable, or does not attract every state.
+- `points_as_parameters`, `points_by_equation`: fixed points that square roots do not express. Such
+  a point takes the place of a parameter, or is a further one, with an equation in the domain.
 - `search`: all of it, in order, and the outcome.
 - `claiming`: the same as a claim of one's own.
 """

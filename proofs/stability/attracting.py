@@ -1,71 +1,63 @@
-"""That a point is stable and attracts every state: the candidates, those that fit samples best
-first, until one is certified.
+"""Strategies for the proof that a point is stable and attracts every state: families of functions,
+which are tried in order until a candidate is certified.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
     EFFORTS,
+    ENVELOPE_BUDGET,
+    LOCAL_BUDGET,
+    Candidate,
     Proof,
     Report,
-    Search,
     function_of,
-    signs_of,
-    tried,
 )
 from juggleproof.proofs.stability.entering import (
     boxes_of,
     entering_rules,
-    inner,
     rules_into,
     spaces_entered,
     within,
 )
-from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_rules
-from juggleproof.proofs.stability.functions.energies import energy_rules
-from juggleproof.proofs.stability.functions.envelopes import envelope_rules
-from juggleproof.proofs.stability.functions.norms import is_affine, norm_rules
-from juggleproof.proofs.stability.functions.part_metric import part_metric_rules
+from juggleproof.proofs.stability.functions.candidates import (
+    Setting,
+    equation_candidates,
+    lyapunov_candidates,
+)
+from juggleproof.proofs.stability.functions.contracting_boxes import contracting_box_candidates
+from juggleproof.proofs.stability.functions.energies import energy_candidates
+from juggleproof.proofs.stability.functions.envelopes import envelope_candidates
+from juggleproof.proofs.stability.functions.norms import (
+    is_affine,
+    local_norm_candidates,
+    norm_candidates,
+)
+from juggleproof.proofs.stability.functions.part_metric import part_metric_candidates
 from juggleproof.proofs.stability.functions.ratios import (
-    ratio_rules,
-    weighted_distance_rules,
+    ratio_candidates,
+    weighted_distance_candidates,
 )
-from juggleproof.proofs.stability.functions.saturated import saturated_rules
-from juggleproof.proofs.stability.functions.second_iterate import (
-    licensed_space,
-    second_iterate_rules,
-)
+from juggleproof.proofs.stability.functions.saturated import saturated_candidates
+from juggleproof.proofs.stability.functions.second_iterate import second_iterate_candidates
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     lyapunov_functions,
     quadratic_templates,
     sum_of_quotients,
 )
-from juggleproof.proofs.stability.functions.two_sided import two_sided_rules
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    equation_rules,
-    lyapunov_rules,
-)
-from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_rules
-from juggleproof.proofs.stability.given import (
-    as_factor,
-    atoms,
-    renamed,
-    written,
-)
-from juggleproof.proofs.stability.samples import (
-    around,
-    region,
-)
+from juggleproof.proofs.stability.functions.two_sided import two_sided_candidates
+from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_candidates
+from juggleproof.proofs.stability.samples import around, region
 from juggleproof.proofs.stability.settings import known_of
+from juggleproof.proofs.stability.terms import as_factor, atoms, renamed, written
 
 SIGNS_BUDGET = 1_000_000
 MOST_WORK = 4_000_000  # on all candidates of a kind
@@ -78,7 +70,94 @@ ROUNDS = (  # efforts, budget, and how many of the candidates get it
 )
 MOST_BOXES, BOX_BUDGET = 3, 300_000
 FIRST_BUDGET, INTERVAL_BUDGET = 40_000, 600_000
-NO_SEARCH: dict[str, Search] = {}
+LOCAL_TRIED = 3  # statements of states close to a point
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """A family of functions, with the counted work for a premise of a candidate.
+
+    affine: whether it is for maps alone all of whose pieces are affine; best: how many candidates
+    are tried, those of least rank, where it is not 0; first: how many, as they come; licensed:
+    whether V may divide by what its set alone says to be positive.
+    """
+
+    candidates: Callable[[Setting], Iterable[Candidate]]
+    efforts: Sequence[int] = (1, 2)
+    budget: int = BUDGET
+    affine: bool = False
+    best: int = 0
+    first: int | None = None
+    licensed: bool = False
+
+    def settles(self, proof: Proof, setting: Setting, log: Report) -> bool:
+        """Whether a candidate is certified."""
+        if self.affine and not is_affine(setting.system):
+            return False
+        every = self.candidates(setting)
+        if self.best:
+            every = sorted(every, key=lambda one: one.rank)[: self.best]
+        return any(self.takes(proof, setting, one, log) for one in islice(every, self.first))
+
+    def takes(self, proof: Proof, setting: Setting, one: Candidate, log: Report) -> bool:
+        """Whether one candidate is certified: for the map, or for the map on the candidate's set,
+        which every orbit enters.
+        """
+        if not self.licensed:
+            return proof.takes(one, self.efforts, self.budget, log)
+        if proof.takes(of_map(one, setting), self.efforts, self.budget, log):
+            return True
+        if setting.outer or not proof.fault.startswith(checker.Kind.DIVISION.value):
+            return False
+        space, count = dict(one.rule.rows)["on"], len(proof.rules)
+        part = setting.inside(space)
+        if proof.add(part.system.rule(f"{part.system.name}/{part.map}")):
+            if proof.takes(of_map(one, part), self.efforts, self.budget, log):
+                if proof.add_all(rules_into(replace(setting, domain=proof.domain()), [space])):
+                    return True
+        proof.keep(count)
+        return False
+
+
+def of_map(one: Candidate, setting: Setting) -> Candidate:
+    """The candidate whose statement is about the map of this setting."""
+    rows = (("map", f"{setting.system.name}/{setting.map}"), *one.rule.rows[1:])
+    return replace(one, rules=(replace(one.rule, rows=rows),))
+
+
+def two_sided_without_searches(setting: Setting) -> Iterator[Candidate]:
+    """Two-sided candidates for a second time: what their own searches find does not depend on the
+    budget.
+    """
+    return (replace(one, searches={}) for one in two_sided_candidates(setting))
+
+
+BY_SHAPE = (  # functions that the shape of the map suggests, in order
+    Strategy(norm_candidates, EFFORTS, affine=True),
+    Strategy(weighted_sum_candidates, budget=SIGNS_BUDGET, affine=True),
+    Strategy(saturated_candidates, budget=SIGNS_BUDGET, affine=True),
+    Strategy(energy_candidates, EFFORTS, BOX_BUDGET, affine=True),
+    Strategy(equation_candidates, EFFORTS, affine=True),
+    Strategy(part_metric_candidates, budget=BOX_BUDGET, best=MOST_BOXES),
+    Strategy(two_sided_candidates, budget=FIRST_BUDGET, best=MOST_BOXES),
+    Strategy(second_iterate_candidates, budget=BOX_BUDGET, licensed=True),
+    Strategy(ratio_candidates, budget=BOX_BUDGET, licensed=True),
+    Strategy(weighted_distance_candidates, budget=BOX_BUDGET, licensed=True),
+    Strategy(contracting_box_candidates, budget=ENVELOPE_BUDGET),
+)
+ENVELOPE = Strategy(envelope_candidates, budget=ENVELOPE_BUDGET, first=ENVELOPES)
+CLOSED = replace(ENVELOPE, candidates=partial(envelope_candidates, closed=True))
+IN_BETWEEN = (  # between the rounds of functions that fit samples
+    Strategy(two_sided_without_searches, budget=INTERVAL_BUDGET, best=MOST_BOXES),
+    ENVELOPE,
+    CLOSED,
+)
+CLOSE_BY = Strategy(local_norm_candidates, budget=LOCAL_BUDGET, first=LOCAL_TRIED)
+
+
+def settled_by(strategies: Iterable[Strategy], proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether a candidate of one of these strategies is certified."""
+    return any(one.settles(proof, setting, log) for one in strategies)
 
 
 def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
@@ -87,16 +166,14 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     """
     boxes, count = boxes_of(setting.system), len(proof.rules)
     part = within(setting, boxes[-1]) if boxes else setting
-    if not by_shape(proof, part, log):
+    if not settled_by(BY_SHAPE, proof, part, log):
         if not boxes and any(in_entered(proof, setting, far, log) for far in (False, True)):
             return True
         if not by_samples(proof, part, log):
             return False
-    if boxes:
-        setting = replace(setting, domain=proof.domain())
-        if not proof.add_all(entering_rules(setting, boxes, setting.system.name), EFFORTS, log):
-            proof.keep(count)
-            return False
+    if boxes and not proof.add_all(entering_rules(replace(setting, domain=proof.domain()), boxes)):
+        proof.keep(count)
+        return False
     return True
 
 
@@ -105,86 +182,11 @@ def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
     spaces = spaces_entered(setting, far)
     if not spaces:
         return False
-    count, part = len(proof.rules), inner(setting, spaces[-1])
+    count, part = len(proof.rules), setting.inside(spaces[-1])
     part = replace(part, have=known_of(part))
-    if not proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
-        if by_shape(proof, part, log):
-            inside = replace(setting, domain=proof.domain())
-            if proof.add_all(rules_into(inside, spaces), EFFORTS, log):
-                return True
-    proof.keep(count)
-    return False
-
-
-def by_shape(proof: Proof, setting: Setting, log: Report) -> bool:
-    """The same by functions that the shape of the map suggests: for pieces that are affine, and for
-    sublevel sets that are boxes.
-    """
-    name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    if is_affine(setting.system):
-        for rule in norm_rules(setting, name):
-            if not tried(proof, rule, EFFORTS, BUDGET, log):
-                return True
-        for rule, signs, searches in weighted_sum_rules(setting, space, name):
-            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs, searches):
-                return True
-        for rule, signs in saturated_rules(setting, space, name):
-            if not tried(proof, rule, (1, 2), SIGNS_BUDGET, log, signs):
-                return True
-        for rule, searches in energy_rules(setting, space, name):
-            if not tried(proof, rule, EFFORTS, BOX_BUDGET, log, searches=searches):
-                return True
-        before = proof.work
-        for rule in equation_rules(setting, space, name):
-            if proof.work - before >= MOST_WORK:
-                break
-            if not tried(proof, rule, EFFORTS, BUDGET, log, signs_of(rule)):
-                return True
-    if in_boxes(proof, setting, log):
-        return True
-    if len(setting.system.state) == 1:
-        return by_second_iterate(proof, setting, log)
-    for rule, searches in (*ratio_rules(setting, name), *weighted_distance_rules(setting, name)):
-        if certified_on(proof, setting, rule, searches, log):
-            return True
-    chains = contracting_box_rules(setting, setting.system.name)
-    return any(proof.add_all(chain, (1, 2), log, None, searches) for chain, searches in chains)
-
-
-def by_second_iterate(proof: Proof, setting: Setting, log: Report) -> bool:
-    """The same for a map of one variable that decreases, on the space where its images divide by
-    nothing that is 0.
-    """
-    space, name = licensed_space(setting), f"{setting.system.name}/lyapunov"
-    part = setting if space == setting.system.space else inner(setting, space)
-    return any(
-        certified_on(proof, setting, rule, searches, log)
-        for rule, searches in second_iterate_rules(part, space, name)
-    )
-
-
-def certified_on(
-    proof: Proof,
-    setting: Setting,
-    rule: MapRule,
-    searches: Mapping[str, Search],
-    log: Report,
-) -> bool:
-    """Whether a statement is certified; where V divides by what only its set says to be positive,
-    for the map on this set, with the statements that this is the whole space.
-    """
-    whole = replace(rule, rows=(("map", f"{setting.system.name}/{setting.map}"), *rule.rows[1:]))
-    fault = tried(proof, whole, (1, 2), BOX_BUDGET, log, searches=searches)
-    if not fault.startswith(checker.Kind.DIVISION.value):
-        return not fault
-    space, count = dict(rule.rows)["on"], len(proof.rules)
-    part = inner(setting, space)
-    name = f"{setting.system.name}/{part.map}"
-    inside = replace(rule, rows=(("map", name), *rule.rows[1:]))
-    if not setting.outer and not proof.add(part.system.rule(name)):
-        if not tried(proof, inside, (1, 2), BOX_BUDGET, log, searches=searches):
-            licensed = replace(setting, domain=proof.domain())
-            if proof.add_all(rules_into(licensed, [space]), EFFORTS, log):
+    if proof.add(part.system.rule(f"{setting.system.name}/{part.map}")):
+        if settled_by(BY_SHAPE, proof, part, log):
+            if proof.add_all(rules_into(replace(setting, domain=proof.domain()), spaces)):
                 return True
     proof.keep(count)
     return False
@@ -192,51 +194,23 @@ def certified_on(
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
     """The same by functions that fit samples, those that are simple and fit well first."""
-    name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    every = {rule: rank for rank, rule in candidates(setting, space, name)}  # each once
-    found = sorted(((rank, rule) for rule, rank in every.items()), key=lambda one: one[0])
+    every = {one.rule: one for one in fitting_candidates(setting)}  # each once
+    found = sorted(every.values(), key=lambda one: one.rank)
     before = proof.work
     for count, (efforts, budget, most) in enumerate(ROUNDS):
-        for _, rule in found[:most]:
+        for one in found[:most]:
             if proof.work - before >= MOST_WORK:
                 break
-            if not tried(proof, rule, efforts, budget, log):
+            if proof.takes(one, efforts, budget, log):
                 return True
-        if count == 1 and (
-            len(setting.system.state) == 1
-            and in_boxes(proof, setting, log, INTERVAL_BUDGET)
-            or any(enveloped(proof, setting, log, closed) for closed in (False, True))
-        ):
+        if count == 1 and settled_by(IN_BETWEEN, proof, setting, log):
             return True
     if not found:
         log("no quadratic function, by pieces or over bounds of the space, falls at all samples")
         return False
-    best = found[0][1]
-    fault = proof.add(best, *ROUNDS[0][:2])
-    log(f"{function_of(best)}: {proof.why() or fault}")
-    return not fault
-
-
-def enveloped(proof: Proof, setting: Setting, log: Report, closed: bool) -> bool:
-    """Whether the point of a map of one variable is certified, by an envelope, to be stable and to
-    attract every state; `closed`: with the loss of a multiplier that may be -1.
-    """
-    rules = islice(envelope_rules(setting, setting.system.name, closed), ENVELOPES)
-    signs = {"bounded": [f"{name}_gap" for name in setting.system.state]}
-    return any(proof.add_all(one, (1, 2), log, signs) for one in rules)
-
-
-def in_boxes(proof: Proof, setting: Setting, log: Report, budget: int = 0) -> bool:
-    """The same, by functions whose sublevel sets are boxes; of one variable, intervals."""
-    name, space = f"{setting.system.name}/lyapunov", setting.system.space
-    again = bool(budget)  # what searches of their own come to does not depend on it
-    budget = budget or (BOX_BUDGET if len(setting.system.state) > 1 else FIRST_BUDGET)
-    every = [(rank, rule, NO_SEARCH) for rank, rule in part_metric_rules(setting, space, name)]
-    every += two_sided_rules(setting, space, name)
-    return any(
-        not tried(proof, rule, (1, 2), budget, log, searches=NO_SEARCH if again else searches)
-        for _, rule, searches in sorted(every, key=lambda one: one[0])[:MOST_BOXES]
-    )
+    taken = proof.add(found[0].rule, *ROUNDS[0][:2])
+    log(f"{function_of(found[0].rule)}: {proof.why() or proof.fault}")
+    return taken
 
 
 def divisors(setting: Setting) -> list[str]:
@@ -255,10 +229,8 @@ def divisors(setting: Setting) -> list[str]:
     return several + found + both
 
 
-def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
-    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
-    is simple and fits well.
-    """
+def fitting_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates for sums of terms that samples do not refute."""
     system, point = setting.system, setting.point
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
     positive = divisors(setting)
@@ -270,5 +242,5 @@ def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, Ma
         for numbers in lyapunov_functions(template, system, setting.states.points, tests.points):
             terms = template.terms(numbers)
             function = Function(tuple(terms), template.parts, template.divisor)
-            for rank, rule in lyapunov_rules(setting, function, on, name):
-                yield rank + kind + len(" ".join(terms)) / 100, rule
+            for one in lyapunov_candidates(setting, function):
+                yield replace(one, rank=one.rank + kind + len(" ".join(terms)) / 100)

@@ -17,11 +17,8 @@ from juggleproof.certificates.votes.vote import Budget as Votes
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
-from juggleproof.proofs.stability.by_sign import proof_by_signs
-from juggleproof.proofs.stability.few_facts import proof_without_next
-from juggleproof.proofs.stability.given import (
-    conjuncts,
-)
+from juggleproof.proofs.stability.premise_searches import proof_without_next
+from juggleproof.proofs.stability.terms import conjuncts
 
 BUDGET = 2_000_000  # counted work for a premise
 LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
@@ -35,6 +32,34 @@ Report = Callable[[str], None]
 Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
 
 
+@dataclass(frozen=True)
+class Candidate:
+    """Statements that are certified together or not at all.  One of them has a function V, whose
+    premises have searches of their own; `budget` is the counted work for each, or 0; `rank` is
+    small where V is simple and its constants fit samples well.
+    """
+
+    rules: tuple[MapRule, ...]
+    searches: Mapping[str, Search] = field(default_factory=dict)
+    rank: float = 0.0
+    budget: int = 0
+
+    @property
+    def rule(self) -> MapRule:
+        """The statement with a function V."""
+        return next(one for one in self.rules if "value" in dict(one.rows))
+
+
+def either(*searches: Search) -> Search:
+    """A search that makes these searches in order, until one of them finds a proof."""
+
+    def search(premise: checker.Statement, known: dict[str, checker.Statement]) -> Premise | None:
+        found = (one(premise, known) for one in searches)
+        return next((proof for proof in found if proof is not None), None)
+
+    return search
+
+
 @dataclass
 class Proof:
     """Statements with certificates, in order."""
@@ -43,6 +68,7 @@ class Proof:
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
     budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
+    fault: str = ""  # why the last statement was not certified, if it was not
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
     work: int = 0  # that was spent on premises
     most: int = MOST_WORK  # of it
@@ -54,13 +80,17 @@ class Proof:
         rule: MapRule,
         efforts: Sequence[int] = EFFORTS,
         budget: int = BUDGET,
-        signs: Mapping[str, Sequence[str]] | None = None,
         searches: Mapping[str, Search] | None = None,
-    ) -> str:
-        """Certifies one more statement; the premise that is open, or nothing.  signs: for some
-        premises, polynomials whose signs are the cases of a proof; searches: for some, what is
-        tried first.
+    ) -> bool:
+        """Whether one more statement is certified; `fault` says why it is not.  Some premises have
+        searches, which are made first.
         """
+        self.fault = self._fault(rule, efforts, budget, searches or {})
+        return not self.fault
+
+    def _fault(
+        self, rule: MapRule, efforts: Sequence[int], budget: int, searches: Mapping[str, Search]
+    ) -> str:
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         proofs: dict[str, Premise] = {}
         self.open = None
@@ -69,11 +99,7 @@ class Proof:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proof = None
-                if searches and name in searches:
-                    proof = searches[name](premises[name], self.known)
-                if proof is None and signs and name in signs:
-                    proof = proof_by_signs(premises[name], self.known, signs[name])
+                proof = searches[name](premises[name], self.known) if name in searches else None
                 work = budget * self.budget // BUDGET
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
                 if name.startswith("stage"):
@@ -109,28 +135,31 @@ class Proof:
         rows = (dict(rule.rows) for rule in reversed(self.rules))
         return next(each["domain"] for each in rows if "domain" in each)
 
-    def add_all(
-        self,
-        rules: Sequence[MapRule],
-        efforts: Sequence[int],
-        report: Report,
-        signs: Mapping[str, Sequence[str]] | None = None,
-        searches: Mapping[str, Search] | None = None,
+    def takes(
+        self, candidate: Candidate, efforts: Sequence[int], budget: int, report: Report
     ) -> bool:
-        """Certifies all of these statements, or none; signs, searches: for premises of those with
-        a V.
+        """Whether all statements of a candidate are certified; else none is added.  The efforts and
+        the budget are those for the statement with a function V, which the report names.
         """
         count = len(self.rules)
-        for rule in rules:
-            if dict(rule.rows).get("value"):
-                budget = BUDGET // 4 if searches else ENVELOPE_BUDGET
-                fault = tried(self, rule, efforts, budget, report, signs, searches)
+        for rule in candidate.rules:
+            if rule is candidate.rule:
+                self.add(rule, efforts, candidate.budget or budget, candidate.searches)
+                report(f"{function_of(rule)}: {self.fault or 'certified'}")
             else:
-                fault = self.add(rule)
-            if fault:
+                self.add(rule)
+            if self.fault:
                 self.keep(count)
                 return False
         return True
+
+    def add_all(self, rules: Sequence[MapRule]) -> bool:
+        """Whether all of these statements are certified; else none is added."""
+        count = len(self.rules)
+        if all(self.add(rule) for rule in rules):
+            return True
+        self.keep(count)
+        return False
 
     def keep(self, count: int) -> None:
         """Leaves the first `count` statements only."""
@@ -190,26 +219,6 @@ def terms_of_pairs(premise: checker.Statement) -> int:
     unfolding = unfolded(premise)
     state = state_of(unfolding).assume(unfolding.goal(False))
     return 0 if state.choices else sum(len(poly.terms) for poly, _ in state.facts) ** 2 // 2
-
-
-def tried(
-    proof: Proof,
-    rule: MapRule,
-    efforts: Sequence[int],
-    budget: int,
-    report: Report,
-    signs: Mapping[str, Sequence[str]] | None = None,
-    searches: Mapping[str, Search] | None = None,
-) -> str:
-    """Tries to certify a candidate."""
-    fault = proof.add(rule, efforts, budget, signs, searches)
-    report(f"{function_of(rule)}: {fault or 'certified'}")
-    return fault
-
-
-def signs_of(rule: MapRule) -> dict[str, list[str]]:
-    """The sign of a function of one term as the cases of the premise that it is not negative."""
-    return {"bounded": [text for keyword, text in rule.rows if keyword == "value"]}
 
 
 def function_of(rule: MapRule) -> str:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.proofs.stability.findings import MapVerdict
-from juggleproof.proofs.stability.given import of_rule
+from juggleproof.proofs.stability.maps import of_rule
 from juggleproof.proofs.stability.search import Outcome, search_stability
 
 

@@ -14,18 +14,10 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import bounds_of
-from juggleproof.proofs.stability.given import (
-    Expr,
-    Map,
-    atoms,
-    expression,
-    holds,
-    symbols,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.samples import Arrays
+from juggleproof.proofs.stability.terms import Expr, atoms, holds, symbols, value, written
 
 MOST_ENDS = 81  # three values of each of four parameters
 
@@ -36,15 +28,15 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
     """
     state = symbols(system.state)
     at = dict(zip(state, fixed.terms))
-    guard, images = system.pieces[fixed.piece]
+    guard, _ = system.pieces[fixed.piece]
     space, found = atoms(system.space), []
     for poly, strict in atoms(conjunction(system.space, guard)):
         if poly.free_symbols & set(state):
             term = poly.xreplace(at)
             inside = strict or (poly, strict) not in space and jumps(system, fixed, term)
             found.append((term, inside))
-    matrix = sympy.Matrix(list(map(expression, images))).jacobian(state)
-    matrix = matrix.xreplace(at).applyfunc(sympy.together)  # of smaller terms than what det makes
+    matrix = system.derivatives[fixed.piece].xreplace(at)
+    matrix = matrix.applyfunc(sympy.together)  # its terms are smaller than those of `det`
     if len(state) == 1:
         found += [(1 - matrix[0, 0], True), (1 + matrix[0, 0], not closed)]
     elif len(state) == 2:

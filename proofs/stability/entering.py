@@ -14,23 +14,19 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import (
-    HIGH,
-    LOW,
+from juggleproof.proofs.stability.functions.candidates import Setting
+from juggleproof.proofs.stability.maps import HIGH, LOW, Map, Side, ends_of_space
+from juggleproof.proofs.stability.samples import SEED, STATES, Arrays, Floats, around
+from juggleproof.proofs.stability.terms import (
     Expr,
-    Map,
-    Side,
     atoms,
     column,
     conjuncts,
-    ends_of_space,
     expression,
     holds,
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import SEED, STATES, Arrays, Floats, around
 
 SHARE = 0.3  # of the states that are put at an end
 
@@ -39,7 +35,7 @@ def boxes_of(system: Map) -> list[str]:
     """For one step after another, bounds that hold of all states so many steps after any state of
     the space, until nothing more is found.
 
-    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("state", "x y"), ("piece", "max(-1, min(1, x + y)), x/2")]
     >>> boxes_of(read_rows("clipped", rows))
     ['x <= 1 and x >= -1', 'x <= 1 and x >= -1 and y <= 1/2 and y >= -1/2']
@@ -101,26 +97,15 @@ def within(setting: Setting, box: str) -> Setting:
     return replace(setting, system=system, states=states, outer=setting.system.space)
 
 
-def entering_rules(setting: Setting, boxes: Sequence[str], name: str) -> list[MapRule]:
+def entering_rules(setting: Setting, boxes: Sequence[str]) -> list[MapRule]:
     """The statements that every orbit enters the last box, if there is one, and that the point
     attracts the whole space.
     """
-    stages = [conjunction(setting.system.space, box) for box in boxes]
+    space = setting.system.space
+    stages = (space, *(conjunction(space, box) for box in boxes))
     return [
-        MapRule(
-            f"{name}/descends",
-            (
-                ("map", f"{name}/map"),
-                ("domain", setting.domain),
-                ("rank", "0"),
-                ("stage", setting.system.space),
-                *(("stage", stage) for stage in stages),
-            ),
-        ),
-        MapRule(
-            f"{name}/attracts",
-            (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov")),
-        ),
+        setting.descent("descends", "map", "0", *stages),
+        setting.attraction("attracts", "descends"),
     ]
 
 
@@ -216,13 +201,6 @@ def _at(term: Expr, points: Arrays) -> Floats:
     return column(written(term), points, count)
 
 
-def inner(setting: Setting, space: str) -> Setting:
-    """The same point of the map on this part of the space."""
-    system = replace(setting.system, space=space)
-    states = around(system, setting.point, setting.parameters, STATES)
-    return replace(setting, system=system, states=states, map="map-1")
-
-
 def radius_of(setting: Setting, space: str) -> str:
     """Less than the point's distances to the ends that this part of the space adds: the least of
     positive numbers is above 1/(the sum of 1/each).
@@ -241,21 +219,10 @@ def rules_into(setting: Setting, spaces: Sequence[str]) -> list[MapRule]:
     """The statements that every orbit enters the last of the spaces, and that the point attracts
     all states, as it attracts those.
     """
-    name = setting.system.name
-    stages = [("stage", space) for space in (setting.system.space, *spaces)]
-    rank = [("domain", setting.domain), ("rank", "0")]
-    descent, lyapunov = f"{name}/descends-1", f"{name}/lyapunov"
-    attraction = ("attraction", f"{name}/attracts-1")
+    stages = (setting.system.space, *spaces)
     return [
-        MapRule(descent, (("map", f"{name}/map-1"), *rank, stages[-1])),
-        MapRule(attraction[1], (("descent", descent), ("lyapunov", lyapunov))),
-        MapRule(f"{name}/descends", (("map", f"{name}/map"), *rank, *stages)),
-        MapRule(
-            f"{name}/attracts",
-            (
-                ("descent", f"{name}/descends"),
-                attraction,
-                ("radius", radius_of(setting, spaces[-1])),
-            ),
-        ),
+        setting.descent("descends-1", "map-1", "0", spaces[-1]),
+        setting.attraction("attracts-1", "descends-1"),
+        setting.descent("descends", "map", "0", *stages),
+        setting.attraction("attracts", "descends", "attracts-1", radius_of(setting, spaces[-1])),
     ]

@@ -15,9 +15,9 @@ from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report
 from juggleproof.proofs.stability.entering import entering_rules
 from juggleproof.proofs.stability.findings import is_fixed_point
+from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.chetaev import chetaev_rules
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import Map, conjuncts, negation
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.refuting import (
     escape_rules,
@@ -26,6 +26,7 @@ from juggleproof.proofs.stability.refuting import (
     words_of_stray_orbits,
 )
 from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import conjuncts, negation
 
 GROWTH_ROUNDS, GROWTH_WORK = (((1, 2), 50_000), (EFFORTS, 400_000)), 2_000_000  # for instability
 MOST_RATES = 6  # of growth
@@ -80,12 +81,11 @@ def sharp(
     are put together.
     """
     name = setting.system.name
-    rules = [] if f"{name}/attracts" in proof.known else entering_rules(setting, (), name)
+    rules = [] if f"{name}/attracts" in proof.known else entering_rules(setting, ())
     exactly = MapRule(f"{name}/exactly", (("attraction", f"{name}/attracts"), *refutations))
     for rule in [*rules, exactly]:
-        fault = "" if rule.name in proof.known else proof.add(rule)
-        if fault:
-            log(f"{rule.name}: {fault}")
+        if rule.name not in proof.known and not proof.add(rule):
+            log(f"{rule.name}: {proof.fault}")
             return False
     return True
 
@@ -110,11 +110,10 @@ def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], lo
         if not count and not is_fixed(setting):
             log("it is not certified that the point is a fixed point")
             return False
-        fault = proof.add(rule)
-        said = dict(rule.rows)
+        taken, said = proof.add(rule), dict(rule.rows)
         roots = "".join(f", {text}" for keyword, text in rule.rows if keyword == "root")
-        log(f"orbit of {said['start']}{roots}, along {said['word']}: {fault or 'certified'}")
-        if not fault:
+        log(f"orbit of {said['start']}{roots}, along {said['word']}: {proof.fault or 'certified'}")
+        if taken:
             return True
     return False
 
@@ -139,9 +138,9 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in found:
             if proof.work - before > GROWTH_WORK:
                 return False
-            fault = proof.add(rule, efforts, budget)
-            log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
-            if not fault:
+            taken = proof.add(rule, efforts, budget)
+            log(f"instability at rate {dict(rule.rows)['rate']}: {proof.fault or 'certified'}")
+            if taken:
                 return True
     return False
 

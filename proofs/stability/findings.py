@@ -18,8 +18,9 @@ from juggleproof.certificates.language import MapRule, bounds_of, interval_text
 from juggleproof.proofs import conclusions
 from juggleproof.proofs.conclusions import ATTRACT, ATTRACTS, STABLE, Lines, terms_of
 from juggleproof.proofs.stability.certifying import beyond, is_certified
-from juggleproof.proofs.stability.given import Map, conjuncts, expression, renamed, written
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.samples import divides
+from juggleproof.proofs.stability.terms import conjuncts, expression, renamed, written
 
 OF_SETS = {"lyapunov", "contracts"}  # kinds of statements: a point attracts a set
 OF_SPACES = {"attracts", "into"}  # it attracts the whole space

@@ -10,16 +10,9 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from juggleproof.proofs.stability.given import (
-    Expr,
-    Map,
-    expression,
-    holds,
-    symbols,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region, without_equations
+from juggleproof.proofs.stability.terms import Expr, expression, holds, symbols, value, written
 
 PARAMETERS = 150  # samples
 VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables that are free
@@ -58,7 +51,7 @@ class FixedPoint:
 
     def multiplier(self, system: Map, parameters: Arrays) -> Floats:
         """The largest modulus of an eigenvalue of the derivative of its piece there."""
-        matrix = sympy.Matrix(system.images[self.piece]).jacobian(symbols(system.state))
+        matrix = system.derivatives[self.piece]
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
         size = len(states[system.state[0]])
@@ -185,14 +178,6 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
         return Point(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
     except Exception:  # what SymPy solves by other functions is no term
         return None
-
-
-def with_expanded_roots(term: Expr) -> Expr:
-    """The term with what is under a root written in one way, so that equal roots have one name."""
-    return term.replace(
-        lambda one: one.is_Pow and not one.exp.is_Integer,
-        lambda one: sympy.expand(one.base) ** one.exp,
-    )
 
 
 def without_root_below(term: Expr, root: Expr, under: Expr) -> Expr:

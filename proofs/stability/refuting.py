@@ -14,17 +14,10 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below
 from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import Setting, bounded_below
-from juggleproof.proofs.stability.given import (
-    Expr,
-    Map,
-    column,
-    expression,
-    holds,
-    symbols,
-)
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import as_point, solutions
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -37,6 +30,7 @@ from juggleproof.proofs.stability.samples import (
     with_point_licences,
     without_equations,
 )
+from juggleproof.proofs.stability.terms import Expr, column, expression, holds, symbols
 
 LONGEST = 12  # period that is looked for
 MOST_AFFINE = 300  # words of affine pieces, the shortest first
@@ -232,13 +226,9 @@ def instability_rules(setting: Setting, name: str) -> Iterator[MapRule]:
     for side in ("+", "-"):
         for _, more in bounded_below(excess, setting.products):
             for radius in filter(grows(setting, more), _radii(setting, more)):
-                rows = [
-                    ("direction", f"{system.state[0]}_point {side} distance"),
-                    ("rate", f"1 + {more}"),
-                    ("radius", radius),
-                    ("upper", f"({radius})^2"),
-                ]
-                yield setting.rule(name, Function((f"{gap}^2",)), rows)
+                rows = [("rate", f"1 + {more}"), ("radius", radius), ("upper", f"({radius})^2")]
+                direction = [("direction", f"{system.state[0]}_point {side} distance")]
+                yield setting.rule(name, Function((f"{gap}^2",)), rows, after=direction)
 
 
 def _radii(setting: Setting, more: str) -> list[str]:

@@ -18,9 +18,9 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.cases import checker_text, conjunction
 from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import bounds_of
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.maps import Map
+from juggleproof.proofs.stability.terms import (
     Expr,
-    Map,
     atoms,
     column,
     conjuncts,

@@ -7,23 +7,25 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import compress, islice
+from itertools import compress
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.proofs.conclusions import STABLE
-from juggleproof.proofs.stability.algebraic import MOST_DEGREE, Renamed, by_its_point
-from juggleproof.proofs.stability.attracting import attracted, by_shape, enveloped
-from juggleproof.proofs.stability.by_equation import by_an_equation
+from juggleproof.proofs.stability.attracting import (
+    BY_SHAPE,
+    CLOSE_BY,
+    CLOSED,
+    attracted,
+    settled_by,
+)
 from juggleproof.proofs.stability.certifying import (
     BUDGET,
-    LOCAL_BUDGET,
     MORE_WORK,
     MOST_WORK,
     Proof,
     Report,
     beyond,
     is_certified,
-    tried,
 )
 from juggleproof.proofs.stability.domains import failing_at_ends, middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
@@ -44,16 +46,17 @@ from juggleproof.proofs.stability.findings import (
     in_brackets,
     without_fixed_point,
 )
-from juggleproof.proofs.stability.functions.norms import local_rules
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import Map, conjuncts, negation
+from juggleproof.proofs.stability.functions.candidates import Setting
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
+from juggleproof.proofs.stability.points_as_parameters import MOST_DEGREE, Renamed, by_its_point
+from juggleproof.proofs.stability.points_by_equation import by_an_equation
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import conjuncts, negation
 
 HEAD = "fixed point "  # of the lines on what was tried for one
 MOST_REFUTED = 3  # fixed points
-LOCAL_TRIED = 3  # statements of states close to a point
 SAMPLES = 1000  # states, at which pieces apply that are not empty
 FEW_PIECES = 3  # of which none is looked at
 EMPTY_BUDGET = 20_000  # of counted work for a piece that none of them is in
@@ -103,9 +106,8 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
         none = f"no parameters were found in the domain {given.domain}{hint}"
         shown = [f"forall {' '.join(system.parameters)}", f"show {negation(given.domain)}"]
         return f"the domain {given.domain} is empty" if is_certified(shown) else none
-    fault = proof.add(system.rule(f"{system.name}/map"))
-    if fault:
-        line, _, text = (proof.why() or fault).partition("\n")
+    if not proof.add(system.rule(f"{system.name}/map")):
+        line, _, text = (proof.why() or proof.fault).partition("\n")
         if [guard for guard, _ in given.pieces] != [guard for guard, _ in system.pieces]:
             line += "; a piece applies only where it divides by nothing that is 0"
         if text:
@@ -164,7 +166,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
             middle = conjunction(inner, *middle_of(system, inner))
             for domain in dict.fromkeys((inner, middle)):
                 setting = setting_of(system, fixed, domain)
-                if setting.count and near_by(proof, setting, log):
+                if setting.count and CLOSE_BY.settles(proof, setting, log):
                     return ""
     return f"no fixed point was certified to be {STABLE}, or not to be"
 
@@ -175,7 +177,7 @@ def of_several(other: Renamed, budget: int, log: Report) -> Outcome | None:
     """
     system = with_licences(other.system)
     proof = Proof(budget=budget, most=MORE_WORK * budget // BUDGET)
-    if not proof.add(system.rule(f"{system.name}/map")):
+    if proof.add(system.rule(f"{system.name}/map")):
         for fixed in fixed_points(system):
             log(head_of(fixed))
             if by_orbit(proof, setting_of(system, fixed, system.domain), log):
@@ -205,7 +207,7 @@ def without_empty_pieces(system: Map) -> Map:
     """The map without the pieces that apply at no state, as it is certified: of cases of abs, max
     and min, many exclude each other.
 
-    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("state", "x"), ("piece", "max(x - 1, 0) + min(x + 1, 0)")]
     >>> [guard for guard, _ in without_empty_pieces(read_rows("gap", rows)).pieces]
     ['x - 1 >= 0 and 0 < x + 1', '0 > x - 1 and x + 1 <= 0', '0 > x - 1 and 0 < x + 1']
@@ -233,14 +235,6 @@ def lines_named(system: Map, fault: str) -> str:
     return f", line{'s' * (len(rows) > 1)} {', '.join(map(str, rows))}" if rows else ""
 
 
-def near_by(proof: Proof, setting: Setting, log: Report) -> bool:
-    """Whether something is certified of states close to the point."""
-    rules = local_rules(setting, f"{setting.system.name}/lyapunov")
-    return any(
-        not tried(proof, rule, (1, 2), LOCAL_BUDGET, log) for rule in islice(rules, LOCAL_TRIED)
-    )
-
-
 def head_of(fixed: FixedPoint, split: Sequence[str] = ()) -> str:
     """The line above what was tried for a fixed point, with the roots in it and the conditions."""
     roots = [f", {name} = sqrt({under})" for name, under in fixed.point.roots]
@@ -266,10 +260,10 @@ def settled(
     if not setting.count:
         return False
     if not split and by_orbit(proof, setting, log):
-        near_by(proof, setting, log)
+        CLOSE_BY.settles(proof, setting, log)
         return True
     if closed:
-        if not enveloped(proof, setting, log, closed):
+        if not CLOSED.settles(proof, setting, log):
             return False
     elif not attracted(proof, setting, log):
         smaller = setting_of(system, fixed, inner, by_samples=True)
@@ -278,7 +272,7 @@ def settled(
             if not middle:
                 return False
             smaller = setting_of(system, fixed, conjunction(inner, *middle), by_samples=True)
-            return by_shape(proof, smaller, log)
+            return settled_by(BY_SHAPE, proof, smaller, log)
         setting = smaller
     found = finding_of(given, proof.rules, proof.known)
     if found and found.condition:
@@ -294,7 +288,7 @@ def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log:
     count = len(proof.rules)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
     fails = parts_refuted(proof, system, fixed, complement(where), WAYS, log)
-    nowhere = not fails and not proof.add(without_fixed_point(outside))
+    nowhere = not fails and proof.add(without_fixed_point(outside))
     proof.keep(count)
     return bool(fails) or nowhere
 
@@ -313,7 +307,7 @@ def search_outside(
             return
         proof.keep(count)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
-    if not kinds and not proof.add(without_fixed_point(outside)):
+    if not kinds and proof.add(without_fixed_point(outside)):
         return
     inside = beyond(system.domain, setting.domain, system.parameters)
     for part in complement(inside) if inside else []:

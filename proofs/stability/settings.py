@@ -9,16 +9,8 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.proofs.stability.certifying import beyond, is_certified
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import (
-    Map,
-    atoms,
-    expression,
-    renamed,
-    symbols,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.functions.candidates import Setting
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint
 from juggleproof.proofs.stability.samples import (
     STATES,
@@ -27,6 +19,7 @@ from juggleproof.proofs.stability.samples import (
     region,
     with_point_licences,
 )
+from juggleproof.proofs.stability.terms import atoms, expression, renamed, symbols, value, written
 
 
 def known_of(setting: Setting) -> tuple[str, ...]:
@@ -44,8 +37,7 @@ def known_of(setting: Setting) -> tuple[str, ...]:
         above, below = sympy.fraction(sympy.together(image))
         left = f"{name}_point" if below == 1 else f"{name}_point*({written(below)})"
         lines.append(f"{left} = {written(above)}")
-    state = symbols(system.state)
-    if not sympy.Matrix(system.images[piece]).jacobian(state).free_symbols.isdisjoint(state):
+    if not system.derivatives[piece].free_symbols.isdisjoint(symbols(system.state)):
         for name, term in zip(system.state, terms):  # the equations have other solutions
             above, below = sympy.fraction(term)
             lines.append(f"{name}_point*({written(below)}) = {written(above)}")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from juggleproof.certificates.cases import exact, with_cases
 from juggleproof.certificates.language import ClaimError, MapRule
-from juggleproof.proofs.stability.given import holds, value
+from juggleproof.proofs.stability.terms import holds, value
 
 NUMBERS = st.fractions(-3, 3, max_denominator=4)
 

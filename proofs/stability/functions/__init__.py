@@ -3,8 +3,8 @@ constants; found in floats, and believed by nobody.
 
 In reading order, each importing those before it only:
 
-- `templates`: sums of terms by linear programs on samples.
-- `values`: a point with a part of the domain, and the constants of the rule `lyapunov`.
+- `templates`: sums of terms, by linear programs on samples.
+- `candidates`: a point with a part of the domain, its candidates, and constants that fit samples.
 - `norms`: polytope norms that piecewise affine maps contract.
 - `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.

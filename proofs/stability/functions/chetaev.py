@@ -18,6 +18,12 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.functions.candidates import (
+    Setting,
+    bounded_below,
+    derivatives,
+    lyapunov_form,
+)
 from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import (
     Function,
@@ -27,22 +33,8 @@ from juggleproof.proofs.stability.functions.templates import (
     rounded,
     signed,
 )
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-    derivatives,
-    lyapunov_form,
-)
-from juggleproof.proofs.stability.given import (
-    as_factor,
-    column,
-    expression,
-    holds,
-    symbols,
-    value,
-    written,
-)
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
+from juggleproof.proofs.stability.terms import as_factor, column, holds, symbols, value, written
 
 EACH = 60  # states at each of the parameters
 SMALL = 1e-4  # distance at which the higher terms do not count
@@ -65,17 +57,6 @@ def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
         yield from _rules(setting, function, name)
 
 
-def derivative(setting: Setting) -> sympy.Matrix:
-    """The derivative at the point, in the parameters."""
-    system = setting.system
-    state = symbols(system.state)
-    at = symbols([f"{one}_point" for one in system.state])
-    if not setting.have:
-        at = [expression(term) for term in setting.point.terms]
-    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
-    return matrix.subs(dict(zip(state, at)), simultaneous=True)
-
-
 def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
     """Of two variables, the area W(g) = g x A g that a distance g spans with its image under the
     derivative A: W(A g) = det(A) W(g), so that it grows, as of an unstable focus, where det(A) > 1;
@@ -84,7 +65,7 @@ def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
     system = setting.system
     if len(system.state) != 2 or (np.linalg.det(derivatives(setting)) <= 1).any():
         return
-    gaps, matrix = symbols([f"{one}_gap" for one in system.state]), derivative(setting)
+    gaps, matrix = symbols([f"{one}_gap" for one in system.state]), setting.derivative
     affine = len(system.pieces) == 1 and is_affine(system)
     more = written(sympy.factor(matrix.det() - 1)) if affine else ""
     first, second = matrix * sympy.Matrix(gaps)
@@ -102,7 +83,7 @@ def cone_functions(setting: Setting) -> Iterator[Function]:
     and the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
     """
     system, count = setting.system, setting.count
-    matrix = derivative(setting)
+    matrix = setting.derivative
     gaps, size, slopes = (
         [f"{one}_gap" for one in system.state],
         len(system.state),
@@ -248,10 +229,6 @@ def _rules(setting: Setting, function: Function, name: str, exact: str = "") -> 
                 function.at(_along(setting, corner, size), setting.count).max() / (size**2).min()
                 for corner in itertools.product(*[(Fraction(-1), Fraction(1))] * len(curve))
             )
-            rows = [
-                ("direction", ", ".join(curve)),
-                ("rate", f"1 + {more}"),
-                ("radius", radius_text),
-                ("upper", str(int(4 * most) + 1)),
-            ]
-            yield setting.rule(name, function, rows)
+            rows = [("rate", f"1 + {more}"), ("radius", radius_text)]
+            rows += [("upper", str(int(4 * most) + 1))]
+            yield setting.rule(name, function, rows, after=[("direction", ", ".join(curve))])

@@ -22,12 +22,8 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import Search, beyond
-from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
-from juggleproof.proofs.stability.functions.part_metric import CLOSE
-from juggleproof.proofs.stability.functions.ratios import distance_rules
-from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import (
+from juggleproof.proofs.stability.certifying import BUDGET, Candidate, beyond
+from juggleproof.proofs.stability.functions.candidates import (
     FEW_FOLD,
     Setting,
     bounded_below,
@@ -35,27 +31,28 @@ from juggleproof.proofs.stability.functions.values import (
     positive_factors,
     power_products,
 )
-from juggleproof.proofs.stability.given import (
-    HIGH,
-    LOW,
-    Expr,
-    Side,
-    as_factor,
-    atoms,
-    column,
-    ends_of_space,
-    expression,
-    holds,
-    symbols,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
+from juggleproof.proofs.stability.functions.part_metric import CLOSE
+from juggleproof.proofs.stability.functions.ratios import weighted_distance_candidates
+from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.maps import HIGH, LOW, Side, ends_of_space
 from juggleproof.proofs.stability.points import roots_of
 from juggleproof.proofs.stability.samples import (
     SEED,
     Floats,
     Samples,
     licence,
+)
+from juggleproof.proofs.stability.terms import (
+    Expr,
+    as_factor,
+    atoms,
+    column,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
 )
 
 MOST_STATES = 3
@@ -68,12 +65,8 @@ LOOSE = 4.0  # how well a constant fits, above which the fall at the end itself 
 Ends = dict[Side, Expr]  # as terms in the parameters
 
 
-def contracting_box_rules(
-    setting: Setting, name: str
-) -> Iterator[tuple[list[MapRule], dict[str, Search]]]:
-    """The statements, in order, by which the point attracts every state, with searches for premises
-    of that with a V; what samples refute is left out.
-    """
+def contracting_box_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates by which the point attracts every state; what samples refute is left out."""
     system, known = setting.system, setting
     plain = not (setting.point.roots or setting.outer)
     if not plain or not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
@@ -106,46 +99,43 @@ def contracting_box_rules(
         states=states_of(setting, box),
         map=f"map-{len(box) - 1}",
     )
-    every: list[tuple[MapRule, dict[str, Search]]] = [
-        *distance_rules(inside, f"{name}/lyapunov"),
-        *((rule, {}) for rule in lyapunov_rules(setting, box, widths, descents[-1][1], name)),
+    every = [
+        *(replace(one, budget=BUDGET // 4) for one in weighted_distance_candidates(inside)),
+        *box_candidates(setting, box, widths, descents[-1][1]),
     ]
-    yield from _statements(setting, every, radius, descents, name)
+    yield from _with_descents(setting, every, radius, descents)
 
 
-def _statements(
+def _with_descents(
     setting: Setting,
-    every: Sequence[tuple[MapRule, dict[str, Search]]],
+    every: Sequence[Candidate],
     radius: str,
     descents: Sequence[tuple[str, str]],
-    name: str,
-) -> Iterator[tuple[list[MapRule], dict[str, Search]]]:
-    """One descent for each bound, on a map whose space has the bounds before it."""
+) -> Iterator[Candidate]:
+    """The candidates with a descent for each bound, on a map whose space has the bounds before."""
     system, space = setting.system, setting.system.space
     maps: list[MapRule] = []
     falling: list[MapRule] = []
     attracting: list[MapRule] = []
     names = ["", *(f"-{k}" for k in range(1, len(descents)))]
     for suffix, following, (rank, bound) in zip(names, [*names[1:], ""], descents):
-        maps.append(replace(system, space=space, domain=setting.domain).rule(f"{name}/map{suffix}"))
+        smaller = replace(system, space=space, domain=setting.domain)
+        maps.append(smaller.rule(f"{system.name}/map{suffix}"))
         space = conjunction(space, bound)
-        rows = [("map", maps[-1].name), ("domain", setting.domain), ("rank", rank)]
-        falling.append(MapRule(f"{name}/descends{suffix}", (*rows, ("stage", bound))))
-        then = [("lyapunov", f"{name}/lyapunov")]
-        if following:
-            then = [("attraction", f"{name}/attracts{following}"), ("radius", radius)]
-        rows = [("descent", falling[-1].name), *then]
-        attracting.append(MapRule(f"{name}/attracts{suffix}", tuple(rows)))
-    for rule, searches in every:
-        changed = {"map": maps[-1].name, "radius": radius}
-        inner = replace(rule, rows=tuple((key, changed.get(key, text)) for key, text in rule.rows))
-        yield [*maps[1:], inner, *falling, *reversed(attracting)], searches
+        falling.append(setting.descent(f"descends{suffix}", f"map{suffix}", rank, bound))
+        within = (f"attracts{following}", radius) if following else ()
+        attracting.append(setting.attraction(f"attracts{suffix}", f"descends{suffix}", *within))
+    changed = {"map": maps[-1].name, "radius": radius}
+    for one in every:
+        rows = tuple((key, changed.get(key, text)) for key, text in one.rule.rows)
+        inner = replace(one.rule, rows=rows)
+        yield replace(one, rules=(*maps[1:], inner, *falling, *reversed(attracting)))
 
 
-def lyapunov_rules(
-    setting: Setting, box: Ends, widths: Sequence[Expr], on: str, name: str
-) -> Iterator[MapRule]:
-    """That V, which has one value on all faces of the box, falls by a share of it."""
+def box_candidates(
+    setting: Setting, box: Ends, widths: Sequence[Expr], on: str
+) -> Iterator[Candidate]:
+    """The candidates for a V that has one value on all faces of the box."""
     names = setting.system.state
     weights = weights_of(setting, widths)
     terms = [
@@ -167,14 +157,8 @@ def lyapunov_rules(
     losses = bounded_below(shares, products)
     for (_, loss), (_, slope), (_, steep), (_, radius) in product(losses, least, most, size):
         drop = f"{as_factor(loss)}*"
-        rows = [
-            ("on", on),
-            ("loss", f"{drop}value"),
-            ("least", f"{drop}{as_factor(slope)}*distance"),
-            ("upper", inverse(steep)),
-            ("radius", radius),
-        ]
-        yield setting.rule(f"{name}/lyapunov", function, rows)
+        far, ball = f"{drop}{as_factor(slope)}*distance", (radius, inverse(steep))
+        yield setting.candidate(function, f"{drop}value", far, ball, on)
 
 
 def radius_of(setting: Setting, widths: Sequence[Expr]) -> str:

@@ -10,29 +10,31 @@ Source: J. P. LaSalle, The Stability and Control of Discrete Processes (1986).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
 import numpy as np
 import sympy
 
-from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.search.falls.by_products import proof_by_products
-from juggleproof.proofs.stability.certifying import Search
-from juggleproof.proofs.stability.few_facts import proof_by_squares
+from juggleproof.proofs.stability.certifying import Candidate, Search
+from juggleproof.proofs.stability.functions.candidates import (
+    Setting,
+    lyapunov_candidates,
+    symmetric,
+)
 from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import Setting, lyapunov_rules
-from juggleproof.proofs.stability.given import Expr, column, expression, symbols, written
+from juggleproof.proofs.stability.premise_searches import proof_by_squares
+from juggleproof.proofs.stability.terms import Expr, column, expression, symbols, written
 
 TRIED = 3  # statements for an energy
 
 
-def energy_rules(
-    setting: Setting, on: str, name: str
-) -> Iterator[tuple[MapRule, dict[str, Search]]]:
-    """The statements `lyapunov` that samples do not refute, those that fit best first, each with
-    searches for the premises that V falls, and by how much at least.
+def energy_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates that samples do not refute, those that fit best first, with searches for the
+    premises that V falls, and by how much at least.
     """
     system = setting.system
     if setting.have or len(system.pieces) == 1 or not is_affine(system):
@@ -48,27 +50,20 @@ def energy_rules(
         signs=(),
     )
     for energy in energies(setting):
-        every = lyapunov_rules(setting, over_two_steps(setting, energy), on, name)
-        for _, rule in sorted(every, key=lambda one: one[0])[:TRIED]:
-            yield rule, searches
+        every = lyapunov_candidates(setting, over_two_steps(setting, energy))
+        for one in sorted(every, key=lambda one: one.rank)[:TRIED]:
+            yield replace(one, searches=searches)
 
 
 def energies(setting: Setting) -> Iterator[Expr]:
     """The forms in the gaps that are positive at samples, and that a piece conserves, and with it
     no other but multiples of them.
     """
-    state = symbols(setting.system.state)
     seen: set[Expr] = set()
     gaps = symbols([f"{one}_gap" for one in setting.system.state])
     samples = setting.states.points
-    n = len(state)
-    entries = {
-        (i, j): sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for i in range(n) for j in range(n)
-    }
-    form = sympy.Matrix(n, n, lambda i, j: entries[i, j])
-    unknowns = sorted(set(entries.values()), key=str)
-    for images in setting.system.images:
-        matrix = sympy.Matrix(images).jacobian(state)
+    form, unknowns = symmetric(len(gaps))
+    for matrix in setting.system.derivatives:
         rows, _ = sympy.linear_eq_to_matrix(list(matrix.T * form * matrix - form), unknowns)
         kernel = rows.nullspace()
         if len(kernel) != 1:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -16,13 +17,21 @@ import sympy
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Candidate
+from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below, inverse
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-    inverse,
+from juggleproof.proofs.stability.points import NEARLY
+from juggleproof.proofs.stability.premise_searches import proof_by_signs
+from juggleproof.proofs.stability.samples import (
+    Arrays,
+    Floats,
+    Samples,
+    around,
+    region,
+    with_licences,
+    with_point_licences,
 )
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.terms import (
     Expr,
     as_factor,
     atoms,
@@ -33,16 +42,6 @@ from juggleproof.proofs.stability.given import (
     symbols,
     value,
     written,
-)
-from juggleproof.proofs.stability.points import NEARLY
-from juggleproof.proofs.stability.samples import (
-    Arrays,
-    Floats,
-    Samples,
-    around,
-    region,
-    with_licences,
-    with_point_licences,
 )
 
 SLOPES = (0, 1, 2, 3)  # of the involutions that are tried for all maps
@@ -115,9 +114,9 @@ def slopes(setting: Setting, reach: Expr) -> list[Expr]:
     return list(dict.fromkeys([*found, *map(sympy.Integer, SLOPES)]))
 
 
-def envelope_rules(setting: Setting, name: str, closed: bool) -> Iterator[list[MapRule]]:
-    """Statements by which the point attracts every state of the map's space, in order; what samples
-    refute is left out.  closed: the multiplier is -1 at some of the parameters.
+def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[Candidate]:
+    """The candidates by which the point attracts every state of the map's space, where it may be
+    `closed`: the multiplier is -1 at some of the parameters; what samples refute is left out.
     """
     system = setting.system
     if len(system.state) > 1 or len(system.pieces) > 1:
@@ -126,27 +125,22 @@ def envelope_rules(setting: Setting, name: str, closed: bool) -> Iterator[list[M
     setting = replace(setting, have=equation_of(setting) if setting.point.roots else ())
     for envelope in sorted(set(envelopes(setting)), key=lambda one: (len(one.upper), one.upper)):
         if envelope.upper == "1":
-            for rule in lyapunov_rules(setting, envelope, f"{name}/lyapunov", closed):
-                yield [rule]
+            yield from candidates_for(setting, envelope, closed)
             continue
         inside = spare_space(setting, envelope)
         smaller = replace(system, space=inside, domain=setting.domain)
-        within = replace(setting, system=smaller)
-        rules = list(lyapunov_rules(within, envelope, f"{name}/lyapunov", closed))
-        entering = entrance(setting, envelope, name) if rules else []
-        for rule in rules if entering else ():
-            inner = ("map", f"{name}/inner")
-            descent = (inner, ("domain", setting.domain), ("rank", "0"), ("stage", ANYWHERE))
-            yield [
-                smaller.rule(f"{name}/inner"),
-                replace(rule, rows=(inner, *rule.rows[1:])),
-                MapRule(f"{name}/inner-descends", descent),
-                MapRule(
-                    f"{name}/inner-attracts",
-                    (("descent", f"{name}/inner-descends"), ("lyapunov", f"{name}/lyapunov")),
-                ),
+        within = replace(setting, system=smaller, map="inner")
+        found = list(candidates_for(within, envelope, closed))
+        entering = entrance(setting, envelope) if found else []
+        for one in found if entering else ():
+            rules = (
+                smaller.rule(f"{system.name}/inner"),
+                one.rule,
+                setting.descent("inner-descends", "inner", "0", ANYWHERE),
+                setting.attraction("inner-attracts", "inner-descends"),
                 *entering,
-            ]
+            )
+            yield replace(one, rules=rules)
 
 
 def equation_of(setting: Setting) -> tuple[str, ...]:
@@ -207,12 +201,8 @@ def implied(part: str, points: Arrays) -> bool:
     return len(next(iter(points.values()), ())) > 0 and bool(np.all(holds(part, points)))
 
 
-def lyapunov_rules(
-    setting: Setting, envelope: Envelope, name: str, closed: bool
-) -> Iterator[MapRule]:
-    """The statements `lyapunov` whose loss is a constant times V, or times (s - e)^2 V where
-    `closed`.
-    """
+def candidates_for(setting: Setting, envelope: Envelope, closed: bool) -> Iterator[Candidate]:
+    """The candidates whose loss is a constant times V, or times (s - e)^2 V where `closed`."""
     (state,) = setting.system.state
     function = envelope.function(state)
     samples = states_of(setting, envelope)
@@ -228,6 +218,7 @@ def lyapunov_rules(
     count = setting.count
     order, size = (4, f"{state}_gap^2*value") if closed else (2, "value")
     near = room(setting, envelope) / 2
+    searches = {"bounded": partial(proof_by_signs, signs=[f"{state}_gap"])}
     wide = f"1/(2*{as_factor(envelope.reach)}^2)"  # V (2 + V) >= (s - e)^2/d^2
     for (_, radius), (_, least), (_, loss) in product(
         below(setting, near, 1),
@@ -235,15 +226,10 @@ def lyapunov_rules(
         below(setting, samples.least(shares, count), 2),
     ):
         far = f"{as_factor(loss)}*{as_factor(least)}*distance^{order}"
-        rows = [
-            ("on", ANYWHERE),
-            ("loss", f"{as_factor(loss)}*{size}"),
-            ("least", far if bounded else f"{far}/(1 + level)"),
-            ("upper", steepness(setting, function, radius)),
-            ("radius", radius),
-        ]
-        if rows[3][1]:
-            yield setting.rule(name, function, rows)
+        ball = radius, steepness(setting, function, radius)
+        drop, far = f"{as_factor(loss)}*{size}", far if bounded else f"{far}/(1 + level)"
+        if ball[1]:
+            yield setting.candidate(function, drop, far, ball, ANYWHERE, searches=searches)
 
 
 def steepness(setting: Setting, function: Function, radius: str) -> str:
@@ -299,7 +285,7 @@ def zero_of(setting: Setting, text: str) -> Floats:
     return np.broadcast_to(found, (setting.count,))
 
 
-def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
+def entrance(setting: Setting, envelope: Envelope) -> list[MapRule]:
     """The statements that orbits enter the part of the space where upper > 0, and that what
     attracts that part attracts the whole; none where no constants are found.
     """
@@ -323,21 +309,6 @@ def entrance(setting: Setting, envelope: Envelope, name: str) -> list[MapRule]:
         return []
     rank = f"{as_factor(envelope.lower)}*{as_factor(inverse(steps[0][1]))}" if steps[0][1] else "0"
     return [
-        MapRule(
-            f"{name}/descends",
-            (
-                ("map", f"{name}/map"),
-                ("domain", setting.domain),
-                ("rank", rank),
-                ("stage", f"{envelope.upper} > 0"),
-            ),
-        ),
-        MapRule(
-            f"{name}/attracts",
-            (
-                ("descent", f"{name}/descends"),
-                ("attraction", f"{name}/inner-attracts"),
-                ("radius", radii[0][1]),
-            ),
-        ),
+        setting.descent("descends", "map", rank, f"{envelope.upper} > 0"),
+        setting.attraction("attracts", "descends", "inner-attracts", radii[0][1]),
     ]

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
-from juggleproof.proofs.stability.functions.values import Setting, power_products
-from juggleproof.proofs.stability.given import Expr, atoms, expression, holds, symbols, written
+from juggleproof.proofs.stability.functions.candidates import Setting, power_products
 from juggleproof.proofs.stability.samples import SEED, Floats
+from juggleproof.proofs.stability.terms import Expr, atoms, expression, holds, symbols, written
 
 FAR, NEAR = 64.0, 1e-3  # times the distance of two samples; of the way to an end
 HALVINGS = 30  # of it
@@ -48,15 +48,11 @@ def with_ends(setting: Setting) -> Setting:
     return replace(setting, parameters=every)
 
 
-def point_names(setting: Setting) -> list[Expr]:
-    return symbols([f"{name}_point" for name in setting.system.state])
-
-
 def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
     """What to put for some of the parameters and of the point's names, in terms of the others; and
     the setting, whose premises know of the point these equations and its inequalities.
     """
-    names, terms = point_names(setting), list(map(expression, setting.point.terms))
+    names, terms = setting.point_names, list(map(expression, setting.point.terms))
     if not setting.have:
         return setting, dict(zip(names, terms))
     at = dict(zip(symbols(setting.system.state), names))
@@ -99,7 +95,7 @@ def _size(term: Expr) -> int:
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
     """What the ratios divide by."""
-    pairs = zip(symbols(setting.system.state), point_names(setting))
+    pairs = zip(symbols(setting.system.state), setting.point_names)
     at = {one: put.get(e, e) for one, e in pairs}
     return [one.subs(at) for one in origin]
 

@@ -10,17 +10,17 @@ from fractions import Fraction
 
 import highspy
 import numpy as np
-import sympy
 
-from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Candidate
+from juggleproof.proofs.stability.functions.candidates import Setting, at_samples, derivatives
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     program,
     signed,
 )
-from juggleproof.proofs.stability.functions.values import Setting, derivatives
-from juggleproof.proofs.stability.given import Map, holds, symbols
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
+from juggleproof.proofs.stability.terms import holds, symbols
 
 MOST_ROWS = 24
 CORNERS = 24  # parameters at which rows are carried back
@@ -34,22 +34,12 @@ SHARES = (0.5, 0.75, 0.9, 0.97)  # of the way from the spectral radius to 1, for
 
 def is_affine(system: Map) -> bool:
     """Whether every piece is affine in the state."""
-    state = symbols(system.state)
-    matrices = [sympy.Matrix(images).jacobian(state) for images in system.images]
-    return all(not matrix.free_symbols & set(state) for matrix in matrices)
+    return all(one.free_symbols.isdisjoint(symbols(system.state)) for one in system.derivatives)
 
 
 def matrices_of(system: Map, parameters: Arrays, count: int) -> Floats:
     """The matrices of all pieces at all parameters, (pieces times parameters, n, n)."""
-    state = symbols(system.state)
-    names = symbols(system.parameters)
-    found = []
-    for images in system.images:
-        entries = list(sympy.Matrix(images).jacobian(state))
-        numbers = sympy.lambdify(names, entries, "numpy")(*parameters.values())
-        stack = [np.broadcast_to(np.asarray(number, float), (count,)) for number in numbers]
-        found.append(np.stack(stack, axis=1).reshape(count, len(state), len(state)))
-    return np.concatenate(found)
+    return np.concatenate([at_samples(one, parameters, count) for one in system.derivatives])
 
 
 def corners(setting: Setting) -> Arrays:
@@ -175,11 +165,11 @@ def norms(matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
                 yield from (one for one in found if 1 - one[1] > SLOWEST)
 
 
-def norm_rule(
-    setting: Setting, rows: Sequence[Sequence[Fraction]], rate: Fraction, size: Fraction, name: str
-) -> MapRule:
-    """The statement `lyapunov` whose function is the norm of these rows: on the whole space, or
-    where the norm is at most `size`, if that is not 0.
+def norm_candidate(
+    setting: Setting, rows: Sequence[Sequence[Fraction]], rate: Fraction, size: Fraction
+) -> Candidate:
+    """The candidate whose function is the norm of these rows: on the whole space, or where the norm
+    is at most `size`, if that is not 0.
     """
     gaps = [f"{one}_gap" for one in setting.system.state]
     floats = np.array([[float(x) for x in row] for row in rows])
@@ -189,33 +179,28 @@ def norm_rule(
     upper = max(sum(abs(x) for x in row) for row in rows)
     forms = [linear_form(row, gaps) for row in rows]
     forms += [linear_form([-x for x in row], gaps) for row in rows]
-    inside = " and ".join(f"{form} <= {size}" for form in forms)
-    lines = [
-        ("on", inside if size else setting.system.space),
-        ("loss", f"({1 - rate})*value"),
-        ("least", f"({least})*distance"),
-        ("upper", str(upper)),
-        ("radius", str(size / upper) if size else "1"),
-    ]
-    return setting.rule(name, Function(tuple(forms)), lines)
+    inside = " and ".join(f"{form} <= {size}" for form in forms) if size else ""
+    ball = str(size / upper) if size else "1", str(upper)
+    loss, far = f"({1 - rate})*value", f"({least})*distance"
+    return setting.candidate(Function(tuple(forms)), loss, far, ball, inside)
 
 
-def norm_rules(setting: Setting, name: str) -> Iterator[MapRule]:
-    """The statements that a norm proves stability, and attraction of the whole space."""
+def norm_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates whose function is a norm that all pieces contract."""
     far = corners(setting)
     count = len(next(iter(far.values()))) if far else 1
     found = norms(matrices_of(setting.system, far, count))
     for rows, rate in itertools.islice(found, MOST_NORMS):
-        yield norm_rule(setting, rows, rate, Fraction(0), name)
+        yield norm_candidate(setting, rows, rate, Fraction(0))
 
 
 # -------------------------------------------------------------------------------------------------
 # Near the point only: a norm that the derivative there contracts, and how far the map does.
 
 
-def local_rules(setting: Setting, name: str) -> Iterator[MapRule]:
-    """The statements that a norm proves stability, and attraction of where it is at most a number;
-    the largest number first that samples leave.
+def local_norm_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates whose function is a norm, on the set where it is at most a number; the largest
+    number first that samples leave.
     """
     system = setting.system
     n = len(system.state)
@@ -247,5 +232,5 @@ def local_rules(setting: Setting, name: str) -> Iterator[MapRule]:
                 fits = np.abs(moved @ floats.T).max(axis=1) <= float(slower) * before
             if fits[inside].all():
                 for share in LOCAL_SHARES:
-                    yield norm_rule(setting, rows, slower, size * share, name)
+                    yield norm_candidate(setting, rows, slower, size * share)
                 break

@@ -15,15 +15,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Candidate
+from juggleproof.proofs.stability.functions.candidates import Setting, losses, small_balls
 from juggleproof.proofs.stability.functions.templates import Function, signed
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-    small_balls,
-)
-from juggleproof.proofs.stability.given import Map, as_factor, bounds, renamed, value
+from juggleproof.proofs.stability.maps import Map, bounds
 from juggleproof.proofs.stability.samples import Floats, Samples, after
+from juggleproof.proofs.stability.terms import as_factor, renamed, value
 
 WEIGHTS = tuple(Fraction(n, d) for n, d in ((1, 1), (9, 10), (3, 4), (2, 3), (1, 2), (1, 4)))
 SWEEPS = 3  # over all weights
@@ -55,12 +52,10 @@ def _over(system: Map, name: str, gap: str, bound: Mapping[str, str]) -> str:
     return f"{renamed(text, {one: f'{one}_point' for one in system.state})}*({gap})/{text}"
 
 
-def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
-    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
-    is simple and fits well.
-    """
+def part_metric_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates that samples do not refute."""
     if len(setting.system.state) == 1:
-        return  # of which `two_sided` has more
+        return  # for which `two_sided` has more
     low, _ = bounds(setting.system)
     for kind, texts in enumerate(distances(setting)):
         weights = _weights(setting, texts)
@@ -68,12 +63,18 @@ def part_metric_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[fl
             continue
         terms = (t if w == 1 else f"{signed(w)}*{t}" for w, t in zip(weights, texts))
         function = Function(tuple(terms), divisor="*".join(low.values()) if kind else "1")
-        best = sorted(_rows(setting, function, min(weights)), key=lambda one: one[0])[:2]
-        for rank, rows in best if best[:1] and best[0][0] < WORST else ():
-            yield (
-                rank + kind + len(set(weights)) / 4,
-                setting.rule(name, function, [("on", on), *rows]),
-            )
+        ball = next(small_balls(setting, function), None)
+        if ball is None:
+            continue
+        here, there, samples = values(setting, function.terms)
+        before, now = here.max(axis=0), there.max(axis=0)
+        far = "distance" if min(weights) == 1 else f"{signed(min(weights))}*distance"
+        shares = (before - now) / before, 1 + before
+        every = losses(setting, samples, shares, "value", far, POWERS, share=HALF)
+        best = sorted(every, key=lambda one: one[0])[:2]
+        for rank, _, loss, least in best if best and best[0][0] < WORST else ():
+            rank += kind + len(set(weights)) / 4
+            yield setting.candidate(function, loss, least, ball, rank=rank)
 
 
 def values(setting: Setting, texts: Sequence[str]) -> tuple[Floats, Floats, Samples]:
@@ -115,26 +116,3 @@ def _weights(setting: Setting, texts: Sequence[str]) -> tuple[Fraction, ...]:
             if now > (best[0], best[1] + 0.05):
                 weights, best = changed, now
     return tuple(weights) if best[0] == 1 else ()
-
-
-def _rows(
-    setting: Setting, function: Function, smallest: Fraction
-) -> Iterator[tuple[float, list[tuple[str, str]]]]:
-    """The lines but `on` and `value`, for several shapes of the loss."""
-    here, there, samples = values(setting, function.terms)
-    before, now = here.max(axis=0), there.max(axis=0)
-    radius, upper = next(small_balls(setting, function), ("", ""))
-    if not radius:
-        return
-    for power in POWERS:
-        least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
-        for rank, constant in bounded_below(least, setting.products, share=HALF):
-            start = "" if constant == "1" else f"({constant})*"
-            bound = "distance" if smallest == 1 else f"{signed(smallest)}*distance"
-            rows = [
-                ("loss", f"{start}value{'/(1 + value)' if power else ''}"),
-                ("least", f"{start}{bound}{'/(1 + level)' if power else ''}"),
-                ("upper", upper),
-                ("radius", radius),
-            ]
-            yield rank + power / 4, rows

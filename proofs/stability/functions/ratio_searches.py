@@ -14,15 +14,14 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Proof
 from juggleproof.certificates.search.falls.by_products import proof_by_products
 from juggleproof.proofs.stability.certifying import Search
-from juggleproof.proofs.stability.few_facts import proof_from_few_facts
+from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.equations import (
     at_parameters,
     factors_of,
-    point_names,
     sizes_of,
 )
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import Expr, symbols, written
+from juggleproof.proofs.stability.premise_searches import proof_from_few_facts
+from juggleproof.proofs.stability.terms import Expr, symbols, written
 
 Row = tuple[int, ...]
 
@@ -100,7 +99,7 @@ def proof_that_it_falls(
 
 def points_of(setting: Setting, put: dict[Expr, Expr]) -> list[Expr]:
     """The point, as premises name it."""
-    names = point_names(setting)
+    names = setting.point_names
     return names if setting.have else [put[one] for one in names]
 
 
@@ -163,7 +162,7 @@ def _parts(setting: Setting, image: Expr) -> list[Expr]:
         own = frozenset(part.free_symbols & set(state))
         sums[own] = sums.get(own, 0) + part
     alone = sums.pop(frozenset(), sympy.Integer(0))
-    at = dict(zip(state, point_names(setting)))
+    at = dict(zip(state, setting.point_names))
     for own, part in sums.items():
         if at_parameters(setting, part.subs(at, simultaneous=True)).min() < 0:
             sums[own], alone = part + alone, sympy.Integer(0)

@@ -23,12 +23,11 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
-from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.certifying import Candidate
+from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below
 from juggleproof.proofs.stability.functions.equations import (
     at_parameters,
     factors_of,
-    point_names,
     products_of,
     sizes_of,
     with_ends,
@@ -37,63 +36,54 @@ from juggleproof.proofs.stability.functions.equations import (
 from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
 from juggleproof.proofs.stability.functions.ratio_searches import Row, searches_for
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-)
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.maps import bounds
+from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
+from juggleproof.proofs.stability.terms import (
     Expr,
     as_factor,
     atoms,
-    bounds,
     column,
     expression,
     holds,
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
 
 MOST_STATES = 3
 MOST_SHIFTS = 2
 POWERS = (0, 1)  # of 1 + V, that the loss is divided by
-MOST_RULES = 2  # that are tried
+TRIED = 2
 LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are too large
 
 
-def ratio_rules(setting: Setting, name: str) -> Iterator[tuple[MapRule, dict[str, Search]]]:
-    """The statements `lyapunov` that samples do not refute, those whose loss fits best first, each
-    with a search of its own for some premises.
+def ratio_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates that samples do not refute, those whose loss fits best first, with searches
+    for most premises.
     """
-    system = setting.system
-    if not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
-        return
-    setting, put = with_equations(setting)
-    every = (_rules(setting, put, origin, name) for origin in origins(setting))
-    yield from next(filter(None, every), [])
+    if has_ratios(setting):
+        setting, put = with_equations(setting)
+        every = (candidates_for(setting, put, origin) for origin in origins(setting))
+        yield from next(filter(None, every), [])
 
 
-def weighted_distance_rules(
-    setting: Setting, name: str
-) -> Iterator[tuple[MapRule, dict[str, Search]]]:
+def weighted_distance_candidates(setting: Setting) -> Iterator[Candidate]:
     """The same for weighted distances of a map that contracts them in the whole space: by the
     comparison matrix |A| of the derivative A at the point.
     """
-    system = setting.system
-    if 1 < len(system.state) <= MOST_STATES and len(system.pieces) == 1:
-        yield from distance_rules(setting, name)
+    if has_ratios(setting):
+        setting, put = with_equations(setting)
+        yield from candidates_for(setting, put, [sympy.Integer(1)] * len(setting.system.state))
 
 
-def distance_rules(setting: Setting, name: str) -> list[tuple[MapRule, dict[str, Search]]]:
-    """The same for weighted distances."""
-    setting, put = with_equations(setting)
-    return _rules(setting, put, [sympy.Integer(1)] * len(setting.system.state), name)
+def has_ratios(setting: Setting) -> bool:
+    """Whether the map has one piece, and two state variables or three."""
+    return 1 < len(setting.system.state) <= MOST_STATES and len(setting.system.pieces) == 1
 
 
-def _rules(
-    setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr], name: str
-) -> list[tuple[MapRule, dict[str, Search]]]:
-    """The same for one origin, of the first rows for which there are any."""
+def candidates_for(
+    setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]
+) -> list[Candidate]:
+    """The candidates for one origin, with the first rows that make any."""
     derivative = in_logarithms(setting, origin, put)
     for rows in sets_of_rows(len(setting.system.state), is_plain(origin)):
         sums = sums_of(setting, derivative, rows)
@@ -103,16 +93,13 @@ def _rules(
         for weights in weights_of(setting, sums.matrix):
             terms = terms_of(setting, put, origin, rows, weights)
             falls = falls_of(sums.matrix, weights)
-            for rank, lines, factors in _losses(setting, put, origin, rows, weights, falls):
-                rank += len(" ".join(terms)) / 50
-                positive = [*factors, *factors_of(setting, weights)]
-                rule = _rule(setting, name, origin, positive, terms, lines)
-                found.append((rank, rule, weights))
+            for one in _weighted(setting, put, origin, rows, weights, falls):
+                found.append((one.rank + len(" ".join(terms)) / 50, one, weights))
         if found:
-            best = sorted(found, key=lambda one: one[0])[:MOST_RULES]
+            best = sorted(found, key=lambda one: one[0])[:TRIED]
             return [
-                (rule, searches_for(setting, put, rows, origin, weights, sums.used))
-                for _, rule, weights in best
+                replace(one, searches=searches_for(setting, put, rows, origin, weights, sums.used))
+                for _, one, weights in best
             ]
     return []
 
@@ -171,11 +158,10 @@ def sets_of_rows(count: int, plain: bool) -> Iterator[list[Row]]:
 
 def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr]) -> Expr:
     """The derivative at the point, in the logarithms of what the ratios are of."""
-    state = symbols(setting.system.state)
-    matrix = sympy.Matrix(setting.system.images[setting.piece]).jacobian(state)
+    state, matrix = symbols(setting.system.state), setting.system.derivatives[setting.piece]
     n = len(state)
     scaled = sympy.Matrix(n, n, lambda i, j: matrix[i, j] * origin[j] / origin[i])
-    scaled = scaled.subs(dict(zip(state, point_names(setting))), simultaneous=True)
+    scaled = scaled.subs(dict(zip(state, setting.point_names)), simultaneous=True)
     return scaled.subs(put, simultaneous=True).applyfunc(sympy.cancel)
 
 
@@ -302,17 +288,15 @@ def _divided(text: str, term: Expr) -> str:
     return f"{'' if over == 1 else as_factor(written(over)) + '*'}{text}/({written(under)})"
 
 
-def _losses(
+def _weighted(
     setting: Setting,
     put: dict[Expr, Expr],
     origin: Sequence[Expr],
     rows: Sequence[Row],
     weights: Sequence[Expr],
     falls: Sequence[Expr],
-) -> Iterator[tuple[float, list[tuple[str, str]], list[Expr]]]:
-    """The lines but `on` and `value`, for several shapes of the loss, each with a number that is
-    small where they fit well, and with what is positive in them.
-    """
+) -> Iterator[Candidate]:
+    """The candidates with these weights, for several shapes of the loss."""
     terms = terms_of(setting, put, origin, rows, weights)
     if is_plain(origin):
         setting = at_corners(setting, weights)
@@ -334,18 +318,18 @@ def _losses(
             for row, weight in zip(rows, weights)
         )
     )
+    ball, far = (written(radius), written(upper)), _divided("distance", total)
+    positive = [*factors, *factors_of(setting, [total, radius]), *factors_of(setting, weights)]
+    licensed, on = _licensed(setting, origin, positive)
     for power in POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
         constants = _constants(setting, factors, falls, least)
         for rank, constant in constants:
             over = "/(1 + {})" if power else ""
-            lines = [
-                ("loss", f"({constant})*value" + over.format("value")),
-                ("least", f"({constant})*{_divided('distance', total)}" + over.format("level")),
-                ("upper", written(upper)),
-                ("radius", written(radius)),
-            ]
-            yield rank + power / 4, lines, [*factors, *factors_of(setting, [total, radius])]
+            loss = f"({constant})*value" + over.format("value")
+            at_least = f"({constant})*{far}" + over.format("level")
+            function, rank = Function(tuple(terms)), rank + power / 4
+            yield licensed.candidate(function, loss, at_least, ball, on, rank)
         if constants and is_plain(origin):
             return
 
@@ -391,15 +375,12 @@ def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
     return replace(setting, states=Samples(both, which))
 
 
-def _rule(
-    setting: Setting,
-    name: str,
-    origin: Sequence[Expr],
-    positive: Sequence[Expr],
-    terms: Sequence[str],
-    lines: Sequence[tuple[str, str]],
-) -> MapRule:
-    """The statement, with the licences for what V divides by."""
+def _licensed(
+    setting: Setting, origin: Sequence[Expr], positive: Sequence[Expr]
+) -> tuple[Setting, str]:
+    """The setting whose domain, or whose premises, say that these terms are positive; and the set
+    of the statement, which says it of what the ratios are of.
+    """
     domain, have = setting.domain, list(setting.have)
     for factor in positive:
         if checker.names_in(written(factor)) <= set(setting.system.parameters):
@@ -407,10 +388,9 @@ def _rule(
         elif not factor.is_Symbol:
             have.append(f"{written(factor)} > 0")
     if have:
-        at = dict(zip(symbols(setting.system.state), point_names(setting)))
+        at = dict(zip(symbols(setting.system.state), setting.point_names))
         have += [f"{written(one.subs(at))} > 0" for one in origin if not one.is_number]
     strict = [poly for poly, is_strict in atoms(setting.system.space) if is_strict]
     more = [f"{written(one)} > 0" for one in origin if one not in strict and not one.is_number]
     on = conjunction(setting.system.space, *more)
-    changed = replace(setting, domain=domain, have=tuple(dict.fromkeys(have)))
-    return changed.rule(name, Function(tuple(terms)), [("on", on), *lines])
+    return replace(setting, domain=domain, have=tuple(dict.fromkeys(have))), on

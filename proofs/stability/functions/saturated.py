@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 import sympy
 
-from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Candidate
+from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below, small_balls
 from juggleproof.proofs.stability.functions.templates import (
     TURNS,
     Function,
@@ -19,12 +21,9 @@ from juggleproof.proofs.stability.functions.templates import (
     quadratic_templates,
     rounded,
 )
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-    small_balls,
-)
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.premise_searches import proof_by_signs
+from juggleproof.proofs.stability.samples import Floats, around, region
+from juggleproof.proofs.stability.terms import (
     Expr,
     atoms,
     expression,
@@ -33,24 +32,21 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
-from juggleproof.proofs.stability.samples import Floats, around, region
 
 LOSSES = 2  # candidates for the constant of a loss
 FUNCTIONS = 2
 SMALL = 0.01  # of the greatest value of a bound
 CLOSE = 1e-3  # of V, where a piece is taken to reach the point
 
-Signs = dict[str, list[str]]  # for a premise, polynomials whose signs are its cases
 
-
-def saturated_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[MapRule, Signs]]:
-    """The statements `lyapunov` of quadratic forms that fall at samples, with a loss c V/(1 + V),
-    each with the cases that its premises are to be proved by.
+def saturated_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates for quadratic forms that fall at samples, with a loss c V/(1 + V).  Their
+    premises are searched for by the cases of signs.
     """
     system = setting.system
     template = next(quadratic_templates(system, setting.piece, ()))
     parameters = region(setting.domain, system.parameters, 500)
-    tests = around(system, setting.point, parameters, 20, on).points
+    tests = around(system, setting.point, parameters, 20).points
     if len(system.pieces) == 1:
         return
     for scale in scales(setting):
@@ -59,7 +55,7 @@ def saturated_rules(setting: Setting, on: str, name: str) -> Iterator[tuple[MapR
         weights = weights_with_missed(rows, every)
         found = iter(()) if weights is None else rounded(weights, every)
         for numbers in itertools.islice(found, FUNCTIONS):
-            yield from rules_of(setting, template.terms(numbers)[0], on, name)
+            yield from candidates_for(setting, template.terms(numbers)[0])
 
 
 def scales(setting: Setting) -> Iterator[str]:
@@ -82,8 +78,8 @@ def weights_with_missed(rows: Floats, every: Floats) -> Floats | None:
     return None
 
 
-def rules_of(setting: Setting, term: str, on: str, name: str) -> Iterator[tuple[MapRule, Signs]]:
-    """The statements for one function.
+def candidates_for(setting: Setting, term: str) -> Iterator[Candidate]:
+    """The candidates for one function.
 
     Where V falls by c V in the pieces that reach the point and by c in the others, it falls by
     c V/(1 + V) in all.
@@ -106,18 +102,13 @@ def rules_of(setting: Setting, term: str, on: str, name: str) -> Iterator[tuple[
     least = samples.least(shares, setting.count) / 2
     for _, drop in bounded_below(least, setting.products, LOSSES):
         constant = written(expression(drop) * expression(lowest[0][1]) / 2)
-        rows = [
-            ("on", on),
-            ("loss", f"({drop})*value/(1 + value)"),
-            ("least", f"({constant})*distance^2/(1 + level)"),
-            ("upper", ball[1]),
-            ("radius", ball[0]),
-        ]
         signs = {
             "least": least_signs(setting, term, expression(lowest[0][1])),
             **falls_signs(setting, term, reach, expression(drop)),
         }
-        yield setting.rule(name, function, rows), signs
+        searches = {name: partial(proof_by_signs, signs=one) for name, one in signs.items()}
+        loss, far = f"({drop})*value/(1 + value)", f"({constant})*distance^2/(1 + level)"
+        yield setting.candidate(function, loss, far, ball, searches=searches)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -151,8 +142,10 @@ def least_signs(setting: Setting, term: str, steepness: Expr) -> list[str]:
     return [numerator(setting, bound) for bound in bounds]
 
 
-def falls_signs(setting: Setting, term: str, reach: Sequence[bool], drop: Expr) -> Signs:
-    """By how much more V falls in each piece than it has to."""
+def falls_signs(
+    setting: Setting, term: str, reach: Sequence[bool], drop: Expr
+) -> dict[str, list[str]]:
+    """How much more than its loss V falls by, for the premise of each piece."""
     system = setting.system
     names = [f"{one}_point" for one in system.state]
     point = symbols(names) if setting.have else list(map(expression, setting.point.terms))

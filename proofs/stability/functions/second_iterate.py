@@ -21,9 +21,14 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import conjunction
-from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import Search
-from juggleproof.proofs.stability.functions.equations import at_parameters, point_names
+from juggleproof.proofs.stability.certifying import Candidate, Search
+from juggleproof.proofs.stability.functions.candidates import (
+    Setting,
+    bounded_below,
+    losses,
+    small_balls,
+)
+from juggleproof.proofs.stability.functions.equations import at_parameters
 from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.two_sided import (
@@ -36,14 +41,8 @@ from juggleproof.proofs.stability.functions.two_sided import (
     states_of,
     with_licences,
 )
-from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
-from juggleproof.proofs.stability.given import (
-    Expr,
-    as_factor,
-    symbols,
-    written,
-)
 from juggleproof.proofs.stability.samples import licence
+from juggleproof.proofs.stability.terms import Expr, as_factor, symbols, written
 
 MEANS = ((0, 1), (1, 1), (3, 1))  # (p, q): 1/c = (p + q l)/(p + q), where -l is the slope at e
 TRIED = 3  # functions
@@ -59,14 +58,15 @@ def licensed_space(setting: Setting) -> str:
     return space
 
 
-def second_iterate_rules(
-    setting: Setting, on: str, name: str
-) -> Iterator[tuple[MapRule, dict[str, Search]]]:
-    """Statements `lyapunov` that samples do not refute, those first whose loss fits best, with a
-    search of its own for the premises that V falls.
+def second_iterate_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates that samples do not refute, on the space where the map's images divide by
+    nothing that is 0, those first whose loss fits best, with searches for the premises that V
+    falls.
     """
     if len(setting.system.state) > 1 or is_affine(setting.system):
         return
+    space = licensed_space(setting)
+    setting = setting if space == setting.system.space else setting.inside(space)
     setting, put = solved(setting)
     slope = slope_of(setting, put)
     if not (at_parameters(setting, slope) > 0).all():
@@ -77,10 +77,10 @@ def second_iterate_rules(
     for sign in (1, -1):
         for k, mean in enumerate(MEANS):
             function = function_of(setting, slope, sign, mean)
-            for rank, rule in _rules(setting, put, slope, function, on, name):
-                found.append((rank + k / 4, rule, _searches(setting, put, function)))
-    for _, rule, searches in sorted(found, key=lambda one: one[0])[:TRIED]:
-        yield rule, searches
+            searches = _searches(setting, put, function)
+            for one in candidates_for(setting, slope, function):
+                found.append(replace(one, rank=one.rank + k / 4, searches=searches))
+    yield from sorted(found, key=lambda one: one.rank)[:TRIED]
 
 
 def _image(setting: Setting) -> Expr:
@@ -102,7 +102,7 @@ def is_exact(setting: Setting) -> NDArray[np.bool_]:
 
 def slope_of(setting: Setting, put: dict[Expr, Expr]) -> Expr:
     """By what the map decreases at the point."""
-    (state,), (point,) = symbols(setting.system.state), point_names(setting)
+    (state,), (point,) = symbols(setting.system.state), setting.point_names
     return sympy.factor(-sympy.diff(_image(setting), state).subs(state, point).xreplace(put))
 
 
@@ -121,36 +121,25 @@ def function_of(setting: Setting, slope: Expr, sign: int, mean: tuple[int, int])
     return Function(tuple(terms))
 
 
-def _rules(
-    setting: Setting,
-    put: dict[Expr, Expr],
-    slope: Expr,
-    function: Function,
-    on: str,
-    name: str,
-) -> Iterator[tuple[float, MapRule]]:
-    """The statements for one function, each with a number that is small where it fits well."""
+def candidates_for(setting: Setting, slope: Expr, function: Function) -> Iterator[Candidate]:
+    """The candidates for one function."""
     samples, (state,) = setting.states, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    radius, upper = next(small_balls(setting, function), ("", ""))
+    ball = next(small_balls(setting, function), None)
     clear = is_clear(setting, here, there)
     samples, here, there = samples.where(clear), here[clear], there[clear]
-    if not radius or not len(here) or not (there < here).all():
+    if ball is None or not len(here) or not (there < here).all():
         return
     steep = here / np.abs(samples.points[f"{state}_gap"])
     known = [*setting.products, *products_of_shares(setting, [1 - slope, 1 + slope])]
-    fall = samples.least((here - there) / here, setting.count)
+    shares = (here - there) / here, 1 + here
     for _, far in bounded_below(samples.least(steep, setting.count), known, 1):
-        for rank, constant in bounded_below(fall, known):
-            rows = [
-                ("on", on),
-                ("loss", f"{as_factor(constant)}*value"),
-                ("least", f"{as_factor(constant)}*{as_factor(far)}*distance"),
-                ("upper", upper),
-                ("radius", radius),
-            ]
+        least = f"{as_factor(far)}*distance"
+        for rank, constant, loss, at_least in losses(
+            setting, samples, shares, "value", least, products=known
+        ):
             licensed = with_licences(with_licences(setting, constant), far)
-            yield rank, licensed.rule(name, function, rows)
+            yield licensed.candidate(function, loss, at_least, ball, rank=rank)
 
 
 def _searches(setting: Setting, put: dict[Expr, Expr], function: Function) -> dict[str, Search]:

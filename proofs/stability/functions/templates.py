@@ -15,17 +15,9 @@ import highspy
 import numpy as np
 
 from juggleproof.certificates.search.psatz.linear_program import Solver
-from juggleproof.proofs.stability.given import (
-    Map,
-    as_factor,
-    bounds,
-    column,
-    expression,
-    holds,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.maps import Map, bounds
 from juggleproof.proofs.stability.samples import Arrays, Floats, after
+from juggleproof.proofs.stability.terms import as_factor, column, expression, holds, value, written
 
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
 LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length

@@ -23,22 +23,26 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
-from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Proof
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.search.falls.by_products import proof_by_products
-from juggleproof.proofs.stability.certifying import Search
+from juggleproof.proofs.stability.certifying import Candidate, Search
+from juggleproof.proofs.stability.functions.candidates import (
+    Setting,
+    bounded_below,
+    losses,
+    small_balls,
+)
 from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
 from juggleproof.proofs.stability.functions.equations import (
     at_parameters,
     factors_of,
-    point_names,
     with_equations,
 )
 from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.functions.values import Setting, bounded_below, small_balls
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.samples import Arrays, Floats, Samples, after, ends_of, licence
+from juggleproof.proofs.stability.terms import (
     Expr,
     as_factor,
     atoms,
@@ -48,7 +52,6 @@ from juggleproof.proofs.stability.given import (
     symbols,
     written,
 )
-from juggleproof.proofs.stability.samples import Arrays, Floats, Samples, after, ends_of, licence
 
 POWERS = (0, 1, 2)
 TRIED = 2  # losses of a function
@@ -93,11 +96,9 @@ class Sides:
     sides: tuple[Side, ...] = ()
 
 
-def two_sided_rules(
-    setting: Setting, on: str, name: str
-) -> Iterator[tuple[float, MapRule, dict[str, Search]]]:
-    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
-    is simple and fits well, and with a search of its own for the premises that V falls.
+def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates that samples do not refute, with searches for the premises that V falls, and
+    by how much at least.
     """
     if len(setting.system.state) > 1:
         return
@@ -127,13 +128,9 @@ def two_sided_rules(
             searches["least"] = partial(
                 proof_by_products, terms=range(count), unknowns=unknowns, squares=(), signs=()
             )
-        best = sorted(constants(setting, each, put), key=lambda one: one[0])
-        for rank, rows, licensed in best[:TRIED]:
-            yield (
-                rank + each.rank,
-                licensed.rule(name, each.function, [("on", on), *rows]),
-                searches,
-            )
+        best = sorted(candidates_for(setting, each, put), key=lambda one: one.rank)
+        for one in best[:TRIED]:
+            yield replace(one, rank=one.rank + each.rank, searches=searches)
 
 
 def proof_that_it_falls(
@@ -246,16 +243,12 @@ def crossing(setting: Setting, side: int) -> list[Expr]:
     )
 
 
-def constants(
-    setting: Setting, sides: Sides, put: dict[Expr, Expr]
-) -> Iterator[tuple[float, list[tuple[str, str]], Setting]]:
-    """The lines but `on` and `value`, for losses of several shapes, with what premises have to
-    know.
-    """
+def candidates_for(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> Iterator[Candidate]:
+    """The candidates for a function, for losses of several shapes."""
     samples, function, (state,) = setting.states, sides.function, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    radius, upper = ball(setting, sides) or next(small_balls(setting, function), ("", ""))
-    if not radius:
+    near = ball(setting, sides) or next(small_balls(setting, function), None)
+    if near is None:
         return
     clear = is_clear(setting, here, there)
     samples, here, there = samples.where(clear), here[clear], there[clear]
@@ -270,19 +263,13 @@ def constants(
     slow = bool(terms) and not terms[0]
     known = [*setting.products, *products_of_shares(setting, terms)]
     for power, divided in SLOW_SHAPES if slow else SHAPES:
-        size, below = f"value^{power}", f"/(1 + {{}})^{divided}" if divided else ""
-        size, below = size.removesuffix("^1"), below.removesuffix("^1")
-        fall = (here - there) / here**power * (1 + here) ** divided
-        for rank, constant in bounded_below(samples.least(fall, setting.count), known):
-            start = "" if constant == "1" else f"({constant})*"
-            least = far if power == 1 else f"({far})^{power}"
-            rows = [
-                ("loss", start + size + below.format("value")),
-                ("least", start + least + below.format("level")),
-                ("upper", upper),
-                ("radius", radius),
-            ]
-            yield rank + divided / 4, rows, with_licences(setting, constant)
+        size, least = ("value", far) if power == 1 else (f"value^{power}", f"({far})^{power}")
+        falls = (here - there) / here**power, 1 + here
+        for rank, constant, loss, at_least in losses(
+            setting, samples, falls, size, least, (divided,), known
+        ):
+            licensed = with_licences(setting, constant)
+            yield licensed.candidate(function, loss, at_least, near, rank=rank)
 
 
 def is_clear(setting: Setting, here: Floats, there: Floats) -> NDArray[np.bool_]:
@@ -303,7 +290,7 @@ def ball(setting: Setting, sides: Sides) -> tuple[str, str] | None:
     the point, and what V is at most there, by the distance; None where there is no such bound.
     """
     (state,) = symbols(setting.system.state)
-    at = expression(setting.point.terms[0]) if not setting.have else point_names(setting)[0]
+    at = expression(setting.point.terms[0]) if not setting.have else setting.point_names[0]
     total, most = sympy.Integer(0), 0
     for side in sides.sides:
         if side.power:
@@ -323,7 +310,7 @@ def shares(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> list[Expr]:
     if not sides.sides or not put:
         return []
     (state,), (image,) = symbols(setting.system.state), setting.system.images[setting.piece]
-    (point,) = point_names(setting)
+    (point,) = setting.point_names
     slope = sympy.diff(image, state).subs(state, point).xreplace(put)
     found = [sympy.factor(1 - slope), sympy.factor(1 + slope)]
     for side in sides.sides:

@@ -6,56 +6,39 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.search.falls.by_products import proof_by_products
-from juggleproof.proofs.stability.certifying import Search
-from juggleproof.proofs.stability.functions.templates import (
-    Function,
-    Sides,
-    lyapunov_functions,
-)
-from juggleproof.proofs.stability.functions.values import (
-    Setting,
-    bounded_below,
-    small_balls,
-)
-from juggleproof.proofs.stability.given import (
-    Map,
-    as_factor,
-    atoms,
-    column,
-    holds,
-    value,
-    written,
-)
+from juggleproof.proofs.stability.certifying import Candidate, either
+from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below, small_balls
+from juggleproof.proofs.stability.functions.templates import Function, Sides, lyapunov_functions
+from juggleproof.proofs.stability.maps import Map
+from juggleproof.proofs.stability.premise_searches import proof_by_signs
 from juggleproof.proofs.stability.samples import Arrays, around, region
+from juggleproof.proofs.stability.terms import as_factor, atoms, column, holds, value, written
 
 TRIED = 2  # of each kind
 WORST = 4.0  # rank that is tried
 CLOSE = 0.1  # share of the greatest value
 THINNED = 4  # one state in so many, for a first program
-Signs = dict[str, list[str]]  # for a premise, polynomials whose signs are its cases
 
 
-def weighted_sum_rules(
-    setting: Setting, on: str, name: str
-) -> Iterator[tuple[MapRule, Signs, dict[str, Search]]]:
-    """The statements `lyapunov` of such sums that fall at samples, each with the signs of the forms
-    as the cases of its premises, and with searches for these.
+def weighted_sum_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates for such sums that fall at samples.  Their premises are searched for by
+    products, then by the cases of the signs of the forms.
     """
     system = setting.system
     gaps = tuple(f"{one}_gap" for one in system.state)
     factors = ("1", *system.parameters)
-    wide = around(system, setting.point, region(setting.domain, system.parameters, 500), 20, on)
+    wide = around(system, setting.point, region(setting.domain, system.parameters, 500), 20)
     states, tests = (with_axes(system, one.points) for one in (setting.states, wide))
     states = {one: values[::THINNED] for one, values in states.items()}
     pairs = itertools.product(range(len(system.pieces)), range(2 ** len(gaps)))
     names = ["bounded", "loss", "least", *(f"falls-{k + 1}-{j + 1}" for k, j in pairs)]
-    signs = {name: list(gaps) for name in names}
     by_products = partial(
         proof_by_products,
         terms=range(2 ** len(gaps)),
@@ -63,21 +46,21 @@ def weighted_sum_rules(
         squares=(),
         signs=gaps,
     )
-    tried: set[MapRule] = set()
+    searches = dict.fromkeys(names, either(by_products, partial(proof_by_signs, signs=gaps)))
+    seen: set[MapRule] = set()
     for scaled, even in itertools.product(scales(setting), (True, False)):
-        template, ranked = Sides(gaps, factors, even), {}
+        template = Sides(gaps, factors, even)
+        ranked: dict[MapRule, Candidate] = {}
         found = itertools.chain.from_iterable(
             lyapunov_functions(template, system, states, tests, scale) for scale in scaled
         )
         for numbers in found:
-            function = template.function(numbers)
-            for rank, rows in rows_of(setting, function, scaled):
-                rule = setting.rule(name, function, [("on", on), *rows])
-                if rank < WORST and rule not in tried:
-                    ranked[rule] = rank
-        for rule in sorted(ranked, key=lambda one: ranked[one])[:TRIED]:
-            tried.add(rule)
-            yield rule, signs, dict.fromkeys(names, by_products)
+            for one in candidates_for(setting, template.function(numbers), scaled):
+                if one.rank < WORST and one.rule not in seen:
+                    ranked[one.rule] = replace(one, searches=searches)
+        for one in sorted(ranked.values(), key=lambda one: one.rank)[:TRIED]:
+            seen.add(one.rule)
+            yield one
 
 
 def scales(setting: Setting) -> list[list[str]]:
@@ -109,10 +92,10 @@ def with_axes(system: Map, points: Arrays) -> Arrays:
     return {name: np.concatenate([one[name] for one in every]) for name in points}
 
 
-def rows_of(
+def candidates_for(
     setting: Setting, function: Function, scaled: Sequence[str]
-) -> Iterator[tuple[float, list[tuple[str, str]]]]:
-    """The lines but `on` and `value`, each with a number that is small where they fit well."""
+) -> Iterator[Candidate]:
+    """The candidates for a function, whose loss goes to 0 with one of the terms."""
     samples = setting.states
     count = len(samples.which)
     here, there = function.along(setting.system, samples.points, count)
@@ -129,12 +112,5 @@ def rows_of(
         for rank, constant in bounded_below(shares, setting.products, 1):
             drop = "" if constant == "1" else f"{as_factor(constant)}*"
             drop += "" if scale == "1" else f"{as_factor(scale)}*"
-            yield (
-                rank,
-                [
-                    ("loss", f"{drop}value"),
-                    ("least", f"{drop}{as_factor(steep[0][1])}*distance"),
-                    ("upper", ball[1]),
-                    ("radius", ball[0]),
-                ],
-            )
+            least = f"{drop}{as_factor(steep[0][1])}*distance"
+            yield setting.candidate(function, f"{drop}value", least, ball, rank=rank)

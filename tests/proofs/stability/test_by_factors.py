@@ -8,7 +8,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.states import proves
-from juggleproof.proofs.stability.given import read_rows
+from juggleproof.proofs.stability.maps import read_rows
 from juggleproof.proofs.stability.search import search_stability
 
 TEXT = """statement newton/falls

@@ -7,30 +7,33 @@ from dataclasses import replace
 import sympy
 
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import Proof
+from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.contracting_boxes import (
     HIGH,
     LOW,
     box_of,
-    contracting_box_rules,
+    contracting_box_candidates,
     ends_at_point,
     ends_for,
     height_of,
 )
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import expression, of_rule
-from juggleproof.proofs.stability.points import fixed_points
-from juggleproof.proofs.stability.samples import with_licences
-from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import expression
+from tests.proofs.stability.maps import at_point, map_of, of_its_map, proved
 
 COMPETITION = "2*x/(1 + x + c*y), 3*y/(1 + y + c*x)"
+PREDATOR = "2*x/(1 + x + y), y*(1 + c*x)/2"
 
 
 def setting(piece: str, domain: str) -> Setting:
-    rows = [("over", "c"), ("domain", domain), ("state", "x y"), ("space", "x > 0 and y > 0")]
-    system = with_licences(of_rule(MapRule("m", (*rows, ("piece", piece)))))
-    (fixed,) = fixed_points(system)
-    return setting_of(system, fixed, system.domain)
+    """The map where both variables are above 0, and its point inside."""
+    text = f"over c\ndomain {domain}\nstate x y\nspace x > 0 and y > 0\npiece {piece}"
+    return at_point(map_of(text), inside=True)
+
+
+def where_it_dies_out(domain: str, space: str = "x > 0 and y >= 0") -> Setting:
+    """The point at which there is no predator."""
+    text = f"over c\ndomain {domain}\nstate x y\nspace {space}\npiece {PREDATOR}"
+    return at_point(map_of(text), "1", "0")
 
 
 def test_the_ends_of_the_box_of_two_competing_species_holds() -> None:
@@ -45,26 +48,16 @@ def test_the_ends_of_the_box_of_two_competing_species_holds() -> None:
 
 def test_competing_species_come_to_rest_holds() -> None:
     of = setting(COMPETITION, "0 < c and c < 1/2")
-    proof = Proof()
-    assert proof.add(of.system.rule("m/map")) == ""
-    chain, searches = next(contracting_box_rules(of, "m"))
-    assert proof.add_all(chain, (1, 2), print, None, searches)
-    assert [rule.name for rule in chain[-2:]] == ["m/attracts-1", "m/attracts"]
-    assert dict(chain[-1].rows)["descent"] == "m/descends"
+    assert proved(of, contracting_box_candidates, 1)[-2:] == ["attracts-1", "attracts"]
 
 
 def test_like_species_come_to_rest_by_distances_holds() -> None:
     """For all rates: a step beyond the capacity takes back by what it does there."""
-    rows = [("over", "b c"), ("domain", "b > 1 and 0 < c and c < 1"), ("state", "x y")]
     piece = "b*x/(1 + x + c*y), b*y/(1 + y + c*x)"
-    rule = MapRule("m", (*rows, ("space", "x > 0 and y > 0"), ("piece", piece)))
-    system = with_licences(of_rule(rule))
-    (fixed,) = (one for one in fixed_points(system) if "0" not in one.point.terms)
-    proof = Proof()
-    assert proof.add(system.rule("m/map")) == ""
-    chain, searches = next(contracting_box_rules(setting_of(system, fixed, system.domain), "m"))
-    assert proof.add_all(chain, (1, 2), print, None, searches)
-    (function,) = (rule for rule in chain if rule.name == "m/lyapunov")
+    rows = f"domain b > 1 and 0 < c and c < 1\nstate x y\nspace x > 0 and y > 0\npiece {piece}"
+    of = at_point(map_of(f"over b c\n{rows}"), inside=True)
+    assert proved(of, contracting_box_candidates, 1)[-1] == "attracts"
+    function = next(contracting_box_candidates(of)).rule
     values = [text for key, text in function.rows if key == "value"]
     assert values == ["(x_gap)/(1)", "(y_gap)/(1)", "(-x_gap)/(1)", "(-y_gap)/(1)"]
 
@@ -75,22 +68,11 @@ def test_a_box_fails_without_weak_competition() -> None:
 
 def test_rejects_a_bound_that_orbits_do_not_enter() -> None:
     of = setting(COMPETITION, "0 < c and c < 1/2")
-    proof = Proof()
-    assert proof.add(of.system.rule("m/map")) == ""
-    chain, _ = next(contracting_box_rules(of, "m"))
+    chain = next(contracting_box_candidates(of)).rules
     (descent,) = (one for one in chain if one.name == "m/descends")
     rows = tuple((key, "x < 1/2" if key == "stage" else text) for key, text in descent.rows)
-    assert "falls-1" in proof.add(MapRule(descent.name, rows), (1,), 100_000)
-
-
-PREDATOR = "2*x/(1 + x + y), y*(1 + c*x)/2"
-
-
-def where_it_dies_out(domain: str, space: str = "x > 0 and y >= 0") -> Setting:
-    rows = [("over", "c"), ("domain", domain), ("state", "x y"), ("space", space)]
-    system = with_licences(of_rule(MapRule("m", (*rows, ("piece", PREDATOR)))))
-    (fixed,) = (one for one in fixed_points(system) if one.point.terms == ("1", "0"))
-    return setting_of(system, fixed, system.domain)
+    proof = of_its_map(of)
+    assert not proof.add(MapRule(descent.name, rows), (1,), 100_000) and "falls-1" in proof.fault
 
 
 def test_the_ends_of_the_box_where_a_predator_dies_out_holds() -> None:
@@ -103,14 +85,11 @@ def test_the_ends_of_the_box_where_a_predator_dies_out_holds() -> None:
 
 def test_a_predator_that_grows_too_slowly_dies_out_holds() -> None:
     of = where_it_dies_out("0 < c and c < 1")
-    proof = Proof()
-    assert proof.add(of.system.rule("m/map")) == ""
-    chain, searches = next(contracting_box_rules(of, "m"))
-    assert proof.add_all(chain, (1, 2), print, None, searches)
+    assert proved(of, contracting_box_candidates, 1)[-1] == "attracts"
 
 
 def test_a_box_fails_where_the_predator_grows() -> None:
-    assert not list(contracting_box_rules(where_it_dies_out("0 < c and c < 2"), "m"))
+    assert not list(contracting_box_candidates(where_it_dies_out("0 < c and c < 2")))
 
 
 def test_a_step_up_has_a_height_where_states_are_at_the_lower_end_holds() -> None:

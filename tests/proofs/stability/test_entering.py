@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from juggleproof.proofs.stability.entering import boxes_of, radius_of, spaces_entered
-from juggleproof.proofs.stability.functions.values import Setting
-from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
+from juggleproof.proofs.stability.functions.candidates import Setting
+from juggleproof.proofs.stability.maps import Map, read_file, read_rows
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import with_licences
 from juggleproof.proofs.stability.search import search_stability
 from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import holds
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CLIPPED = "max(-1, min(1, a*x + b*y))"

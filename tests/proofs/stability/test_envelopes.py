@@ -14,10 +14,11 @@ from hypothesis import strategies as some
 
 from juggleproof.certificates.store import STATEMENTS
 from juggleproof.proofs.command.check import check
-from juggleproof.proofs.stability.functions.envelopes import Envelope, lyapunov_rules
-from juggleproof.proofs.stability.given import read_rows, value
+from juggleproof.proofs.stability.functions.envelopes import Envelope, candidates_for
+from juggleproof.proofs.stability.maps import read_rows
 from juggleproof.proofs.stability.points import fixed_points
-from juggleproof.proofs.stability.search import setting_of
+from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import value
 from tests.proofs.command import running
 
 LOGISTIC = "over a\ndomain 1 < a and a < 4\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)\n"
@@ -85,5 +86,5 @@ def test_rejects_an_envelope_of_another_second_derivative(slope: int, fits: bool
     upper = f"(1 + {slope})*(a - 1) - {slope}*a*x"
     inner = replace(system, space=f"0 < x and {upper} > 0")
     envelope = Envelope("x", upper, "(a - 1)/a")
-    rules = lyapunov_rules(replace(setting, system=inner), envelope, "logistic/lyapunov", True)
-    assert bool(list(rules)) is fits
+    found = candidates_for(replace(setting, system=inner), envelope, closed=True)
+    assert bool(list(found)) is fits

@@ -18,8 +18,9 @@ from juggleproof import MapRule, stability
 from juggleproof.certificates.language import ClaimError, bounds_of
 from juggleproof.proofs.conclusions import Lines
 from juggleproof.proofs.stability.findings import Finding, Meaning, finding_of
-from juggleproof.proofs.stability.given import Map, holds, read_rows
+from juggleproof.proofs.stability.maps import Map, read_rows
 from juggleproof.proofs.stability.search import Outcome, search_stability
+from juggleproof.proofs.stability.terms import holds
 from tests.proofs.command import running
 
 EVERY = "is stable and attracts every state"

@@ -13,7 +13,7 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof
 from juggleproof.proofs.stability.failing import is_fixed
-from juggleproof.proofs.stability.given import read_rows
+from juggleproof.proofs.stability.maps import read_rows
 from juggleproof.proofs.stability.points import as_point, fixed_points
 from juggleproof.proofs.stability.refuting import instability_rules
 from juggleproof.proofs.stability.search import without_empty_pieces

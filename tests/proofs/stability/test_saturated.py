@@ -6,53 +6,34 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from juggleproof.proofs.stability.functions.saturated import saturated_rules
-from juggleproof.proofs.stability.given import Map, read_file, read_rows
-from juggleproof.proofs.stability.points import fixed_points
-from juggleproof.proofs.stability.samples import region, with_licences
-from juggleproof.proofs.stability.search import PARAMETERS, Proof, setting_of
+import pytest
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
-CLIPPED = "x - h*max(-1, min(1, 2*x + y)), y - h*max(-1, min(1, x + 2*y))"
+from juggleproof.proofs.stability.functions.saturated import saturated_candidates
+from juggleproof.proofs.stability.maps import read_file
+from tests.proofs.stability.maps import at_point, map_of, proved
 
-
-def proved(system: Map) -> Proof:
-    """What is certified of the map by these functions alone."""
-    system = with_licences(system)
-    parameters = region(system.domain, system.parameters, PARAMETERS)
-    (fixed,) = [one for one in fixed_points(system) if one.exists(system, parameters).all()]
-    found = Proof()
-    assert not found.add(system.rule(f"{system.name}/map"))
-    setting = setting_of(system, fixed, system.domain)
-    for rule, signs in saturated_rules(setting, system.space, f"{system.name}/lyapunov"):
-        if not found.add(rule, (1, 2), 100_000, signs):
-            break
-    return found
+TANKS = Path(__file__).parents[3] / "examples/two-tanks.map"
+CLIPPED = (
+    "over h\ndomain {}\nstate x y\n"
+    "piece x - h*max(-1, min(1, 2*x + y)), y - h*max(-1, min(1, x + 2*y))"
+)
+SATURATED = {
+    "an integrator behind a saturation": read_file(TANKS),
+    "clipped steps below two thirds": map_of(CLIPPED.format("0 < h and 2 - 3*h > 0")),
+    # at k = 0, an end of the domain, x stays where it is
+    "a loop whose gain goes to zero": map_of(
+        "over k\ndomain 0 < k and k < 1/2\nstate x v\n"
+        "piece x + v - k*max(-1, min(1, x)), v/2 - k/4*max(-1, min(1, x))"
+    ),
+}
 
 
-def clipped(domain: str) -> Map:
-    rows = [("over", "h"), ("domain", domain), ("state", "x y"), ("piece", CLIPPED)]
-    return read_rows("clipped", rows)
-
-
-def test_an_integrator_behind_a_saturation_comes_to_rest_holds() -> None:
-    system = read_file(EXAMPLES / "two-tanks.map")
-    found = proved(system)
-    assert set(found.known) == {"two-tanks/map", "two-tanks/lyapunov"}
-    assert len(str(found.certificates)) < 40_000
-
-
-def test_clipped_steps_below_two_thirds_come_to_rest_holds() -> None:
-    assert "clipped/lyapunov" in proved(clipped("0 < h and 2 - 3*h > 0")).known
-
-
-def test_a_loop_whose_gain_goes_to_zero_comes_to_rest_holds() -> None:
-    """At k = 0, an end of the domain, x stays where it is."""
-    rows = [("over", "k"), ("domain", "0 < k and k < 1/2"), ("state", "x v")]
-    image = "x + v - k*max(-1, min(1, x)), v/2 - k/4*max(-1, min(1, x))"
-    assert "loop/lyapunov" in proved(read_rows("loop", [*rows, ("piece", image)])).known
+@pytest.mark.parametrize("name", SATURATED)
+def test_a_saturated_map_comes_to_rest_holds(name: str) -> None:
+    assert proved(at_point(SATURATED[name]), saturated_candidates) == ["map", "lyapunov"]
 
 
 def test_rejects_clipped_steps_up_to_one() -> None:
     """At h = 1 the linear part has the multiplier -2."""
-    assert set(proved(clipped("0 < h and h < 1")).known) == {"clipped/map"}
+    setting = at_point(map_of(CLIPPED.format("0 < h and h < 1")))
+    assert proved(setting, saturated_candidates) == ["map"]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import sympy
 
-from juggleproof.proofs.stability.algebraic import Renamed
-from juggleproof.proofs.stability.by_equation import WithEquation, by_an_equation, has_a_zero
 from juggleproof.proofs.stability.functions.contracting_boxes import beside
-from juggleproof.proofs.stability.given import HIGH, Map, read_rows
+from juggleproof.proofs.stability.maps import HIGH, Map, read_rows
 from juggleproof.proofs.stability.points import fixed_points
+from juggleproof.proofs.stability.points_as_parameters import Renamed
+from juggleproof.proofs.stability.points_by_equation import WithEquation, by_an_equation, has_a_zero
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.search import search_stability
 from juggleproof.proofs.stability.settings import setting_of
@@ -112,7 +112,7 @@ def test_rejects_that_there_is_a_zero_where_there_is_none(name: str) -> None:
 def test_what_samples_alone_say_of_the_zero_is_said_to_rest_on_them_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("juggleproof.proofs.stability.algebraic.BUDGET", 0)
+    monkeypatch.setattr("juggleproof.proofs.stability.points_as_parameters.BUDGET", 0)
     found = search_stability(HASSELL).finding
     assert found.verdict == "in part"
     assert found.sentence.endswith("e < 17/64, where samples alone say that there is one")

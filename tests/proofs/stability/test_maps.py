@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from juggleproof.proofs.stability.given import Map, holds, read_file, read_rows
+from juggleproof.proofs.stability.maps import Map, read_file, read_rows
+from juggleproof.proofs.stability.terms import holds
 from tests.certificates.drawn import fractions
 from tests.proofs.command import running
 

@@ -1,23 +1,109 @@
-"""A proof from few facts, which are named: all others make a search longer."""
+"""Searches for proofs of a premise that a family of functions suggests: from few facts, which are
+named, since all others make a search longer; by the cases of signs; and by sums of squares.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
+from functools import partial
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Ring, total_degree
 from juggleproof.certificates.nodes import Node, Proof
 from juggleproof.certificates.search.certificate import search_proof
-from juggleproof.certificates.search.closing import SQUARED, fact_key, search_closing, sign_node
+from juggleproof.certificates.search.closing import (
+    SQUARED,
+    Closing,
+    fact_key,
+    search_closing,
+    sign_node,
+)
 from juggleproof.certificates.search.falls.by_products import (
     obligations_closed,
     renumbered,
     with_facts,
 )
+from juggleproof.certificates.search.psatz.lifting import lift
+from juggleproof.certificates.search.psatz.sums_of_squares import ProductsOfFacts, SquaresProgram
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
-BUDGET, SQUARES = 100_000, 1_000_000  # of counted work
+LEAF_BUDGET = 500_000  # of counted work for a leaf
+SHORT_BUDGET = 60_000  # of it, where there is something else to try, or for squares of high degree
+FEW_FACTS_BUDGET, SQUARES_BUDGET = 100_000, 1_000_000  # of counted work
+
+RESERVED = ("value", "level", "distance")
+
+
+def proof_by_signs(
+    premise: checker.Statement, known: dict[str, checker.Statement], signs: Sequence[str]
+) -> Proof | None:
+    """A proof of the premise by cases of the signs of these polynomials, or None."""
+    unfolding = unfolded(premise)
+    steps = []
+    for count, negation in unfolding.obligations:
+        step = closed_by_signs(state_of(unfolding, count).assume(negation), known, ())
+        if step is None:
+            return None
+        steps.append(step)
+    node = closed_by_signs(state_of(unfolding).assume(unfolding.goal(False)), known, signs)
+    proof: Proof | None = None if node is None else ("proof", steps, node)
+    return proof if proof is not None and proves(premise, proof, known) else None
+
+
+def closed_by_signs(
+    state: State,
+    known: dict[str, checker.Statement],
+    signs: Sequence[str],
+    lemma: bool = False,
+) -> Node | None:
+    """A node that closes the state: by its facts, then by the sign of the first polynomial;
+    `lemma`: whether its last fact alone is to be contradicted.
+    """
+    closing = partial(search_closing, state, known, confirm=False)
+    tries: list[tuple[Callable[..., Node | None], int]] = [
+        (partial(closing, effort=1), SHORT_BUDGET)
+    ]
+    tries += [(partial(_lemma, state, known), LEAF_BUDGET)] if lemma else []
+    tries += [] if signs else [(partial(closing, effort=effort), LEAF_BUDGET) for effort in (1, 2)]
+    tries += [(partial(closing, effort=SQUARED), SHORT_BUDGET)] if lemma else []
+    for one, units in tries:
+        try:
+            node = one(budget=Budget(units))
+        except Exhausted:
+            continue
+        if node is not None:
+            return node
+    nodes: list[Node | None] = []
+    for place, case in enumerate(state.by_sign(signs[0]) if signs else ()):
+        nodes.append(closed_by_signs(case, known, signs[1:], place == 0))
+        if nodes[-1] is None:
+            return None
+    return sign_node(signs[0], nodes) if nodes else None
+
+
+def _lemma(state: State, known: dict[str, checker.Statement], budget: Budget) -> Node | None:
+    """A node by sums of squares times facts whose degree and names are those of the last fact."""
+    problem = Closing(known, budget, SQUARED).problem(state, True)
+    last = problem.source.lowered[-1]
+    top = max(2, total_degree(last))
+    strange = [
+        place
+        for place, name in enumerate(problem.ring.names)
+        if name in RESERVED and not last.degrees()[place]
+    ]
+    only = [
+        k
+        for k, fact in enumerate(problem.facts)
+        if total_degree(fact.poly) <= top and not any(fact.poly.degrees()[v] for v in strange)
+    ]
+    for count in (1, 2):
+        found = ProductsOfFacts(problem, count, top + top % 2, only, budget)
+        lifted = partial(lift, problem)
+        node = SquaresProgram(problem.ring, found.blocks, found.cofactors, lifted).node(budget)
+        if node is not None:
+            return node
+    return None
 
 
 def proof_from_few_facts(
@@ -37,7 +123,7 @@ def proof_from_few_facts(
     if state.closed:
         return None
     try:
-        steps = obligations_closed(unfolding, known, Budget(BUDGET))
+        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
     except Exhausted:
         return None
     kept = few_of(state, used, terms, unknowns)
@@ -71,7 +157,7 @@ def by_signs(
     for numbers in kept:
         try:
             few = with_facts(state, numbers)
-            node = search_closing(few, known, Budget(BUDGET), effort=2, confirm=False)
+            node = search_closing(few, known, Budget(FEW_FACTS_BUDGET), effort=2, confirm=False)
         except Exhausted:
             continue
         full = renumbered(node, numbers) if node else None
@@ -129,14 +215,14 @@ def proof_by_squares(
     """
     for effort in (1, 2):
         try:
-            found = search_proof(premise, known, Budget(BUDGET), effort=effort)
+            found = search_proof(premise, known, Budget(FEW_FACTS_BUDGET), effort=effort)
         except Exhausted:
             continue
         if found is not None:
             return found
     unfolding = unfolded(premise)
     try:
-        steps = obligations_closed(unfolding, known, Budget(BUDGET))
+        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
     except Exhausted:
         return None
     node = None
@@ -163,9 +249,9 @@ def proof_without_next(
     facts = [fact_key(*fact) for fact in state_of(few).assume(few.goal(False)).facts]
     numbers = [k for k, fact in enumerate(state.facts) if fact_key(*fact) in facts]
     try:
-        steps = obligations_closed(unfolding, known, Budget(BUDGET))
+        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
         closing = with_facts(state, numbers)
-        node = search_closing(closing, known, Budget(SQUARES), effort=SQUARED, confirm=False)
+        node = search_closing(closing, known, Budget(SQUARES_BUDGET), effort=SQUARED, confirm=False)
     except Exhausted:
         return None
     full = renumbered(node, numbers) if node and not state.choices else None
@@ -186,7 +272,9 @@ def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node
     for numbers, effort in tries:
         try:
             few = with_facts(state, numbers)
-            node = search_closing(few, known, Budget(BUDGET), effort=effort, confirm=False)
+            node = search_closing(
+                few, known, Budget(FEW_FACTS_BUDGET), effort=effort, confirm=False
+            )
         except Exhausted:
             continue
         if node:

@@ -6,7 +6,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.states import proves
-from juggleproof.proofs.stability.few_facts import proof_from_few_facts, proof_without_next
+from juggleproof.proofs.stability.premise_searches import proof_from_few_facts, proof_without_next
 
 BELOW = """statement m/below
 forall x_point x_gap other distance

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import sympy
@@ -20,9 +20,21 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.certifying import Candidate, Search
 from juggleproof.proofs.stability.functions.templates import Function, squares_of
-from juggleproof.proofs.stability.given import (
-    Map,
+from juggleproof.proofs.stability.maps import Map
+from juggleproof.proofs.stability.premise_searches import proof_by_signs
+from juggleproof.proofs.stability.samples import (
+    SEED,
+    STATES,
+    Arrays,
+    Floats,
+    Point,
+    Samples,
+    around,
+)
+from juggleproof.proofs.stability.terms import (
+    Expr,
     as_factor,
     atoms,
     column,
@@ -32,7 +44,6 @@ from juggleproof.proofs.stability.given import (
     value,
     written,
 )
-from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples
 
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
 FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a number
@@ -162,6 +173,20 @@ class Setting:
         return known | {f"{name}_point": np.broadcast_to(v, (self.count,)) for name, v in values}
 
     @cached_property
+    def point_names(self) -> list[Expr]:
+        """The names of the point's coordinates."""
+        return symbols([f"{name}_point" for name in self.system.state])
+
+    @cached_property
+    def derivative(self) -> Expr:
+        """The derivative of the point's piece there, in the parameters, and in the point's names
+        where premises know of it.
+        """
+        at = self.point_names if self.have else map(expression, self.point.terms)
+        put = dict(zip(symbols(self.system.state), at))
+        return self.system.derivatives[self.piece].subs(put, simultaneous=True)
+
+    @cached_property
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
         return self._products(LIMITS)
@@ -192,69 +217,146 @@ class Setting:
             *(f"let {name} = {term}" for name, term in zip(self.system.state, self.point.terms)),
         ]
 
-    def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
-        """A statement `lyapunov` or `unstable`; the rows but those that the point gives."""
-        own = {key: [row for row in rows if row[0] == key] for key in ("on", "direction")}
+    def inside(self, space: str) -> Setting:
+        """The same point of the map on this part of the space."""
+        system = replace(self.system, space=space)
+        states = around(system, self.point, self.parameters, STATES)
+        return replace(self, system=system, states=states, map="map-1")
+
+    def rule(
+        self,
+        name: str,
+        function: Function,
+        rows: Sequence[tuple[str, str]],
+        before: Sequence[tuple[str, str]] = (),
+        after: Sequence[tuple[str, str]] = (),
+    ) -> MapRule:
+        """A statement `lyapunov` or `unstable`: the rows below its function, and those before and
+        after its point.
+        """
         return MapRule(
             name,
             (
-                ("map", name.rpartition("/")[0] + f"/{self.map}"),
+                ("map", f"{self.system.name}/{self.map}"),
                 ("domain", self.domain),
                 *(("root", f"{root} = sqrt({under})") for root, under in self.point.roots),
-                *own["on"],
+                *before,
                 ("point", ", ".join(self.point.terms)),
-                *own["direction"],
+                *after,
                 *(("have", line) for line in self.have),
                 *function.lines(),
-                *(row for row in rows if row[0] not in own),
+                *rows,
             ),
         )
 
+    def descent(self, name: str, of: str, rank: str, *stages: str) -> MapRule:
+        """The statement that every orbit of a map is in the last stage after `rank` steps."""
+        rows = [("map", f"{self.system.name}/{of}"), ("domain", self.domain), ("rank", rank)]
+        rows += [("stage", one) for one in stages]
+        return MapRule(f"{self.system.name}/{name}", tuple(rows))
 
-def lyapunov_rules(
-    setting: Setting, function: Function, on: str, name: str
-) -> Iterator[tuple[float, MapRule]]:
-    """The statements that V proves stability and attraction of the set, for candidates of the loss
-    and of the constants, each with a number that is small where these fit well.
+    def attraction(self, name: str, descent: str, within: str = "", radius: str = "") -> MapRule:
+        """The statement that the point attracts the states of this descent: its last stage is the
+        set of the statement `lyapunov`, or another statement says that the point attracts it and
+        that it has the states within a radius.
+        """
+        rows = [("descent", f"{self.system.name}/{descent}")]
+        if within:
+            rows += [("attraction", f"{self.system.name}/{within}"), ("radius", radius)]
+        else:
+            rows += [("lyapunov", f"{self.system.name}/lyapunov")]
+        return MapRule(f"{self.system.name}/{name}", tuple(rows))
+
+    def candidate(
+        self,
+        function: Function,
+        loss: str,
+        least: str,
+        ball: tuple[str, str],
+        on: str = "",
+        rank: float = 0.0,
+        searches: Mapping[str, Search] | None = None,
+    ) -> Candidate:
+        """The statement `lyapunov` that V falls by the loss on a set, or on the space: `least` is
+        what it falls by at a distance, and V <= upper |s - e| where |s - e| <= radius, of which
+        `ball` has the radius first.
+        """
+        radius, upper = ball
+        rows = [("loss", loss), ("least", least), ("upper", upper), ("radius", radius)]
+        before = [("on", on or self.system.space)]
+        rule = self.rule(f"{self.system.name}/lyapunov", function, rows, before)
+        return Candidate((rule,), searches or {}, rank)
+
+
+def losses(
+    setting: Setting,
+    samples: Samples,
+    shares: tuple[Floats, Floats],
+    size: str,
+    least: str,
+    powers: Sequence[int] = (0,),
+    products: Sequence[tuple[str, Floats]] | None = None,
+    most: int = 2,
+    share: float = 0.75,
+) -> Iterator[tuple[float, str, str, str]]:
+    """For each power p of 1 + V the constants c with the losses c `size`/(1 + V)^p, and what these
+    are at least, each with a number that is small where it fits well.
+
+    shares: by what part of `size` V falls at the samples, and 1 + V there.
     """
-    system, samples = setting.system, setting.states
-    count = len(samples.which)
-    here, there = function.along(system, samples.points, count)
-    square = np.sum([samples.points[f"{name}_gap"] ** 2 for name in system.state], axis=0)
-    fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
-    samples = samples.where(fits)
-    radius, upper = next(small_balls(setting, function), ("", ""))
-    if not radius:
-        return
-    for order, power in itertools.product(ORDERS, LOSS_POWERS):
-        size = np.sum([samples.points[f"{name}_gap"] ** order for name in system.state], axis=0)
-        shares = (here - there)[fits] / size * (1 + here[fits]) ** power
-        least = samples.least(shares, setting.count)
-        total = " + ".join(f"{name}_gap^{order}" for name in system.state)
-        total = total if len(system.state) == 1 else f"({total})"
-        for rank, constant in bounded_below(least, setting.products):
+    fall, above = shares
+    for power in powers:
+        by = samples.least(fall * above**power, setting.count)
+        over = {0: "", 1: "/(1 + {})"}.get(power, f"/(1 + {{}})^{power}")
+        for rank, constant in bounded_below(by, products or setting.products, most, share):
             start = "" if constant == "1" else f"{as_factor(constant)}*"
-            divide = {0: "", 1: "/(1 + {})", 2: "/(1 + {})^2"}[power]
-            rows = [
-                ("on", on),
-                ("loss", start + total + divide.format("value")),
-                ("least", start + f"distance^{order}" + divide.format("level")),
-                ("upper", upper),
-                ("radius", radius),
-            ]
-            yield rank + power / 4 + order - 2, setting.rule(name, function, rows)
+            loss = start + size + over.format("value")
+            yield rank + power / 4, constant, loss, start + least + over.format("level")
+
+
+def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[Candidate]:
+    """The candidates for this V whose loss is a constant times the squares of the distances, or
+    their fourth powers, by a power of 1 + V.
+    """
+    names, samples = setting.system.state, setting.states
+    here, there = function.along(setting.system, samples.points, len(samples.which))
+    square = np.sum([samples.points[f"{name}_gap"] ** 2 for name in names], axis=0)
+    fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
+    samples, here, there = samples.where(fits), here[fits], there[fits]
+    ball = next(small_balls(setting, function), None)
+    if ball is None:
+        return
+    for order in ORDERS:
+        size = np.sum([samples.points[f"{name}_gap"] ** order for name in names], axis=0)
+        total = " + ".join(f"{name}_gap^{order}" for name in names)
+        total, shares = (
+            total if len(names) == 1 else f"({total})",
+            ((here - there) / size, 1 + here),
+        )
+        for rank, _, loss, least in losses(
+            setting, samples, shares, total, f"distance^{order}", LOSS_POWERS
+        ):
+            yield setting.candidate(function, loss, least, ball, rank=rank + order - 2)
+
+
+def at_samples(matrix: Expr, known: Arrays, count: int) -> Floats:
+    """The square matrix at so many samples of what is in it, (count, n, n)."""
+    numbers = sympy.lambdify(symbols(known), list(matrix), "numpy")(*known.values())
+    stack = [np.broadcast_to(np.asarray(one, float), (count,)) for one in numbers]
+    return np.stack(stack, axis=1).reshape(count, *matrix.shape)
 
 
 def derivatives(setting: Setting) -> Floats:
     """The derivative of the point's piece there, for each of the parameters, (count, n, n)."""
-    state, names = symbols(setting.system.state), symbols(setting.constants)
-    at = dict(zip(state, symbols([f"{one}_point" for one in setting.system.state])))
-    matrix = sympy.Matrix(setting.system.images[setting.piece]).jacobian(state)
-    entries = list(matrix.subs(at, simultaneous=True))
-    numbers = sympy.lambdify(names, entries, "numpy")(*setting.constants.values())
-    n = len(state)
-    stack = [np.broadcast_to(np.asarray(one, float), (setting.count,)) for one in numbers]
-    return np.stack(stack, axis=1).reshape(setting.count, n, n)
+    at = dict(zip(symbols(setting.system.state), setting.point_names))
+    matrix = setting.system.derivatives[setting.piece].subs(at, simultaneous=True)
+    return at_samples(matrix, setting.constants, setting.count)
+
+
+def symmetric(size: int) -> tuple[Expr, list[Expr]]:
+    """A symmetric matrix of unknowns, and these."""
+    entry = [[sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for j in range(size)] for i in range(size)]
+    return sympy.Matrix(entry), sorted({one for row in entry for one in row}, key=str)
 
 
 def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
@@ -262,20 +364,12 @@ def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     (the discrete Lyapunov equation), in the parameters; None where there are none.
     """
     system = setting.system
-    n = len(system.state)
-    state, names = symbols(system.state), [f"{one}_point" for one in system.state]
-    matrix = sympy.Matrix(system.images[setting.piece]).jacobian(state)
-    moving = not matrix.free_symbols.isdisjoint(state)
+    n, matrix = len(system.state), system.derivatives[setting.piece]
+    moving = not matrix.free_symbols.isdisjoint(symbols(system.state))
     if n > 3 or moving and setting.have and len(system.pieces) > 1:
         return None
-    at = symbols(names) if setting.have else map(expression, setting.point.terms)
-    matrix = matrix.subs(dict(zip(state, at)), simultaneous=True)
-    entries = {
-        (i, j): sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for i in range(n) for j in range(n)
-    }
-    form = sympy.Matrix(n, n, lambda i, j: entries[i, j])
+    (form, unknowns), matrix = symmetric(n), setting.derivative
     equations = list(matrix.T * form * matrix - form + sympy.eye(n))
-    unknowns = sorted(set(entries.values()), key=str)
     solutions = sympy.solve(equations, unknowns, dict=True)
     if not solutions:
         return None
@@ -291,15 +385,15 @@ def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     values = dict(zip(unknowns, found))
     gaps = symbols([f"{one}_gap" for one in system.state])
     total = sum(
-        sympy.factor(sympy.cancel(values[entries[i, j]] * divisor)) * gaps[i] * gaps[j]
+        sympy.factor(sympy.cancel(values[form[i, j]] * divisor)) * gaps[i] * gaps[j]
         for i in range(n)
         for j in range(n)
     )
     return written(total), written(sympy.factor(divisor))
 
 
-def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
-    """The statements whose V solves the discrete Lyapunov equation at the point."""
+def equation_candidates(setting: Setting) -> Iterator[Candidate]:
+    """The candidates whose V solves the discrete Lyapunov equation at the point."""
     found = lyapunov_form(setting)
     if found is None:
         return
@@ -309,15 +403,10 @@ def equation_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
     if (there > here * (1 + 1e-9) + 1e-9).any():
         return
     squares = " + ".join(squares_of(setting.system))
-    for radius, upper in itertools.islice(small_balls(setting, function), 2):
-        rows = [
-            ("on", on),
-            ("loss", f"({loss})*({squares})"),
-            ("least", f"({loss})*distance^2"),
-            ("upper", upper),
-            ("radius", radius),
-        ]
-        yield setting.rule(name, function, rows)
+    least, by_sign = f"({loss})*distance^2", partial(proof_by_signs, signs=found[:1])
+    for ball in itertools.islice(small_balls(setting, function), 2):
+        drop, searches = f"({loss})*({squares})", {"bounded": by_sign}
+        yield setting.candidate(function, drop, least, ball, searches=searches)
 
 
 def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str]]:

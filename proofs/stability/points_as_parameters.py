@@ -14,22 +14,7 @@ from numpy.typing import NDArray
 from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.findings import Meaning
-from juggleproof.proofs.stability.given import (
-    HIGH,
-    LOW,
-    Expr,
-    Map,
-    as_factor,
-    atoms,
-    column,
-    conjuncts,
-    ends_of_space,
-    expression,
-    holds,
-    renamed,
-    symbols,
-    written,
-)
+from juggleproof.proofs.stability.maps import HIGH, LOW, Map, ends_of_space
 from juggleproof.proofs.stability.points import PARAMETERS
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -38,6 +23,18 @@ from juggleproof.proofs.stability.samples import (
     multiplied_out,
     real_zeros,
     region,
+)
+from juggleproof.proofs.stability.terms import (
+    Expr,
+    as_factor,
+    atoms,
+    column,
+    conjuncts,
+    expression,
+    holds,
+    renamed,
+    symbols,
+    written,
 )
 
 NAMES = "ecuvwz"  # for the point, the first that is free
@@ -71,7 +68,7 @@ def by_its_point(system: Map, several: bool = False) -> Renamed | None:
     point in the space for each value of the parameters, or where there are `several` of one
     equation; None elsewhere.
 
-    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
     ...         ("piece", "(2*x + a/x^2)/3")]
     >>> found = by_its_point(read_rows("cube-root", rows))
@@ -187,7 +184,7 @@ def has_one_point(before: Map, found: Renamed) -> bool:
     of the point in the new domain: the term is monotone there, and the equation of both has
     different signs at the ends of an interval.
 
-    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
     ...         ("piece", "(2*x + a/x^2)/3")]
     >>> system = read_rows("cube-root", rows)

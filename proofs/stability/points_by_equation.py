@@ -13,7 +13,9 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
-from juggleproof.proofs.stability.algebraic import (
+from juggleproof.proofs.stability.findings import Meaning
+from juggleproof.proofs.stability.maps import Map
+from juggleproof.proofs.stability.points_as_parameters import (
     MOST_DEGREE,
     NAMES,
     Renamed,
@@ -25,10 +27,8 @@ from juggleproof.proofs.stability.algebraic import (
     without_divisors,
     zeros_inside,
 )
-from juggleproof.proofs.stability.findings import Meaning
-from juggleproof.proofs.stability.given import (
+from juggleproof.proofs.stability.terms import (
     Expr,
-    Map,
     as_factor,
     column,
     conjuncts,
@@ -65,7 +65,7 @@ def by_an_equation(system: Map) -> WithEquation | Renamed | None:
     is one zero of an equation with a fixed point in the space for each value of the parameters; in
     place of one that the equation is linear in, if there is one; None elsewhere.
 
-    >>> from juggleproof.proofs.stability.given import read_rows
+    >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("state", "x"), ("space", "x > 0"), ("piece", "(2*x + 2/x^2)/3")]
     >>> found = by_an_equation(read_rows("cube-root", rows))
     >>> found.system.domain, found.system.point
