@@ -24,9 +24,8 @@ import numpy as np
 from juggleproof.benchmarks.generated import DOCS, Generated
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates.cases import ANYWHERE, conjunction
-from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.maps import Map, read_file
-from juggleproof.proofs.stability.samples import Floats, region
+from juggleproof.proofs.stability.samples import Floats, matrices_of, region
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "examples"
@@ -123,7 +122,7 @@ def quadratic(system: Map) -> str:
     """At how many samples of the parameters a common quadratic Lyapunov function of all pieces is
     found, such as `20/20`; nothing where a piece is not affine.
     """
-    if not is_affine(system):
+    if not system.is_affine:
         return ""
     samples = region(system.domain, system.parameters, SAMPLES)
     count = len(next(iter(samples.values()))) if samples else 1

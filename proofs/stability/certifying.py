@@ -17,17 +17,12 @@ from juggleproof.certificates.votes.vote import Budget as Votes
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.premise_searches import proof_without_next
 from juggleproof.proofs.stability.terms import conjuncts
 
-BUDGET = 2_000_000  # counted work for a premise
-LOCAL_BUDGET, ENVELOPE_BUDGET = 200_000, 4_000_000  # the same, close to the point; of an envelope
-MOST_WORK, MORE_WORK = 12_000_000, 2_000_000  # on a map; after that, for refutations and in part
 EFFORTS = (1, 2, SQUARED)
-LONG_SEARCH = 300_000  # units of work, before which Z3 is asked for a counter-model
-QUICK = Votes(rlimit=20_000)  # some 20 ms
-FULL = Votes(rlimit=50_000)  # for the reason why a premise is open
-SQUARES_COST = 8  # of a unit of work at the effort of squares
+VOTE = Votes(rlimit=limits.VOTE)
 Report = Callable[[str], None]
 Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | None]
 
@@ -67,11 +62,13 @@ class Proof:
     rules: list[MapRule] = field(default_factory=list)
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
-    budget: int = BUDGET  # of a premise where nothing less is said; what is less grows with it
+    budget: int = (
+        limits.PREMISE_WORK
+    )  # of a premise where nothing less is said; what is less grows with it
     fault: str = ""  # why the last statement was not certified, if it was not
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
     work: int = 0  # that was spent on premises
-    most: int = MOST_WORK  # of it
+    most: int = limits.MAP_WORK  # of it
     # premises without a proof: the largest budget, and whether the search ended for want of it
     sought: dict[str, tuple[int, bool]] = field(default_factory=dict)
 
@@ -79,11 +76,11 @@ class Proof:
         self,
         rule: MapRule,
         efforts: Sequence[int] = EFFORTS,
-        budget: int = BUDGET,
+        budget: int = limits.PREMISE_WORK,
         searches: Mapping[str, Search] | None = None,
     ) -> bool:
-        """Whether one more statement is certified; `fault` says why it is not.  Some premises have
-        searches, which are made first.
+        """Return whether one more statement is certified; `fault` says why it is not.  The searches
+        are made first, for the premises that they name.
         """
         self.fault = self._fault(rule, efforts, budget, searches or {})
         return not self.fault
@@ -100,7 +97,7 @@ class Proof:
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
                 proof = searches[name](premises[name], self.known) if name in searches else None
-                work = budget * self.budget // BUDGET
+                work = budget * self.budget // limits.PREMISE_WORK
                 each = efforts if name.startswith(("falls", "grows")) else (*efforts, *EFFORTS)
                 if name.startswith("stage"):
                     proof = self.proof_of(premises[name], (1, 2), work)
@@ -122,8 +119,8 @@ class Proof:
         return ""
 
     def grant(self, work: int) -> None:
-        """Lets so much more work be spent, which grows with the budget."""
-        self.most = max(self.most, self.work + work * self.budget // BUDGET)
+        """Let this much more work be spent; it grows with the budget."""
+        self.most = max(self.most, self.work + work * self.budget // limits.PREMISE_WORK)
 
     def free_name(self, name: str) -> str:
         """The name, with a number where a statement has it already."""
@@ -131,15 +128,15 @@ class Proof:
         return f"{name}-{count + 1}" if count else name
 
     def domain(self) -> str:
-        """For which parameters the last statement with a domain holds."""
+        """Return for which parameters the last statement with a domain holds."""
         rows = (dict(rule.rows) for rule in reversed(self.rules))
         return next(each["domain"] for each in rows if "domain" in each)
 
     def takes(
         self, candidate: Candidate, efforts: Sequence[int], budget: int, report: Report
     ) -> bool:
-        """Whether all statements of a candidate are certified; else none is added.  The efforts and
-        the budget are those for the statement with a function V, which the report names.
+        """Return whether all statements of a candidate are certified; else none is added.  Efforts
+        and budget are for the statement with a function V, which the report names.
         """
         count = len(self.rules)
         for rule in candidate.rules:
@@ -154,7 +151,7 @@ class Proof:
         return True
 
     def add_all(self, rules: Sequence[MapRule]) -> bool:
-        """Whether all of these statements are certified; else none is added."""
+        """Return whether all of these statements are certified; else none is added."""
         count = len(self.rules)
         if all(self.add(rule) for rule in rules):
             return True
@@ -162,24 +159,24 @@ class Proof:
         return False
 
     def keep(self, count: int) -> None:
-        """Leaves the first `count` statements only."""
+        """Leave the first `count` statements only."""
         for rule in self.rules[count:]:
             del self.certificates[rule.name], self.known[rule.name]
         del self.rules[count:]
 
     def why(self) -> str:
-        """What Z3 says of the last premise without a proof, and its text."""
+        """Return what Z3 says of the last premise without a proof, and its text."""
         if self.open is None:
             return ""
         kind, name, premise = self.open
         _, cut = self.sought.get(premise.text(), (0, True))
-        line = why(kind, name, premise, vote_and_model(premise, budget=FULL), self.budget, cut)
+        line = why(kind, name, premise, vote_and_model(premise, budget=VOTE), self.budget, cut)
         return f"{line.removesuffix(', or a lemma')}\n{premise.text()}"
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
     ) -> Premise | None:
-        """A proof of one premise, if one is found."""
+        """Return a proof of one premise, or None."""
         found, cut = self.proof_and_end(premise, efforts, budget)
         text = premise.text()
         if found is None and budget >= self.sought.get(text, (0, True))[0]:
@@ -189,15 +186,15 @@ class Proof:
     def proof_and_end(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
     ) -> tuple[Premise | None, bool]:
-        """The same, and whether the search ended for want of budget."""
+        """Return a proof or None, and whether the search ended for want of budget."""
         if terms_of_pairs(premise) // 16 > budget:
             return None, True  # the first program would be too large
         cut = False
         for count, effort in enumerate(efforts):
             if self.work >= self.most:
                 return None, True
-            asked = count == 1 and budget >= LONG_SEARCH
-            if asked and vote_and_model(premise, budget=QUICK)[1] is not None:
+            asked = count == 1 and budget >= limits.LONG_SEARCH
+            if asked and vote_and_model(premise, budget=VOTE)[1] is not None:
                 return None, False
             if effort == SQUARED and premise.get("exists"):
                 continue  # there are no squares to find
@@ -206,14 +203,16 @@ class Proof:
                 proof = search_proof(premise, self.known, part, effort=effort)
             except Exhausted:
                 cut = True
-            self.work += (budget - part.left) * (SQUARES_COST if effort == SQUARED else 1)
+            self.work += (budget - part.left) * (limits.SQUARES_COST if effort == SQUARED else 1)
             if proof is not None:
                 return proof, cut
         return None, cut
 
 
 def terms_of_pairs(premise: checker.Statement) -> int:
-    """How many terms the products of two facts have that a premise without cases begins with."""
+    """Return the number of terms in the products of two facts with which the search for a premise
+    without cases begins.
+    """
     if premise.get("exists"):
         return 0
     unfolding = unfolded(premise)
@@ -229,8 +228,8 @@ def function_of(rule: MapRule) -> str:
 
 
 def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
-    """What the domain asks of the parameters that the checker does not certify to hold on the given
-    one: a licence rests on samples, which miss an end point.
+    """Return the conditions of the domain that are not certified to follow from the given one.  A
+    licence rests on samples, which miss an end point.
     """
     before, open_ = conjuncts(given), []
     facts = [f"given {one}" for one in before]
@@ -242,7 +241,7 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
     return " and ".join(open_)
 
 
-def is_certified(lines: Sequence[str], budget: int = BUDGET) -> bool:
+def is_certified(lines: Sequence[str], budget: int = limits.PREMISE_WORK) -> bool:
     """Whether a certificate for the statement of these lines is found, and the checker takes it."""
     try:
         statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]

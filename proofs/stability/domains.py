@@ -14,17 +14,16 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import bounds_of
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import FixedPoint
 from juggleproof.proofs.stability.samples import Arrays
 from juggleproof.proofs.stability.terms import Expr, atoms, holds, symbols, value, written
 
-MOST_ENDS = 81  # three values of each of four parameters
-
 
 def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tuple[Expr, bool]]:
-    """Terms in the parameters that are > 0, or >= 0 where not strict, where the fixed point exists
-    and its multipliers are below 1 in size; `closed`: that of one variable may be -1.
+    """Return terms in the parameters that are > 0, or >= 0 if not strict, if the fixed point exists
+    and its multipliers are below 1 in size; if `closed`, the multiplier in one variable may be -1.
     """
     state = symbols(system.state)
     at = dict(zip(state, fixed.terms))
@@ -48,8 +47,8 @@ def conditions(system: Map, fixed: FixedPoint, closed: bool = False) -> list[tup
 
 
 def without_cycles(system: Map, parameters: Arrays) -> list[tuple[Expr, bool]]:
-    """Terms that are > 0, or >= 0 where not strict, where a map of one variable that is affine in
-    pieces has no orbit of period two through two of its pieces.
+    """Return terms that are > 0, or >= 0 if not strict, if a map of one variable has no orbit of
+    period two through two of its pieces.  The pieces are affine; else there are no terms.
     """
     state, found = symbols(system.state), []
     if len(state) > 1 or any(sympy.diff(one, *state, 2) != 0 for (one,) in system.images):
@@ -78,7 +77,9 @@ def without_cycles(system: Map, parameters: Arrays) -> list[tuple[Expr, bool]]:
 
 
 def jumps(system: Map, fixed: FixedPoint, term: Expr) -> bool:
-    """Whether no other piece takes the point to itself too where the term, of a guard, is 0."""
+    """Return whether the point is a fixed point of no other piece at parameters at which this term
+    of a guard is 0.
+    """
     at = dict(zip(symbols(system.state), fixed.terms))
     zeros = sympy.numer(sympy.together(term))
     for images in system.images[: fixed.piece] + system.images[fixed.piece + 1 :]:
@@ -116,7 +117,9 @@ def ends_of_domain(system: Map) -> list[dict[Expr, Expr]]:
         middle = sum(inner) / len(inner) if inner else Fraction(0)
         ranges.append([*values, middle + (len(inner) < 2)])
     points = (dict(zip(system.parameters, each)) for each in itertools.product(*ranges))
-    inside = (one for one in itertools.islice(points, MOST_ENDS) if holds(system.domain, one))
+    inside = (
+        one for one in itertools.islice(points, limits.MOST_POINTS) if holds(system.domain, one)
+    )
     return [
         {symbol: sympy.Rational(value) for symbol, value in zip(symbols(one), one.values())}
         for one in inside
@@ -200,8 +203,9 @@ def needed(rows: list[str], parameters: Arrays) -> list[str]:
 
 
 def middle_of(system: Map, domain: str) -> list[str]:
-    """The middle half of each parameter's range, as formulas; of one without an upper end, that
-    which begins 1/2 above the lower.  None of these where a parameter has neither end.
+    """Return the middle half of each parameter's range, as formulas.  If there is no upper end, it
+    is the range from 1/2 above the lower end on.  If a parameter has no lower end, there are no
+    formulas.
     """
     rows = []
     for name in system.parameters:

@@ -1,6 +1,6 @@
-"""Boxes that every orbit enters after so many steps, as where a map saturates: bounds of the next
-state by the guards of the pieces, step by step; of one rational piece, by its values at the ends of
-the box before, such as 0 < x/(1 + y).
+"""Boxes that every orbit enters, as where a map saturates.  The guards of the pieces bound the
+next state, step by step.  The images of one rational piece are bounded by their values at the
+ends of the box before, as 0 < x/(1 + y) is.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.maps import HIGH, LOW, Map, Side, ends_of_space
-from juggleproof.proofs.stability.samples import SEED, STATES, Arrays, Floats, around
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, around
 from juggleproof.proofs.stability.terms import (
     Expr,
     atoms,
@@ -28,12 +29,10 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-SHARE = 0.3  # of the states that are put at an end
-
 
 def boxes_of(system: Map) -> list[str]:
-    """For one step after another, bounds that hold of all states so many steps after any state of
-    the space, until nothing more is found.
+    """Return bounds that hold one step after any state of the space, then those after two steps,
+    and so on until no step gives new ones.
 
     >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("state", "x y"), ("piece", "max(-1, min(1, x + y)), x/2")]
@@ -59,8 +58,8 @@ def boxes_of(system: Map) -> list[str]:
 
 
 def _end(system: Map, place: int, side: int, inside: str) -> Expr | None:
-    """The upper end of a coordinate of the next state, or the lower one where `side` is -1; None
-    where the guards of some piece give none.
+    """Return the upper end of a coordinate of the next state, or the lower one if `side` is -1;
+    None if the guards of a piece give none.
     """
     ends = []
     for (guard, _), images in zip(system.pieces, system.images):
@@ -74,7 +73,7 @@ def _end(system: Map, place: int, side: int, inside: str) -> Expr | None:
 
 
 def _ends(system: Map, image: Expr, side: int, known: set[Expr]) -> list[Expr]:
-    """Terms in the parameters beyond which the image is not, by one of the facts bound >= 0."""
+    """Return terms in the parameters that bound the image, by one of the facts bound >= 0."""
     state = set(symbols(system.state))
     if not image.free_symbols & state:
         return [image]
@@ -91,9 +90,9 @@ def _ends(system: Map, image: Expr, side: int, known: set[Expr]) -> list[Expr]:
 
 
 def within(setting: Setting, box: str) -> Setting:
-    """The same point, with states of the box only."""
+    """Return the setting with states of the box only."""
     system = replace(setting.system, space=conjunction(setting.system.space, box))
-    states = around(system, setting.point, setting.parameters, STATES)
+    states = around(system, setting.point, setting.parameters, limits.STATES)
     return replace(setting, system=system, states=states, outer=setting.system.space)
 
 
@@ -114,8 +113,9 @@ def entering_rules(setting: Setting, boxes: Sequence[str]) -> list[MapRule]:
 
 
 def spaces_entered(setting: Setting, far: bool) -> list[str]:
-    """For one step after another, the space with bounds of all states so many steps after any of
-    its states: that they are at no end of it, or `far`: how far the images go.
+    """Return parts of the space: in each, every state is after one more step, whatever state the
+    orbit begins at.  No state is at an end of a part; if `far`, its ends are the limits of the
+    images.
     """
     system, found = setting.system, [setting.system.space]
     bounded: dict[Side, str] = {}
@@ -140,8 +140,8 @@ def spaces_entered(setting: Setting, far: bool) -> list[str]:
 
 
 def _bound(system: Map, side: Side, ends: dict[Side, Expr], points: Arrays, far: bool) -> str:
-    """A bound of the next value of a variable on one side, as formula; nothing where there is none,
-    or none that is new.
+    """Return a new bound of the next value of a variable on one side, as a formula, or an empty
+    text.
     """
     (place, sign), end = side, ends.get(side)
     image = system.images[0][place]
@@ -161,8 +161,8 @@ def _bound(system: Map, side: Side, ends: dict[Side, Expr], points: Arrays, far:
 def limit_of(
     system: Map, image: Expr, sign: int, ends: dict[Side, Expr], points: Arrays
 ) -> Expr | None:
-    """The least value of a rational term, or the greatest, that is monotone in each variable, as
-    all go to an end; None where there is none.
+    """Return the least value of a rational term, or the greatest, at the ends of its variables;
+    None if the term is not monotone in one of them, or has no limit.
     """
     for place, one in enumerate(symbols(system.state)):
         slope = _at(sympy.diff(image, one), points)
@@ -190,7 +190,7 @@ def states_at_ends(setting: Setting, space: str) -> Arrays:
     for (place, _), end in ends_of_space(setting.system, space).items():
         name = setting.system.state[place]
         points[name] = np.where(
-            rng.random(len(points[name])) < SHARE, _at(end, points), points[name]
+            rng.random(len(points[name])) < limits.END_SHARE, _at(end, points), points[name]
         )
     inside = np.broadcast_to(holds(space, points), next(iter(points.values())).shape)
     return {name: values[inside] for name, values in points.items()}

@@ -1,5 +1,5 @@
-"""That a point is not stable, or does not attract every state; and a theorem that is sharp, of both
-parts of the domain.
+"""Proofs that a point is not stable, or does not attract every state; and the theorem that is
+sharp, which puts both parts of the domain together.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.definitions import term_of
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import EFFORTS, Proof, Report
+from juggleproof.proofs.stability import limits
+from juggleproof.proofs.stability.certifying import Proof, Report
 from juggleproof.proofs.stability.entering import entering_rules
 from juggleproof.proofs.stability.findings import is_fixed_point
 from juggleproof.proofs.stability.functions.candidates import Setting
@@ -28,15 +29,13 @@ from juggleproof.proofs.stability.refuting import (
 from juggleproof.proofs.stability.settings import setting_of
 from juggleproof.proofs.stability.terms import conjuncts, negation
 
-GROWTH_ROUNDS, GROWTH_WORK = (((1, 2), 50_000), (EFFORTS, 400_000)), 2_000_000  # for instability
-MOST_RATES = 6  # of growth
 Way = Callable[[Proof, Setting, Report], bool]
 COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
 
 
 def complement(conditions: str) -> list[str]:
-    """Formulas of which one holds where the conditions do not: for each of them its boundary and
-    its strict outside.
+    """Return formulas of which one holds if the conditions fail: for each condition its boundary
+    and its strict outside.
     """
     parts = []
     for condition in conjuncts(conditions):
@@ -60,8 +59,8 @@ def parts_refuted(
     ways: Sequence[Way],
     log: Report,
 ) -> list[tuple[str, str]]:
-    """The lines that name the refutations for all of these parts of the domain that have
-    parameters; nothing where one of them has none.
+    """Return the lines that name a refutation for each part of the domain that has parameters; none
+    if a part has no refutation.
     """
     lines = []
     for part in parts:
@@ -77,8 +76,8 @@ def parts_refuted(
 def sharp(
     proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
 ) -> bool:
-    """Whether stability and attraction on one part of the domain, and their failure on the rest,
-    are put together.
+    """Return whether one theorem is certified of stability and attraction on a part of the domain,
+    and of their failure on the rest.
     """
     name = setting.system.name
     rules = [] if f"{name}/attracts" in proof.known else entering_rules(setting, ())
@@ -91,20 +90,20 @@ def sharp(
 
 
 def by_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
-    """Whether an orbit is certified that the point does not attract: one that samples tend to, or
-    another fixed point.
+    """Return whether an orbit is certified that the point does not attract: an orbit that samples
+    tend to, or another fixed point.
     """
     fixed = [(k,) for k in range(len(setting.system.pieces))]
     return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
 
 
 def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
-    """The same of a short periodic orbit, which may repel."""
+    """Return whether a short periodic orbit is certified, which may repel."""
     return escaped(proof, setting, short_words(setting), log)
 
 
 def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> bool:
-    """Whether a periodic orbit along one of these words is certified."""
+    """Return whether a periodic orbit along one of these words is certified."""
     name = proof.free_name(f"{setting.system.name}/escapes")
     for count, rule in enumerate(escape_rules(setting, name, words)):
         if not count and not is_fixed(setting):
@@ -119,24 +118,24 @@ def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], lo
 
 
 def is_fixed(setting: Setting) -> bool:
-    """Whether it is certified that the point is a fixed point: what the rule `escapes` concludes
-    holds of any other state too.
+    """Return whether the point is certified to be a fixed point.  The conclusion of the rule
+    `escapes` holds of any other state too.
     """
     system, (guard, images) = setting.system, setting.system.pieces[setting.piece]
     return is_fixed_point(setting.head, system.space, guard, images, system.state)
 
 
 def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
-    """Whether it is certified that orbits leave a neighbourhood of the point."""
+    """Return whether it is certified that orbits leave a neighbourhood of the point."""
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
     before = proof.work
-    found = list(islice(rules(setting, name), MOST_RATES))
+    found = list(islice(rules(setting, name), limits.MOST_RATES))
     if not found:
         log("no function grows at all samples close to the point")
-    for efforts, budget in GROWTH_ROUNDS:
+    for efforts, budget in limits.GROWTH_ROUNDS:
         for rule in found:
-            if proof.work - before > GROWTH_WORK:
+            if proof.work - before > limits.GROWTH_WORK:
                 return False
             taken = proof.add(rule, efforts, budget)
             log(f"instability at rate {dict(rule.rows)['rate']}: {proof.fault or 'certified'}")
@@ -146,8 +145,8 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
 
 
 def refuted(proof: Proof, setting: Setting, log: Report, ways: Sequence[Way]) -> bool:
-    """Whether it is certified in one of these ways, for all parameters, that the point is not
-    stable or does not attract every state.
+    """Return whether it is certified in one of these ways, for all parameters, that the point is
+    not stable or does not attract every state.
     """
     return any(way(proof, setting, log) for way in ways)
 
@@ -156,8 +155,9 @@ WAYS: tuple[Way, ...] = (by_orbit, by_growth, by_short_orbit)
 
 
 def outsides(conditions: str) -> Iterator[tuple[Sequence[str], Sequence[Way]]]:
-    """Formulas of which one holds where the conditions do not, with the ways to refute them: as a
-    whole, which has the boundary, where no rate of growth is more than 1; then as parts.
+    """Return formulas of which one holds if the conditions fail, with the ways to refute them.
+    First comes the whole outside with its boundary, on which no rate of growth is above 1; then
+    come its parts.
     """
     whole, parts = negation(conditions), complement(conditions)
     if parts != [whole]:

@@ -1,5 +1,5 @@
-"""What certified statements say of the map that is given: one verdict and one sentence, made from
-their rules, domains, points, sets and roots, and from nothing that the search meant to show.
+"""One verdict and one sentence on the map that is given.  They are made from the certified
+statements: their rules, domains, points, sets and roots, and nothing that the search meant to show.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class Finding:
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a parameter stands for that took the place of another one, as a sentence; `certified`:
-    whether every parameter of the map that is given has one.
+    """A sentence that says what a parameter stands for, which took the place of another one.
+    `certified`: every parameter of the given map has one.
     """
 
     sentence: str
@@ -148,8 +148,8 @@ def finding_of(
     known: Mapping[str, checker.Statement],
     meaning: Meaning | None = None,
 ) -> Finding | None:
-    """What these certified statements say of the map that is given; None where they say nothing of
-    its fixed points.  `meaning`: of a parameter of it that stands for another one.
+    """Return what these certified statements say of the given map; None if they say nothing of its
+    fixed points.  `meaning`: what a parameter stands for that took the place of another one.
     """
     texts = {rule.name: rule.text() for rule in rules}
     lines = {name: Lines(name, texts) for name in texts}
@@ -196,7 +196,7 @@ def of_attraction(
     nowhere: Sequence[str],
     sharp: Sequence[Lines],
 ) -> Finding:
-    """Of a point that attracts every state, for all parameters or for some."""
+    """Return the finding on a point that attracts every state, for all parameters or for some."""
     fact = next((one for one in whole if not one.condition), whole[-1])
     says = f"{fact.point} is {STABLE} and {ATTRACTS} every state"
     if not fact.condition:
@@ -226,8 +226,8 @@ def of_attraction(
 def of_failure(
     given: Map, failing: Sequence[Fact], nowhere: Sequence[str], near: Sequence[Fact]
 ) -> Finding:
-    """Of fixed points that are not stable, or do not attract every state: where one fails that is
-    certified to be a fixed point, none of the others attracts it.
+    """Return the finding on fixed points that are not stable, or do not attract every state.  If a
+    state that fails is certified to be a fixed point, no other fixed point attracts it.
     """
     asked = [asked_beyond(given, domain) for domain in nowhere]
     lines = [f"{begun(where)}{NO_FIXED_POINT}" for where in asked]
@@ -250,7 +250,7 @@ def begun(condition: str) -> str:
 
 
 def is_covered(given: Map, domains: Sequence[str]) -> bool:
-    """Whether it is certified that the domains make up the one that is given."""
+    """Return whether it is certified that the domains make up the given domain."""
     if any(not beyond(given.domain, one, given.parameters) for one in domains):
         return True
     each = " or ".join(f"({one})" for one in domains)
@@ -271,7 +271,7 @@ def without_fixed_point(system: Map) -> MapRule:
 
 
 def moves(images: Sequence[str], state: Sequence[str]) -> str:
-    """That some coordinate is another one in the image."""
+    """Return the formula that the image differs from the state in some coordinate."""
     return " or ".join(
         f"{numerator(f'{image} - {name}')} != 0" if divides(image) else f"{image} != {name}"
         for image, name in zip(images, state)

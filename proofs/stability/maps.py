@@ -29,6 +29,7 @@ from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.formulas import RESERVED as WORDS
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.certificates.store import plain_file
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.terms import (
     Expr,
     Point,
@@ -49,14 +50,13 @@ ORDER = ("over", "domain", "state", "space", "piece", "point")
 LOW, HIGH = -1, 1
 SIGNS = "names, 3/10 or 0.3, + - * / ^, abs max min, < <= = != >= >, and or not"
 RESERVED = re.compile(r"value|level|distance|root_\d+|.*_(next|gap|point)")
-MOST_POWER = 100  # what is above takes SymPy without end
 
 
 @dataclass(frozen=True)
 class Map:
     """A map of states, piece by piece, with its parameters; everything is text of the statement
-    language.  `point` is what the user names as the point, if anything; `lines`: where each piece
-    stands in the file of the map, if there is one.
+    language.  `point` is the point that the user names, if any; `lines` are the places of the
+    pieces in the map's file, if there is one.
     """
 
     name: str
@@ -96,6 +96,12 @@ class Map:
         """The matrix of derivatives of each piece."""
         state = symbols(self.state)
         return tuple(sympy.Matrix(images).jacobian(state) for images in self.images)
+
+    @cached_property
+    def is_affine(self) -> bool:
+        """Whether every piece is affine in the state."""
+        state = symbols(self.state)
+        return all(one.free_symbols.isdisjoint(state) for one in self.derivatives)
 
     @cached_property
     def trees(self) -> tuple[tuple[ast.expr, tuple[ast.expr, ...]], ...]:
@@ -229,7 +235,7 @@ def read_rows(
 
 
 def _with_line(system: Map, keyword: str, text: str) -> Map:
-    """The map with what one more line says."""
+    """Return the map with one more line."""
     if keyword in ("over", "state"):
         names = tuple(text.split())
         for k, one in enumerate(names):
@@ -300,8 +306,8 @@ def _tree(text: str, names: Collection[str], keyword: str) -> ast.expr:
             raise ClaimError(
                 f"{inner.id} is neither parameter nor state variable; name it in `over` or `state`"
             )
-    if _degree(node) > MOST_POWER:
-        raise ClaimError(f"a power above {MOST_POWER}; write lower ones")
+    if _degree(node) > limits.MOST_POWER:
+        raise ClaimError(f"a power above {limits.MOST_POWER}; write lower ones")
     return node
 
 

@@ -10,20 +10,23 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.maps import Map
-from juggleproof.proofs.stability.samples import Arrays, Floats, Point, region, without_equations
+from juggleproof.proofs.stability.samples import (
+    Arrays,
+    Floats,
+    Point,
+    at_samples,
+    region,
+    without_equations,
+)
 from juggleproof.proofs.stability.terms import Expr, expression, holds, symbols, value, written
-
-PARAMETERS = 150  # samples
-VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables that are free
-MOST_VALUES = 100
-NEARLY = 1e-6  # of a state, in floats
 
 
 @dataclass(frozen=True)
 class FixedPoint:
-    """A fixed point of one piece: where the parameters are such that it is in the space and the
-    piece's guard holds there, it is one of the map.
+    """A fixed point of one piece.  It is a fixed point of the map at parameters at which it is in
+    the space and the piece's guard holds.
     """
 
     point: Point
@@ -41,7 +44,7 @@ class FixedPoint:
             )
             for name, image in zip(system.state, images):
                 gap = np.abs(np.asarray(value(image, {**known, **states}), float) - states[name])
-                inside = inside & (gap <= NEARLY * (1 + np.abs(states[name])))
+                inside = inside & (gap <= limits.NEARLY_FIXED * (1 + np.abs(states[name])))
         return np.broadcast_to(inside, states[system.state[0]].shape)
 
     def stable_share(self, system: Map, parameters: Arrays) -> float:
@@ -51,16 +54,12 @@ class FixedPoint:
 
     def multiplier(self, system: Map, parameters: Arrays) -> Floats:
         """The largest modulus of an eigenvalue of the derivative of its piece there."""
-        matrix = system.derivatives[self.piece]
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
-        size = len(states[system.state[0]])
-        entries = sympy.lambdify(symbols([*known, *states]), list(matrix), "numpy")
         with np.errstate(all="ignore"):
-            values = entries(*known.values(), *states.values())
-        stack = np.stack([np.broadcast_to(np.asarray(v, float), (size,)) for v in values])
-        n = len(system.state)
-        square = np.nan_to_num(stack.T.reshape(size, n, n), nan=np.inf, posinf=1e300)
+            size = len(states[system.state[0]])
+            values = at_samples(system.derivatives[self.piece], known | states, size)
+        square = np.nan_to_num(values, nan=np.inf, posinf=1e300)
         found: Floats = np.abs(np.linalg.eigvals(np.clip(square, -1e300, 1e300))).max(axis=1)
         return found
 
@@ -92,7 +91,7 @@ def is_zero(term: Expr, system: Map) -> bool:
 
 def _found(system: Map) -> Iterator[FixedPoint]:
     state = symbols(system.state)
-    parameters = region(system.domain, system.parameters, PARAMETERS)
+    parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     for k, images in enumerate(system.images):
         equations = [sympy.numer(sympy.together(i - s)) for i, s in zip(images, state)]
         for every in solutions(equations, state):
@@ -120,10 +119,10 @@ def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list
     for solution in found:
         terms = [sympy.simplify(solution.get(s, s)) for s in state]
         free = [s for s in state if any(s in t.free_symbols for t in terms)]
-        values = itertools.product(map(sympy.Rational, VALUES), repeat=len(free))
+        values = itertools.product(map(sympy.Rational, limits.FREE_VALUES), repeat=len(free))
         yield [
             tuple(sympy.cancel(t.subs(dict(zip(free, chosen)))) if free else t for t in terms)
-            for chosen in itertools.islice(values, MOST_VALUES)
+            for chosen in itertools.islice(values, limits.MOST_POINTS)
         ]
 
 
@@ -144,7 +143,7 @@ def roots_of(equation: Expr, variable: Expr) -> Iterator[Expr]:
 
 
 def as_point(terms: tuple[Expr, ...]) -> Point | None:
-    """The terms as text, with square roots named; None where there are others."""
+    """Return the terms as text, with names for square roots; None if there are other roots."""
     roots: list[tuple[str, str]] = []
     names: dict[Expr, str] = {}
     terms = tuple(  # what is under a root is written in one way

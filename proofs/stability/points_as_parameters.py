@@ -1,5 +1,5 @@
-"""Fixed points that are no square roots: the point as a parameter, in place of one that the
-equation of the point is linear in.
+"""Fixed points that square roots do not express: the point becomes a parameter, in place of an old
+one, in which the equation of the point is linear.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.findings import Meaning
 from juggleproof.proofs.stability.maps import HIGH, LOW, Map, ends_of_space
-from juggleproof.proofs.stability.points import PARAMETERS
 from juggleproof.proofs.stability.samples import (
     Arrays,
     divides,
@@ -38,8 +38,6 @@ from juggleproof.proofs.stability.terms import (
 )
 
 NAMES = "ecuvwz"  # for the point, the first that is free
-MOST_DEGREE = 12
-BUDGET = 200_000  # of counted work for a statement about the point
 
 
 @dataclass(frozen=True)
@@ -64,9 +62,9 @@ class Renamed:
 
 
 def by_its_point(system: Map, several: bool = False) -> Renamed | None:
-    """The map of one variable with its point for a parameter, where at samples there is one fixed
-    point in the space for each value of the parameters, or where there are `several` of one
-    equation; None elsewhere.
+    """Return the map of one variable with its fixed point as a parameter.  The equation of the
+    point is linear in the old parameter; at samples the point is the only one in the space, or one
+    of `several`.  None for any other map.
 
     >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
@@ -123,7 +121,9 @@ def with_parameter(
 
 
 def needed_of(parts: Sequence[str], known: Sequence[str], over: Sequence[str]) -> list[str]:
-    """The conditions without those that the others, with what is known, are certified to say."""
+    """Return the conditions that are not certified to follow from the others and from what is
+    known.
+    """
     kept = [one for one in parts if one != ANYWHERE]
     for part in reversed(parts):
         rest = [*known, *(one for one in kept if one != part)]
@@ -133,8 +133,7 @@ def needed_of(parts: Sequence[str], known: Sequence[str], over: Sequence[str]) -
 
 
 def without_divisors(parts: Sequence[str]) -> list[str]:
-    """Conditions that divide, multiplied by their divisors, which have one sign at samples of the
-    others.
+    """Return the conditions, multiplied by their divisors.  A divisor has one sign at samples.
 
     >>> without_divisors(["e > 0", "1/(e + 1) < 1"])
     ['e > 0', '-e < 0']
@@ -150,8 +149,8 @@ def without_divisors(parts: Sequence[str]) -> list[str]:
 
 
 def without_positive_factors(part: str, positive: Set[Expr]) -> str:
-    """An inequality without factors that have one sign at all parameters, where one other is left;
-    positive: terms that are.
+    """Return an inequality without the factors that have one sign at all parameters, if one other
+    factor is left; `positive` are terms that are.
 
     >>> e = sympy.Symbol("e", real=True)
     >>> without_positive_factors("e*(e^2 + 1) < 2", set())
@@ -180,8 +179,8 @@ def without_positive_factors(part: str, positive: Set[Expr]) -> str:
 
 
 def has_one_point(before: Map, found: Renamed) -> bool:
-    """Whether it is certified that each value of the old parameter is the term at exactly one value
-    of the point in the new domain: the term is monotone there, and the equation of both has
+    """Return whether it is certified that each value of the old parameter is the term at exactly
+    one value of the point.  The term is monotone on the new domain, and the equation of both has
     different signs at the ends of an interval.
 
     >>> from juggleproof.proofs.stability.maps import read_rows
@@ -231,15 +230,15 @@ def interval(before: Map, name: str, domain: str) -> tuple[str, str]:
 
 def shows(lines: Sequence[str], formula: str) -> bool:
     """Whether it is certified that the formula follows from the lines."""
-    return is_certified([*lines, f"show {formula}"], BUDGET)
+    return is_certified([*lines, f"show {formula}"], limits.POINT_WORK)
 
 
 def is_the_point(system: Map, equation: Expr, inside: str, several: bool) -> bool:
-    """Whether at all samples of the parameters one zero of the equation is in the set, and no other
-    one is; or whether several are.
+    """Return whether at all samples exactly one zero of the equation is in the set, or several
+    are.
     """
     (state,) = symbols(system.state)
-    if sympy.degree(equation, state) > MOST_DEGREE:
+    if sympy.degree(equation, state) > limits.MOST_DEGREE:
         return False
     counts = zeros_inside(system, equation, str(state), (state,), inside)
     return bool(len(counts)) and bool((counts > 1).all() if several else (counts == 1).all())
@@ -251,7 +250,7 @@ def zeros_inside(
     """How many real zeros of a polynomial in this variable make a state of the set, by these terms
     in it, for each sample of the parameters.
     """
-    parameters = region(system.domain, system.parameters, PARAMETERS)
+    parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     count = len(next(iter(parameters.values()))) if parameters else 1
     which, zeros = real_zeros(polynomial, name, parameters, count)
     known: Arrays = {one: values[which] for one, values in parameters.items()} | {name: zeros}

@@ -1,5 +1,6 @@
-"""Fixed points that are no square roots, and of which no parameter is a term: a coordinate of the
-point as a further parameter, with the equation that elimination leaves for it.
+"""Fixed points that square roots do not express, where no parameter is a term in the point: a
+coordinate of the point becomes a further parameter, and the domain has the equation that
+elimination leaves for it.
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.findings import Meaning
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points_as_parameters import (
-    MOST_DEGREE,
     NAMES,
     Renamed,
     changes_sign,
@@ -38,9 +39,6 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-MOST_SOLUTIONS = 40  # of the equations of a fixed point, by their degrees
-STEPS = 64  # of which one, or a power, is as wide as the interval of a number
-
 
 @dataclass(frozen=True)
 class WithEquation:
@@ -61,9 +59,9 @@ class WithEquation:
 
 
 def by_an_equation(system: Map) -> WithEquation | Renamed | None:
-    """The map with a coordinate of its fixed point for a further parameter, where at samples there
-    is one zero of an equation with a fixed point in the space for each value of the parameters; in
-    place of one that the equation is linear in, if there is one; None elsewhere.
+    """Return the map with a coordinate of its fixed point as a further parameter, which is a zero
+    of an equation; or in place of a parameter that the equation is linear in.  At samples exactly
+    one zero makes a fixed point in the space.  None for any other map.
 
     >>> from juggleproof.proofs.stability.maps import read_rows
     >>> rows = [("state", "x"), ("space", "x > 0"), ("piece", "(2*x + 2/x^2)/3")]
@@ -93,14 +91,14 @@ def by_an_equation(system: Map) -> WithEquation | Renamed | None:
 
 
 def eliminated(system: Map, piece: int, name: Expr) -> Iterator[tuple[Expr, tuple[Expr, ...]]]:
-    """Irreducible polynomials in a name for one coordinate of the fixed points of a piece, with the
-    parameters, and all coordinates as terms in it.
+    """Yield irreducible polynomials for one coordinate of the fixed points of a piece, and all
+    coordinates as terms in that one.
     """
     state, parameters = symbols(system.state), symbols(system.parameters)
     field = sympy.QQ.frac_field(*parameters) if parameters else sympy.QQ
     gaps = [sympy.numer(sympy.together(i - s)) for i, s in zip(system.images[piece], state)]
     degrees = [sympy.Poly(one, *state).total_degree() for one in gaps]
-    if not 0 < np.prod(degrees) <= MOST_SOLUTIONS:
+    if not 0 < np.prod(degrees) <= limits.MOST_ZEROS:
         return
     for last in reversed(state):
         order = [*(one for one in state if one != last), last]
@@ -109,7 +107,7 @@ def eliminated(system: Map, piece: int, name: Expr) -> Iterator[tuple[Expr, tupl
         for factor, _ in sympy.factor_list(sympy.numer(sympy.together(basis[-1].as_expr())))[1]:
             if not factor.has(last) or factor.has(*order[:-1]):
                 continue
-            if not 1 < sympy.degree(factor, last) <= MOST_DEGREE:
+            if not 1 < sympy.degree(factor, last) <= limits.MOST_DEGREE:
                 continue
             terms = {last: name}
             if len(state) > 1:
@@ -121,8 +119,8 @@ def eliminated(system: Map, piece: int, name: Expr) -> Iterator[tuple[Expr, tupl
 
 
 def linear_in(basis: list[sympy.Poly], last: Expr) -> dict[Expr, Expr]:
-    """The variables for which a basis has an equation with no other variable but the last, of
-    degree one, with the term that it makes.
+    """Return the variables that a basis gives as terms in the last one: by an equation of degree
+    one in them, without other variables.
     """
     found = {}
     for poly in basis:
@@ -163,15 +161,19 @@ def with_equation(
 def isolated(
     polynomial: Expr, terms: tuple[Expr, ...], system: Map, inside: str, name: str
 ) -> list[str]:
-    """Rational ends of an interval with the zero of the point and no other one: a sixty-fourth
-    wide, or less where zeros are closer.
+    """Return rational ends of an interval that has the zero of the point and no other: 1/64 wide,
+    or less if zeros are closer.
     """
     variable = sympy.Symbol(name, real=True)
-    for (low, high), _ in sympy.Poly(polynomial, variable).intervals(eps=sympy.Rational(1, STEPS)):
+    for (low, high), _ in sympy.Poly(polynomial, variable).intervals(
+        eps=sympy.Rational(1, limits.STEPS)
+    ):
         middle = {name: np.array([float((low + high) / 2)])}
         states = [column(written(term), middle, 1) for term in terms]
         if np.all(holds(inside, {**middle, **dict(zip(system.state, states))})):
-            grid = [Fraction(int(sympy.floor(low * STEPS)) + k, STEPS) for k in range(3)]
+            grid = [
+                Fraction(int(sympy.floor(low * limits.STEPS)) + k, limits.STEPS) for k in range(3)
+            ]
             for one, other in pairwise(grid):
                 signs = [polynomial.subs(variable, sympy.Rational(end)) for end in (one, other)]
                 if signs[0] * signs[1] < 0 and one <= low and high <= other:

@@ -27,10 +27,7 @@ from juggleproof.certificates.search.psatz.lifting import lift
 from juggleproof.certificates.search.psatz.sums_of_squares import ProductsOfFacts, SquaresProgram
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
-
-LEAF_BUDGET = 500_000  # of counted work for a leaf
-SHORT_BUDGET = 60_000  # of it, where there is something else to try, or for squares of high degree
-FEW_FACTS_BUDGET, SQUARES_BUDGET = 100_000, 1_000_000  # of counted work
+from juggleproof.proofs.stability import limits
 
 RESERVED = ("value", "level", "distance")
 
@@ -62,11 +59,13 @@ def closed_by_signs(
     """
     closing = partial(search_closing, state, known, confirm=False)
     tries: list[tuple[Callable[..., Node | None], int]] = [
-        (partial(closing, effort=1), SHORT_BUDGET)
+        (partial(closing, effort=1), limits.SHORT_WORK)
     ]
-    tries += [(partial(_lemma, state, known), LEAF_BUDGET)] if lemma else []
-    tries += [] if signs else [(partial(closing, effort=effort), LEAF_BUDGET) for effort in (1, 2)]
-    tries += [(partial(closing, effort=SQUARED), SHORT_BUDGET)] if lemma else []
+    tries += [(partial(_lemma, state, known), limits.LEAF_WORK)] if lemma else []
+    tries += (
+        [] if signs else [(partial(closing, effort=effort), limits.LEAF_WORK) for effort in (1, 2)]
+    )
+    tries += [(partial(closing, effort=SQUARED), limits.SHORT_WORK)] if lemma else []
     for one, units in tries:
         try:
             node = one(budget=Budget(units))
@@ -83,7 +82,9 @@ def closed_by_signs(
 
 
 def _lemma(state: State, known: dict[str, checker.Statement], budget: Budget) -> Node | None:
-    """A node by sums of squares times facts whose degree and names are those of the last fact."""
+    """Return a node by sums of squares times facts that have the degree and the names of the last
+    fact.
+    """
     problem = Closing(known, budget, SQUARED).problem(state, True)
     last = problem.source.lowered[-1]
     top = max(2, total_degree(last))
@@ -114,24 +115,53 @@ def proof_from_few_facts(
     terms: Collection[int] = (),
     unknowns: Collection[str] = (),
 ) -> Proof | None:
-    """A proof of the premise from facts that these terms are positive, on the distance, and on
-    these terms of V by their numbers, with the equations of unknowns that are in what is shown; if
-    need be by cases of signs; None where none is found.
+    """Return a proof of the premise from few facts, by cases of signs if need be; None if none is
+    found.  The facts are that the `used` terms are positive, those on the distance, those on these
+    terms of V, and the equations of unknowns in the conclusion.
+    """
+
+    def closed(state: State) -> Node | None:
+        if state.closed:
+            return None
+        return by_signs(state, known, few_of(state, used, terms, unknowns), signs)
+
+    return proof_with(premise, known, closed)
+
+
+def proof_with(
+    premise: checker.Statement,
+    known: dict[str, checker.Statement],
+    closed: Callable[[State], Node | None],
+) -> Proof | None:
+    """Return the proof with the node that closes the premise's facts and the negation of its
+    conclusion; None if there is no such node, or an obligation stays open.
     """
     unfolding = unfolded(premise)
-    state = state_of(unfolding).assume(unfolding.goal(False))
-    if state.closed:
-        return None
     try:
-        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
+        steps = obligations_closed(unfolding, known, Budget(limits.FEW_FACTS_WORK))
     except Exhausted:
         return None
-    kept = few_of(state, used, terms, unknowns)
-    node = None if steps is None else by_signs(state, known, kept, signs)
-    if steps is None or node is None:
+    if steps is None:
         return None
-    proof: Proof = ("proof", steps, node)
-    return proof if proves(premise, proof, known) else None
+    node = closed(state_of(unfolding).assume(unfolding.goal(False)))
+    proof: Proof | None = None if node is None else ("proof", steps, node)
+    return proof if proof and proves(premise, proof, known) else None
+
+
+def closed_from(
+    state: State,
+    known: dict[str, checker.Statement],
+    numbers: Sequence[int],
+    effort: int,
+    work: int = limits.FEW_FACTS_WORK,
+) -> Node | None:
+    """Return a node that contradicts the facts with these numbers; None if none is found."""
+    try:
+        few = with_facts(state, numbers)
+        node = search_closing(few, known, Budget(work), effort=effort, confirm=False)
+    except Exhausted:
+        return None
+    return renumbered(node, numbers) if node else None
 
 
 def by_signs(
@@ -140,8 +170,8 @@ def by_signs(
     kept: Sequence[Sequence[int]],
     signs: Sequence[str],
 ) -> Node | None:
-    """A node that contradicts the facts with one of these lists of numbers, by the cases of
-    disjunctions, if need be by those of the first sign, then of the others.
+    """Return a node that contradicts the facts with one of these lists of numbers: by the cases of
+    disjunctions, then by the cases of the signs, one after the other.
     """
     if state.choices:
         rest = state.branch()
@@ -155,14 +185,9 @@ def by_signs(
             every.append(node)
         return "cases", 0, every
     for numbers in kept:
-        try:
-            few = with_facts(state, numbers)
-            node = search_closing(few, known, Budget(FEW_FACTS_BUDGET), effort=2, confirm=False)
-        except Exhausted:
-            continue
-        full = renumbered(node, numbers) if node else None
-        if full:
-            return full
+        node = closed_from(state, known, numbers, 2)
+        if node:
+            return node
     nodes: list[Node | None] = []
     for case in state.by_sign(signs[0]) if signs else ():
         more = [[*numbers, len(state.facts)] for numbers in kept]
@@ -209,54 +234,39 @@ def few_of(
 def proof_by_squares(
     premise: checker.Statement, known: dict[str, checker.Statement]
 ) -> Proof | None:
-    """A proof of the premise without squares, which is the shorter one; or by the cases of
-    disjunctions, each from its facts as they are, or by sums of squares times those on the value;
-    None where none is found.
+    """Return a proof of the premise without squares, which is short; else by the cases of
+    disjunctions, each from its facts, or by sums of squares times the facts on the value.  None if
+    none is found.
     """
     for effort in (1, 2):
         try:
-            found = search_proof(premise, known, Budget(FEW_FACTS_BUDGET), effort=effort)
+            found = search_proof(premise, known, Budget(limits.FEW_FACTS_WORK), effort=effort)
         except Exhausted:
             continue
         if found is not None:
             return found
-    unfolding = unfolded(premise)
-    try:
-        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
-    except Exhausted:
-        return None
-    node = None
-    if steps is not None:
-        node = closed_by_squares(state_of(unfolding).assume(unfolding.goal(False)), known)
-    if steps is None or node is None:
-        return None
-    proof: Proof = ("proof", steps, node)
-    return proof if proves(premise, proof, known) else None
+    return proof_with(premise, known, partial(closed_by_squares, known=known))
 
 
 def proof_without_next(
     premise: checker.Statement, known: dict[str, checker.Statement]
 ) -> Proof | None:
-    """A proof of the premise by sums of squares, without what is given of the next state, which
-    makes their programs large; None where none is found.
+    """Return a proof of the premise by sums of squares, without the facts on the next state, which
+    make the programs large; None if none is found.
     """
     rows = premise.text().splitlines()
     bare = [row for row in rows if not (row.startswith("given ") and "_next" in row)]
-    unfolding = unfolded(premise)
-    state = state_of(unfolding).assume(unfolding.goal(False))
     (without,) = checker.read_statements("\n".join(bare)).values()
     few = unfolded(without)
     facts = [fact_key(*fact) for fact in state_of(few).assume(few.goal(False)).facts]
-    numbers = [k for k, fact in enumerate(state.facts) if fact_key(*fact) in facts]
-    try:
-        steps = obligations_closed(unfolding, known, Budget(FEW_FACTS_BUDGET))
-        closing = with_facts(state, numbers)
-        node = search_closing(closing, known, Budget(SQUARES_BUDGET), effort=SQUARED, confirm=False)
-    except Exhausted:
-        return None
-    full = renumbered(node, numbers) if node and not state.choices else None
-    proof: Proof | None = ("proof", steps, full) if full and steps is not None else None
-    return proof if proof and proves(premise, proof, known) else None
+
+    def closed(state: State) -> Node | None:
+        numbers = [k for k, fact in enumerate(state.facts) if fact_key(*fact) in facts]
+        if state.choices:
+            return None
+        return closed_from(state, known, numbers, SQUARED, limits.SQUARES_WORK)
+
+    return proof_with(premise, known, closed)
 
 
 def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node | None:
@@ -270,15 +280,9 @@ def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node
     # a case that the facts contradict by themselves needs no more cases
     tries = [(every, 1)] if state.choices else [(every, 2), (on_it, SQUARED)]
     for numbers, effort in tries:
-        try:
-            few = with_facts(state, numbers)
-            node = search_closing(
-                few, known, Budget(FEW_FACTS_BUDGET), effort=effort, confirm=False
-            )
-        except Exhausted:
-            continue
+        node = closed_from(state, known, numbers, effort)
         if node:
-            return renumbered(node, numbers)
+            return node
     if not state.choices:
         return None
     rest = state.branch()

@@ -14,8 +14,8 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below
-from juggleproof.proofs.stability.functions.norms import is_affine, matrices_of
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points import as_point, solutions
@@ -25,6 +25,7 @@ from juggleproof.proofs.stability.samples import (
     Point,
     after,
     licence,
+    matrices_of,
     orbit_ends,
     strays,
     with_point_licences,
@@ -32,28 +33,16 @@ from juggleproof.proofs.stability.samples import (
 )
 from juggleproof.proofs.stability.terms import Expr, column, expression, holds, symbols
 
-LONGEST = 12  # period that is looked for
-MOST_AFFINE = 300  # words of affine pieces, the shortest first
-SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at, and what is no convergence
-MOST_ORBITS = 200  # that are looked at
-MOST_WORDS = 4
-SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
-MOST_TRIED = 12  # words whose orbits are sought in exact terms
-MOST_TERMS = 60  # of equations in several variables; elimination has no other bound
-SINGULAR = 1e-9
-ROUNDING = 1e-3  # of a growth
-MOST_SOLUTIONS = 9  # of the equations, by Bezout's bound
-
 
 def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
     """The words of pieces of periodic orbits that orbits of samples tend to, the most frequent
     first.
     """
     system = setting.system
-    ends = orbit_ends(system, setting.states.points, SETTLE)
-    away = strays(system, ends, STRAY).nonzero()[0][:MOST_ORBITS]
+    ends = orbit_ends(system, setting.states.points, limits.SETTLE)
+    away = strays(system, ends, limits.STRAY).nonzero()[0][: limits.MOST_ORBITS]
     count = Counter(_words_back(system, {name: values[away] for name, values in ends.items()}))
-    return sorted(count, key=lambda word: (-count[word], word))[:MOST_WORDS]
+    return sorted(count, key=lambda word: (-count[word], word))[: limits.MOST_WORDS]
 
 
 def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
@@ -61,7 +50,7 @@ def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
     start, letters = np.stack([states[name] for name in system.state]), []
     open_ = np.full(start.shape[1], True)
     with np.errstate(all="ignore"):
-        for _ in range(LONGEST):
+        for _ in range(limits.MOST_PERIOD):
             letters.append(np.argmax([*system.applying(states)], axis=0))
             states = after(system, states)
             now = np.stack([states[name] for name in system.state])
@@ -71,8 +60,8 @@ def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
 
 
 def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:
-    """The words of affine pieces that have one periodic orbit, stable or not, which at all samples
-    of the parameters is one of the map, the shortest first; each without its rotations.
+    """Yield words of affine pieces with one periodic orbit, stable or not, which is one of the map
+    at all samples of the parameters; the shortest first, and each without its rotations.
     """
     system, count = setting.system, setting.count
     pieces, n = range(len(system.pieces)), len(system.state)
@@ -82,21 +71,21 @@ def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:
     shifts = [
         np.stack([column(i, origin, count) for i in images], 1) for _, images in system.pieces
     ]
-    for word in itertools.islice(_words(len(pieces)), MOST_AFFINE):
+    for word in itertools.islice(_words(len(pieces)), limits.MOST_AFFINE_WORDS):
         matrix, shift = np.broadcast_to(np.eye(n), (count, n, n)), np.zeros((count, n))
         for k in word:
             matrix = stacked[k] @ matrix
             shift = np.einsum("kij,kj->ki", stacked[k], shift) + shifts[k]
         left = np.eye(n) - matrix
-        if (np.abs(np.linalg.det(left)) > SINGULAR).all():
+        if (np.abs(np.linalg.det(left)) > limits.ROUNDING).all():
             start = np.linalg.solve(left, shift[:, :, None])[:, :, 0]
             if _stays(setting, list(start.T), known, word):
                 yield word
 
 
 def _words(pieces: int) -> Iterator[tuple[int, ...]]:
-    """The words of which each is before all of its other rotations, in order of length."""
-    for length in range(1, LONGEST + 1):
+    """Yield the words that come before all of their rotations, in order of length."""
+    for length in range(1, limits.MOST_PERIOD + 1):
         for word in itertools.product(range(pieces), repeat=length):
             if all(word < word[k:] + word[:k] for k in range(1, length)):
                 yield word
@@ -119,7 +108,7 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
         equations = [one for one in map(sympy.expand, equations) if one != 0]
         degrees = [sympy.Poly(one, *state).total_degree() for one in equations]
         size = sum(len(sympy.Add.make_args(one)) for one in equations)
-        if prod(degrees) > MOST_SOLUTIONS or len(state) > 1 and size > MOST_TERMS:
+        if prod(degrees) > limits.MOST_SOLUTIONS or len(state) > 1 and size > limits.MOST_TERMS:
             return
     for terms in solutions(equations, state):
         points = map(as_point, terms)
@@ -127,11 +116,11 @@ def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Poin
 
 
 def short_words(setting: Setting) -> Iterator[tuple[int, ...]]:
-    """The words of short periodic orbits, stable or not: of affine pieces those of one orbit, and
-    of others in one variable all pairs.
+    """Return the words of short periodic orbits, stable or not: for affine pieces the words with
+    one orbit, for others in one variable all pairs.
     """
     system = setting.system
-    if is_affine(system):
+    if system.is_affine:
         return affine_words(setting)
     pieces = range(len(system.pieces)) if len(system.state) == 1 else ()
     return itertools.combinations_with_replacement(pieces, 2)
@@ -142,7 +131,7 @@ def escape_rules(
 ) -> Iterator[MapRule]:
     """Statements `escapes` for periodic orbits along these words."""
     system = setting.system
-    for word in itertools.islice(words, MOST_TRIED):
+    for word in itertools.islice(words, limits.MOST_WORDS_SOLVED):
         for every in periodic_points(setting, word):
             start = next((one for one in every if _is_escape(setting, one, word)), None)
             if start is None:
@@ -188,7 +177,9 @@ def _is_escape(setting: Setting, start: Point, word: Sequence[int]) -> bool:
 
 
 def _stays(setting: Setting, start: list[Floats], known: Arrays, word: Sequence[int]) -> bool:
-    """The same for states in floats, (count,) a variable, and values of parameters and roots."""
+    """Return whether the orbit of states in floats, (count,) a variable, is one of the map, and not
+    the point.
+    """
     system = setting.system
     with np.errstate(all="ignore"):
         if not all(np.isfinite(v).all() for v in start):
@@ -251,7 +242,7 @@ def grows(setting: Setting, more: str) -> Callable[[str], bool]:
 
     def fits(radius: str) -> bool:
         reach = column(radius, known, setting.count)
-        for share in SHARES:
+        for share in limits.GROWTH_SHARES:
             gap = share * reach
             points = known | {state: known[f"{state}_point"] + gap}
             inside = np.broadcast_to(holds(system.space, points), gap.shape)
@@ -259,7 +250,7 @@ def grows(setting: Setting, more: str) -> Callable[[str], bool]:
             with np.errstate(all="ignore"):
                 less = after(system, points)[f"{state}_gap"] ** 2 < (1 + faster) * gap**2
             # of smaller distances rounding leaves no growth to see
-            if (less & inside & (digits < ROUNDING * faster * np.abs(gap))).any():
+            if (less & inside & (digits < limits.GROWTH_ROUNDING * faster * np.abs(gap))).any():
                 return False
         return True
 

@@ -18,6 +18,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.cases import checker_text, conjunction
 from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import bounds_of
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.terms import (
     Expr,
@@ -36,10 +37,6 @@ Arrays = dict[str, Floats]
 Bools = NDArray[np.bool_]
 
 SEED = 1995  # of all samples, so that every run searches in one way
-STATES = 40  # for each of the parameters
-ROUNDS = 40  # of drawing, before fewer samples than were asked for do
-REAL = 1e-9  # imaginary part of a zero, relative to its size
-FAR = 2.5  # powers of ten that unbounded variables run over
 
 
 def ends_of(formula: str, name: str) -> tuple[float | None, float | None]:
@@ -64,7 +61,7 @@ def drawn(rng: np.random.Generator, low: float | None, high: float | None, count
     if low is not None and high is not None:
         part = np.where(side == 0, share, np.where(side == 1, share**4, 1 - share**4))
         return np.asarray(low + (high - low) * part)
-    size = 10 ** (FAR * (2 * share - 1))
+    size = 10 ** (limits.SPREAD * (2 * share - 1))
     if low is not None:
         return np.asarray(low + size)
     if high is not None:
@@ -73,15 +70,15 @@ def drawn(rng: np.random.Generator, low: float | None, high: float | None, count
 
 
 def region(formula: str, names: Sequence[str], count: int, given: Arrays | None = None) -> Arrays:
-    """Points in a region, (count,) floats a name or fewer; `given` has other names' values, one a
-    point, from which it takes as many as it keeps.
+    """Return points in a region, (count,) floats a name or fewer.  `given` has values of other
+    names, one a point, of which the points take as many as they keep.
     """
     rng = np.random.default_rng(SEED)
     formula, fixed = without_equations(formula, names)
     ends = {name: ends_of(formula, name) for name in names}
     kept: list[Arrays] = []
     total = 0
-    for _ in range(ROUNDS):
+    for _ in range(limits.DRAWS):
         point = {name: drawn(rng, *ends[name], count) for name in names}
         if given:
             chosen = rng.integers(0, len(next(iter(given.values()))), count)
@@ -102,8 +99,8 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
 
 
 def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str, Expr]]:
-    """The formula without an equation of polynomials, and the variable of these with the lowest
-    degree in it, with what is 0; without any, where there is no such equation.
+    """Return the formula without an equation of polynomials, and the variable with the lowest
+    degree in it, with the polynomial that is 0.  A formula without such an equation stays as it is.
     """
     parts = conjuncts(formula)
     for part in parts:
@@ -120,8 +117,8 @@ def without_equations(formula: str, names: Sequence[str]) -> tuple[str, dict[str
 
 
 def real_zeros(gap: Expr, name: str, point: Arrays, count: int) -> tuple[NDArray[np.int64], Floats]:
-    """The real zeros of a polynomial in one variable at each of the points, and at which point each
-    of them lies.
+    """Return the real zeros of a polynomial in one variable at each of the points, and the number
+    of the point of each zero.
     """
     poly = sympy.Poly(gap, *symbols([name]))
     with np.errstate(all="ignore"):
@@ -131,7 +128,7 @@ def real_zeros(gap: Expr, name: str, point: Arrays, count: int) -> tuple[NDArray
     which, found = [], []
     for k, row in enumerate(np.stack(columns, axis=1)):
         zeros = np.roots(row) if np.isfinite(row).all() else np.zeros(0)
-        real = zeros.real[np.abs(zeros.imag) <= REAL * np.abs(zeros)]
+        real = zeros.real[np.abs(zeros.imag) <= limits.ROUNDING * np.abs(zeros)]
         which += [k] * len(real)
         found += list(real)
     return np.array(which, dtype=np.int64), np.array(found)
@@ -180,8 +177,8 @@ def divisors_of(formula: str, state: Sequence[str]) -> list[Expr]:
 
 
 def multiplied_out(formula: str, facts: Mapping[Expr, str]) -> str:
-    """The formula with each comparison multiplied by these divisors, of which each fact says that
-    one is > 0 or < 0, or by the squares of those that are not 0.
+    """Return the formula with each comparison multiplied by these divisors: a fact says that a
+    divisor is > 0 or < 0; the square of a divisor that is not 0 is taken.
 
     >>> x = sympy.Symbol("x", real=True)
     >>> multiplied_out("not 4*x/(1 + x) <= 2", {x + 1: "x + 1 > 0"})
@@ -227,7 +224,7 @@ def licence(divisor: Expr, facts: str) -> str:
         if strict and ratio.is_Rational and ratio != 0:
             return ""
     names = sorted(checker.names_in(facts) | {str(symbol) for symbol in divisor.free_symbols})
-    at = value(written(divisor), region(facts, names, 200))
+    at = value(written(divisor), region(facts, names, limits.STATES_MANY))
     if (at > 0).all():
         return f"{written(divisor)} > 0"
     return f"{written(-divisor)} > 0" if (at < 0).all() else f"{written(divisor)} != 0"
@@ -305,7 +302,7 @@ def around(system: Map, point: Point, parameters: Arrays, count: int, within: st
     middle = [np.broadcast_to(e, (size,))[which] for e in point.at(parameters)]
     direction = rng.uniform(-1, 1, (len(system.state), len(which)))
     direction /= np.abs(direction).max(axis=0)
-    reach = 10 ** rng.uniform(-3, FAR - 0.5, len(which))
+    reach = 10 ** rng.uniform(-3, limits.SPREAD - 0.5, len(which))
     ends = {name: ends_of(space, name) for name in system.state}
     everywhere = rng.random(len(which)) < 0.5
     states: Arrays = dict(picked)
@@ -330,7 +327,7 @@ def after(system: Map, points: Arrays) -> Arrays:
 
 
 def orbit_ends(system: Map, points: Arrays, steps: int) -> Arrays:
-    """The states after so many steps."""
+    """Return the states after this many steps."""
     now = dict(points)
     with np.errstate(all="ignore"):
         for _ in range(steps):
@@ -345,3 +342,15 @@ def strays(system: Map, states: Arrays, least: float) -> Bools:
     gaps = [np.abs(states[n + "_gap"]) / (1 + np.abs(states[n + "_point"])) for n in system.state]
     worst: Floats = np.max(gaps, axis=0)
     return np.logical_not(worst <= least)
+
+
+def at_samples(matrix: Expr, known: Arrays, count: int) -> Floats:
+    """Return the values of a square matrix at `count` samples of its names, (count, n, n)."""
+    numbers = sympy.lambdify(symbols(known), list(matrix), "numpy")(*known.values())
+    stack = [np.broadcast_to(np.asarray(one, float), (count,)) for one in numbers]
+    return np.stack(stack, axis=1).reshape(count, *matrix.shape)
+
+
+def matrices_of(system: Map, parameters: Arrays, count: int) -> Floats:
+    """The matrices of all pieces at all parameters, (pieces times parameters, n, n)."""
+    return np.concatenate([at_samples(one, parameters, count) for one in system.derivatives])

@@ -11,6 +11,7 @@ from itertools import compress
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.proofs.conclusions import STABLE
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.attracting import (
     BY_SHAPE,
     CLOSE_BY,
@@ -18,15 +19,7 @@ from juggleproof.proofs.stability.attracting import (
     attracted,
     settled_by,
 )
-from juggleproof.proofs.stability.certifying import (
-    BUDGET,
-    MORE_WORK,
-    MOST_WORK,
-    Proof,
-    Report,
-    beyond,
-    is_certified,
-)
+from juggleproof.proofs.stability.certifying import Proof, Report, beyond, is_certified
 from juggleproof.proofs.stability.domains import failing_at_ends, middle_of, narrowed
 from juggleproof.proofs.stability.failing import (
     WAYS,
@@ -48,18 +41,14 @@ from juggleproof.proofs.stability.findings import (
 )
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.maps import Map
-from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint, fixed_points
-from juggleproof.proofs.stability.points_as_parameters import MOST_DEGREE, Renamed, by_its_point
+from juggleproof.proofs.stability.points import FixedPoint, fixed_points
+from juggleproof.proofs.stability.points_as_parameters import Renamed, by_its_point
 from juggleproof.proofs.stability.points_by_equation import by_an_equation
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.settings import setting_of
 from juggleproof.proofs.stability.terms import conjuncts, negation
 
 HEAD = "fixed point "  # of the lines on what was tried for one
-MOST_REFUTED = 3  # fixed points
-SAMPLES = 1000  # states, at which pieces apply that are not empty
-FEW_PIECES = 3  # of which none is looked at
-EMPTY_BUDGET = 20_000  # of counted work for a piece that none of them is in
 
 
 @dataclass
@@ -74,14 +63,15 @@ class Outcome:
 def search_stability(
     system: Map,
     report: Report = lambda text: None,
-    budget: int = BUDGET,
+    budget: int = limits.PREMISE_WORK,
     meaning: Meaning | None = None,
 ) -> Outcome:
-    """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
-    comes nearest to either.  `meaning`: of a parameter that stands for another one.
+    """Return a proof that a fixed point is stable and attracts the whole space, or that none does,
+    or what comes nearest to either.  `meaning`: what a parameter stands for that took the place of
+    another one.
     """
     lines: list[str] = []
-    proof = Proof(budget=budget, most=MOST_WORK * budget // BUDGET)
+    proof = Proof(budget=budget, most=limits.MAP_WORK * budget // limits.PREMISE_WORK)
 
     def log(text: str) -> None:
         note(lines, text)
@@ -95,12 +85,12 @@ def search_stability(
 
 
 def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
-    """Adds what is certified of the map to the proof, and returns why there is nothing; or returns
-    the outcome for the map with a coordinate of its point as a parameter.
+    """Add what is certified of the map to the proof, and return why there is nothing; or return the
+    outcome for the map with a coordinate of its point as a parameter.
     """
     given = system
     system = without_empty_pieces(with_licences(system))
-    parameters = region(system.domain, system.parameters, PARAMETERS)
+    parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     if not all(map(len, parameters.values())):
         hint = "; put in what an equation fixes" if " = " in given.domain else ""
         none = f"no parameters were found in the domain {given.domain}{hint}"
@@ -122,7 +112,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
             proof.add(without_fixed_point(system))
             return (
                 "no isolated fixed point in square roots, or by an equation of degree"
-                f" {MOST_DEGREE} at most, was found in the space"
+                f" {limits.MOST_DEGREE} at most, was found in the space"
             )
         return f"{', '.join(system.point)} is no fixed point in the space"
     for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
@@ -144,10 +134,10 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
         if settled(proof, system, fixed, split, given, log):
             return ""
     count = len(proof.rules)
-    proof.grant(MORE_WORK)
+    proof.grant(limits.REFUTATION_WORK)
     # of several fixed points it says little that one does not attract another
     ways = (by_growth, by_orbit) if len(every) > 1 else WAYS
-    for fixed in every[:MOST_REFUTED]:
+    for fixed in every[: limits.MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
             log(head_of(fixed))
             refuted(proof, setting_of(system, fixed, system.domain), log, ways)
@@ -157,7 +147,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
     outcome = of_several(other, proof.budget, log) if other else None
     if outcome:
         return outcome
-    proof.grant(MORE_WORK)
+    proof.grant(limits.REFUTATION_WORK)
     for fixed in every:
         if fixed.stable_share(system, parameters):
             split = narrowed(system, fixed, parameters)
@@ -172,11 +162,11 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
 
 
 def of_several(other: Renamed, budget: int, log: Report) -> Outcome | None:
-    """That none of several fixed points attracts another, with one of them as a parameter: a domain
-    knows no roots, and an orbit may divide by what has them.
+    """Return the outcome that none of several fixed points attracts another, with one of them as a
+    parameter.  An orbit may divide by a term with a root, which a domain cannot name.
     """
     system = with_licences(other.system)
-    proof = Proof(budget=budget, most=MORE_WORK * budget // BUDGET)
+    proof = Proof(budget=budget, most=limits.REFUTATION_WORK * budget // limits.PREMISE_WORK)
     if proof.add(system.rule(f"{system.name}/map")):
         for fixed in fixed_points(system):
             log(head_of(fixed))
@@ -212,13 +202,14 @@ def without_empty_pieces(system: Map) -> Map:
     >>> [guard for guard, _ in without_empty_pieces(read_rows("gap", rows)).pieces]
     ['x - 1 >= 0 and 0 < x + 1', '0 > x - 1 and x + 1 <= 0', '0 > x - 1 and 0 < x + 1']
     """
-    if len(system.pieces) < FEW_PIECES:
+    if len(system.pieces) == 1:
         return system
     inside = conjunction(system.domain, system.space)
-    points = region(inside, system.names, SAMPLES)
+    points = region(inside, system.names, limits.PIECE_STATES)
     lines = [f"forall {' '.join(system.names)}", f"given {inside}"]
     kept = [
-        here.any() or not is_certified([*lines, f"show {negation(piece[0])}"], EMPTY_BUDGET)
+        here.any()
+        or not is_certified([*lines, f"show {negation(piece[0])}"], limits.EMPTY_PIECE_WORK)
         for piece, here in zip(system.pieces, system.applying(points))
     ]
     pieces, places = tuple(compress(system.pieces, kept)), tuple(compress(system.lines, kept))
@@ -226,8 +217,8 @@ def without_empty_pieces(system: Map) -> Map:
 
 
 def lines_named(system: Map, fault: str) -> str:
-    """Where the pieces stand that a premise of the map names at the end of its name; all, where it
-    names none; nothing where the map is from no file.
+    """Return the lines of the pieces that a premise of the map names at the end of its name, or of
+    all pieces; nothing if the map is from no file.
     """
     named = re.match(r"(?:apart|stays)((?:-\d+)+),", fault)
     numbers = [int(k) - 1 for k in named[1].split("-")[1:]] if named else range(len(system.pieces))
@@ -251,9 +242,9 @@ def settled(
     log: Report,
     closed: bool = False,
 ) -> bool:
-    """Whether something is certified of one fixed point, and of the parameters for which that says
-    nothing; `given` is the map as the user gives it; `closed`: by envelopes alone, the multiplier
-    being -1 at the end.
+    """Return whether something is certified of one fixed point, and add what is certified of it for
+    the other parameters.  `given` is the map as the user gives it; `closed`: only envelopes are
+    tried, since the multiplier is -1 at the end.
     """
     inner = conjunction(system.domain, *split)
     setting = setting_of(system, fixed, inner)
@@ -299,7 +290,7 @@ def search_outside(
     """Adds how the point fails where these conditions do not hold; and that it is stable and
     attracts every state nowhere else, if that comes of it.
     """
-    proof.grant(MORE_WORK)
+    proof.grant(limits.REFUTATION_WORK)
     count, kinds = len(proof.rules), []
     for parts, ways in outsides(where):
         kinds = parts_refuted(proof, system, fixed, parts, ways, log)

@@ -8,17 +8,12 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.cases import conjunction
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import beyond, is_certified
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.maps import Map
-from juggleproof.proofs.stability.points import PARAMETERS, FixedPoint
-from juggleproof.proofs.stability.samples import (
-    STATES,
-    around,
-    licence,
-    region,
-    with_point_licences,
-)
+from juggleproof.proofs.stability.points import FixedPoint
+from juggleproof.proofs.stability.samples import around, licence, region, with_point_licences
 from juggleproof.proofs.stability.terms import atoms, expression, renamed, symbols, value, written
 
 
@@ -60,12 +55,12 @@ def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = F
     """
     point = fixed.point
     domain = with_point_licences(domain, point)
-    parameters = region(domain, system.parameters, PARAMETERS)
+    parameters = region(domain, system.parameters, limits.PARAMETERS)
     for name in system.parameters:  # so that constants may divide by it
         positive = conjunction(domain, licence(expression(name), domain))
         if (parameters[name] > 0).all():
             if by_samples or not beyond(domain, positive, system.parameters):
                 domain = positive
-    states = around(system, point, parameters, STATES)
+    states = around(system, point, parameters, limits.STATES)
     bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
     return replace(bare, have=known_of(bare))

@@ -49,7 +49,7 @@ def value(text: str, point: Point) -> Value:
 
 
 def column(term: str, points: Point, count: int) -> NDArray[np.float64]:
-    """The value of a term at so many points."""
+    """Return the values of a term at `count` points."""
     return np.broadcast_to(np.asarray(value(term, points), float), (count,))
 
 
@@ -158,7 +158,7 @@ def as_factor(text: str) -> str:
 
 
 def negation(text: str) -> str:
-    """The formula's negation: of one inequality, the other one.
+    """Return the formula's negation; that of one inequality is an inequality.
 
     >>> negation("3 - a >= 0"), negation("a > 0 and a < 1")
     ('3 - a < 0', 'not (a > 0 and a < 1)')

@@ -6,11 +6,11 @@ In reading order, each importing those before it only:
 - `templates`: sums of terms, by linear programs on samples.
 - `candidates`: a point with a part of the domain, its candidates, and constants that fit samples.
 - `norms`: polytope norms that piecewise affine maps contract.
-- `weighted_sums`: sums of absolute values, of weights that depend on the parameters.
 - `saturated`: quadratic forms that fall by c V/(1 + V), as saturated maps ask for.
 - `energies`: forms that a piece conserves, over two steps.
 - `envelopes`: functions of one variable, by fractional linear involutions.
-- `part_metric`: greatest weighted distances, with the part metric.
+- `weighted_terms`: the greatest of weighted terms: distances, with the part metric, and sums of
+  absolute values.
 - `equations`: a point by its equations, and terms in the parameters.
 - `ratio_searches`: how the premises of weighted ratios are searched for.
 - `ratios`: greatest weighted ratios, with weights that depend on the parameters.

@@ -8,7 +8,6 @@ for which certificates are then sought.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -20,18 +19,20 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate, Search
 from juggleproof.proofs.stability.functions.templates import Function, squares_of
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.premise_searches import proof_by_signs
 from juggleproof.proofs.stability.samples import (
     SEED,
-    STATES,
     Arrays,
     Floats,
     Point,
     Samples,
     around,
+    at_samples,
+    region,
 )
 from juggleproof.proofs.stability.terms import (
     Expr,
@@ -45,21 +46,13 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
-FEW_FOLD = 3  # powers of e over which a constant may vary and be taken as a number
-ORDERS = (2, 4)  # of the loss in the distance: 4 at a multiplier on the unit circle
-SMALLEST = 1e-5  # of a constant
-LIMITS = ((3, (2, 4)), (6, (1, 4)), (9, (1, 2)), (math.inf, (0, 0)))  # of powers, and of their sum
-HIGHER = ((2, (6, 6)), (math.inf, (0, 0)))
-
-
 # -------------------------------------------------------------------------------------------------
 # Constants that depend on the parameters: a number times powers of what is positive on the domain.
 
 
 def positive_factors(system: Map, facts: str, parameters: Arrays) -> list[str]:
-    """Terms in the parameters that facts say to be positive, and such terms that are linear in the
-    point's names; those first that are close to the domain's ends.
+    """Return terms in the parameters and, linearly, in the point's names that facts say to be
+    positive.
     """
     points = set(symbols([f"{name}_point" for name in system.state]))
     found = [
@@ -83,12 +76,14 @@ def power_products(
     factors: Sequence[str],
     parameters: Arrays,
     size: int,
-    limits: Sequence[tuple[float, tuple[int, int]]] = LIMITS,
+    allowed: Sequence[tuple[float, tuple[int, int]]] = limits.POWERS,
 ) -> list[tuple[str, Floats]]:
-    """Products of powers of the factors, the simplest first, as text and at the parameters."""
+    """Return products of powers of the factors, the simplest first, as text and at the
+    parameters.
+    """
     values = [column(f, parameters, size) for f in factors]
     found = []
-    limit, total_limit = next(limits for most, limits in limits if len(factors) <= most)
+    limit, total_limit = next(both for most, both in allowed if len(factors) <= most)
     every = itertools.product(range(-limit, limit + 1), repeat=len(factors))
     few = (powers for powers in every if sum(map(abs, powers)) <= total_limit)
     for powers in sorted(few, key=lambda p: (sum(map(abs, p)), sum(p) < 0, p)):
@@ -106,10 +101,13 @@ def _power(text: str, exponent: int) -> str:
 
 
 def bounded_below(
-    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2, share: float = 0.75
+    least: Floats,
+    products: Sequence[tuple[str, Floats]],
+    most: int = limits.TRIED,
+    share: float = limits.LEFT,
 ) -> list[tuple[float, str]]:
-    """Terms in the parameters that are positive and at most this share of what is least at each of
-    these; those first that follow it closely and are simple, which a small number beside each says.
+    """Return positive terms in the parameters that are at most this share of `least`.  Each comes
+    with a rank; terms that follow `least` closely and are simple have a small rank and come first.
     """
     used = np.isfinite(least)
     if not used.any() or least[used].min() <= 0:
@@ -118,7 +116,7 @@ def bounded_below(
     for text, values in products:
         with np.errstate(all="ignore"):
             shares = np.log(least[used] / values[used])
-        if np.isfinite(shares).all() and shares.min() > np.log(SMALLEST):
+        if np.isfinite(shares).all() and shares.min() > np.log(limits.SMALLEST):
             worst = float(shares.min())
             rank = float(np.ptp(shares)) + len(text) / 16 + max(0.0, -worst) / 2
             ranked.append((rank, text, float(np.exp(worst))))
@@ -187,24 +185,30 @@ class Setting:
         return self.system.derivatives[self.piece].subs(put, simultaneous=True)
 
     @cached_property
+    def tests(self) -> Arrays:
+        """More parameters and states, at which coefficients that fit `states` are tested."""
+        parameters = region(self.domain, self.system.parameters, limits.TEST_PARAMETERS)
+        return around(self.system, self.point, parameters, limits.TEST_STATES).points
+
+    @cached_property
     def products(self) -> list[tuple[str, Floats]]:
-        """What constants are sought among."""
-        return self._products(LIMITS)
+        """Products of powers, which constants are sought among."""
+        return self._products(limits.POWERS)
 
     @cached_property
     def higher_products(self) -> list[tuple[str, Floats]]:
-        """The same, for what is small to a higher power at an end of the parameters."""
-        return self._products(HIGHER)
+        """Products of higher powers, for constants that are small at an end of the parameters."""
+        return self._products(limits.HIGH_POWERS)
 
     def _products(
-        self, limits: Sequence[tuple[float, tuple[int, int]]]
+        self, allowed: Sequence[tuple[float, tuple[int, int]]]
     ) -> list[tuple[str, Floats]]:
         known = self.constants
         if not self.have:
             known = {k: v for k, v in known.items() if not k.endswith("_point")}
         facts = conjunction(self.domain, *self.have)
         factors = positive_factors(self.system, facts, known)
-        return power_products(factors, known, self.count, limits)
+        return power_products(factors, known, self.count, allowed)
 
     @cached_property
     def head(self) -> list[str]:
@@ -218,9 +222,9 @@ class Setting:
         ]
 
     def inside(self, space: str) -> Setting:
-        """The same point of the map on this part of the space."""
+        """Return the setting of the same point for the map on this part of the space."""
         system = replace(self.system, space=space)
-        states = around(system, self.point, self.parameters, STATES)
+        states = around(system, self.point, self.parameters, limits.STATES)
         return replace(self, system=system, states=states, map="map-1")
 
     def rule(
@@ -277,9 +281,10 @@ class Setting:
         rank: float = 0.0,
         searches: Mapping[str, Search] | None = None,
     ) -> Candidate:
-        """The statement `lyapunov` that V falls by the loss on a set, or on the space: `least` is
-        what it falls by at a distance, and V <= upper |s - e| where |s - e| <= radius, of which
-        `ball` has the radius first.
+        """Return the statement `lyapunov` that V falls by the loss on a set, or on the space.
+
+        least: a bound of the loss by the distance; ball: a radius, and `upper` with V <= upper |s -
+        e| for |s - e| <= radius.
         """
         radius, upper = ball
         rows = [("loss", loss), ("least", least), ("upper", upper), ("radius", radius)]
@@ -296,13 +301,13 @@ def losses(
     least: str,
     powers: Sequence[int] = (0,),
     products: Sequence[tuple[str, Floats]] | None = None,
-    most: int = 2,
-    share: float = 0.75,
+    most: int = limits.TRIED,
+    share: float = limits.LEFT,
 ) -> Iterator[tuple[float, str, str, str]]:
-    """For each power p of 1 + V the constants c with the losses c `size`/(1 + V)^p, and what these
-    are at least, each with a number that is small where it fits well.
+    """Yield losses c `size`/(1 + V)^p for each power p of 1 + V: a rank, the constant c, the loss,
+    and what it is at least.
 
-    shares: by what part of `size` V falls at the samples, and 1 + V there.
+    shares: the part of `size` that V falls by at the samples, and 1 + V there.
     """
     fall, above = shares
     for power in powers:
@@ -326,7 +331,7 @@ def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[Candid
     ball = next(small_balls(setting, function), None)
     if ball is None:
         return
-    for order in ORDERS:
+    for order in limits.ORDERS:
         size = np.sum([samples.points[f"{name}_gap"] ** order for name in names], axis=0)
         total = " + ".join(f"{name}_gap^{order}" for name in names)
         total, shares = (
@@ -334,16 +339,9 @@ def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[Candid
             ((here - there) / size, 1 + here),
         )
         for rank, _, loss, least in losses(
-            setting, samples, shares, total, f"distance^{order}", LOSS_POWERS
+            setting, samples, shares, total, f"distance^{order}", limits.LOSS_POWERS
         ):
             yield setting.candidate(function, loss, least, ball, rank=rank + order - 2)
-
-
-def at_samples(matrix: Expr, known: Arrays, count: int) -> Floats:
-    """The square matrix at so many samples of what is in it, (count, n, n)."""
-    numbers = sympy.lambdify(symbols(known), list(matrix), "numpy")(*known.values())
-    stack = [np.broadcast_to(np.asarray(one, float), (count,)) for one in numbers]
-    return np.stack(stack, axis=1).reshape(count, *matrix.shape)
 
 
 def derivatives(setting: Setting) -> Floats:
@@ -366,7 +364,7 @@ def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     system = setting.system
     n, matrix = len(system.state), system.derivatives[setting.piece]
     moving = not matrix.free_symbols.isdisjoint(symbols(system.state))
-    if n > 3 or moving and setting.have and len(system.pieces) > 1:
+    if n > limits.MOST_STATES or moving and setting.have and len(system.pieces) > 1:
         return None
     (form, unknowns), matrix = symmetric(n), setting.derivative
     equations = list(matrix.T * form * matrix - form + sympy.eye(n))
@@ -404,7 +402,7 @@ def equation_candidates(setting: Setting) -> Iterator[Candidate]:
         return
     squares = " + ".join(squares_of(setting.system))
     least, by_sign = f"({loss})*distance^2", partial(proof_by_signs, signs=found[:1])
-    for ball in itertools.islice(small_balls(setting, function), 2):
+    for ball in itertools.islice(small_balls(setting, function), limits.TRIED):
         drop, searches = f"({loss})*({squares})", {"bounded": by_sign}
         yield setting.candidate(function, drop, least, ball, searches=searches)
 
@@ -412,8 +410,7 @@ def equation_candidates(setting: Setting) -> Iterator[Candidate]:
 def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str]]:
     """Terms `radius` and `upper` with V <= upper |s - e| where |s - e| <= radius, at samples."""
     rng = np.random.default_rng(SEED)
-    each = 200
-    which = np.repeat(np.arange(setting.count), each)
+    which = np.repeat(np.arange(setting.count), limits.STATES_MANY)
     known = setting.constants
     points = {name: values[which] for name, values in known.items()}
     middle = [
@@ -450,8 +447,8 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
             continue
         shares = (size[which] * reach)[inside] / np.maximum(v, 1e-12)
         least = Samples({}, which[inside]).least(shares, setting.count)
-        number = str(1 / _floor(float(least.min()) / 2)) if least.min() > SMALLEST else ""
-        if number and np.ptp(np.log(least[np.isfinite(least)])) < FEW_FOLD:
+        number = str(1 / _floor(float(least.min()) / 2)) if least.min() > limits.SMALLEST else ""
+        if number and np.ptp(np.log(least[np.isfinite(least)])) < limits.FEW_FOLD:
             yield radius, number
         for _, under in bounded_below(least, setting.products, 1):
             yield radius, inverse(under)

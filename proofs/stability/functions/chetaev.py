@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.functions.candidates import (
     Setting,
     bounded_below,
     derivatives,
     lyapunov_form,
 )
-from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     Template,
@@ -35,13 +35,6 @@ from juggleproof.proofs.stability.functions.templates import (
 )
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
 from juggleproof.proofs.stability.terms import as_factor, column, holds, symbols, value, written
-
-EACH = 60  # states at each of the parameters
-SMALL = 1e-4  # distance at which the higher terms do not count
-HALVINGS = 12  # of the radius, from 1
-GRID = 3  # directions have coordinates that are multiples of 1/GRID
-ROUNDING = 1e-8  # of a distance, by the digits of the point, beyond which samples say nothing
-SHARE = 0.5  # of the growth that samples leave
 
 
 def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
@@ -66,7 +59,7 @@ def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
     if len(system.state) != 2 or (np.linalg.det(derivatives(setting)) <= 1).any():
         return
     gaps, matrix = symbols([f"{one}_gap" for one in system.state]), setting.derivative
-    affine = len(system.pieces) == 1 and is_affine(system)
+    affine = len(system.pieces) == 1 and system.is_affine
     more = written(sympy.factor(matrix.det() - 1)) if affine else ""
     first, second = matrix * sympy.Matrix(gaps)
     area = sympy.Poly(gaps[0] * second - gaps[1] * first, *gaps)
@@ -117,17 +110,17 @@ def functions(setting: Setting) -> Iterator[Function]:
     """
     forms = products_of_gaps(setting.system)
     moving = tuple(f"{name}*{one}" for name in setting.system.parameters for one in forms)
-    near = states(setting, np.full(setting.count, SMALL))
+    near = states(setting, np.full(setting.count, limits.SMALL_GAP))
     for basis in (forms, (*forms, *moving)) if moving else (forms,):
         template = Template(basis)
         with np.errstate(all="ignore"):
             grown = template.columns(after(setting.system, near)) - template.columns(near)
-        rows = grown[np.isfinite(grown).all(axis=1)] / SMALL**2
+        rows = grown[np.isfinite(grown).all(axis=1)] / limits.SMALL_GAP**2
         weights = best_weights(rows[:: 1 + len(rows) // 3000]) if len(rows) else None
         if weights is not None:
             yield from (
                 Function(tuple(template.terms(numbers)))
-                for numbers in itertools.islice(rounded(weights, rows), 2)
+                for numbers in itertools.islice(rounded(weights, rows), limits.TRIED)
             )
         if basis == forms:
             yield from cone_functions(setting)
@@ -137,12 +130,12 @@ def functions(setting: Setting) -> Iterator[Function]:
 
 
 def states(setting: Setting, radius: Floats) -> Arrays:
-    """States of the space within the radius, (count,), of the point, for each parameter, but those
-    at which the point is so far that distances are lost in rounding.
+    """Return states of the space within the radius of the point, for each parameter.  Parameters
+    are left out if their point is so far that its digits hide the distances.
     """
     system = setting.system
     rng = np.random.default_rng(SEED + 2)
-    which = np.repeat(np.arange(setting.count), EACH)
+    which = np.repeat(np.arange(setting.count), limits.STATES_NEAR)
     direction = rng.uniform(-1, 1, (len(system.state), len(which)))
     reach = np.where(rng.random(len(which)) < 0.5, 1.0, rng.uniform(0.1, 1, len(which)))
     direction *= reach / np.abs(direction).max(axis=0)
@@ -154,7 +147,7 @@ def states(setting: Setting, radius: Floats) -> Arrays:
     with np.errstate(all="ignore"):
         inside = np.broadcast_to(holds(system.space, points), (len(which),))
     size = np.max([np.abs(points[f"{name}_point"]) for name in system.state], axis=0)
-    inside = inside & (np.finfo(float).eps * size <= ROUNDING * radius[which])
+    inside = inside & (np.finfo(float).eps * size <= limits.DIGITS * radius[which])
     return {name: values[inside] for name, values in points.items()}
 
 
@@ -187,9 +180,9 @@ def _inside(setting: Setting, direction: Sequence[Fraction], radius: Floats) -> 
 
 
 def _direction(setting: Setting, function: Function) -> tuple[Fraction, ...] | None:
-    """The direction, of size 1, in which W is greatest for the parameters where it is least."""
-    small = np.full(setting.count, SMALL)
-    steps = [Fraction(k, GRID) for k in range(-GRID, GRID + 1)]
+    """Return the direction of size 1 in which the least W over all parameters is greatest."""
+    small = np.full(setting.count, limits.SMALL_GAP)
+    steps = [Fraction(k, limits.GRID) for k in range(-limits.GRID, limits.GRID + 1)]
     best, most = None, 0.0
     for direction in itertools.product(steps, repeat=len(setting.system.state)):
         if max(map(abs, direction)) == 1 and _inside(setting, direction, small).all():
@@ -203,17 +196,17 @@ def _rules(setting: Setting, function: Function, name: str, exact: str = "") -> 
     """The statements for one function: a direction, a radius and a rate that samples allow, or the
     rate 1 + `exact` of a linear map.
     """
-    growth = _growth(setting, function, np.full(setting.count, SMALL))
+    growth = _growth(setting, function, np.full(setting.count, limits.SMALL_GAP))
     direction = _direction(setting, function)
     if direction is None:
         return
     rates = [(0.0, exact)]
     if not exact:
-        rates = bounded_below(np.minimum(growth - 1, 4.0) * SHARE, setting.products, 1)
+        rates = bounded_below(np.minimum(growth - 1, 4.0) * limits.GROWTH_LEFT, setting.products, 1)
     for _, more in rates:
         rate = 1 + np.broadcast_to(value(more, setting.constants), (setting.count,))
         largest = np.zeros(setting.count)
-        for power in range(HALVINGS):
+        for power in range(limits.RADIUS_HALVINGS):
             radius = np.full(setting.count, 0.5**power)
             fits = _inside(setting, direction, radius)
             if not exact:

@@ -1,10 +1,11 @@
-"""Boxes around the point that the map takes into smaller ones of the same shape, one bound of which
-after another is entered by every orbit: V is the greatest of the distances to the point, each by
-that of the box's side.
+"""Boxes around the point that the map takes into smaller boxes of the same shape.  Every orbit
+enters one bound of the box after another.  V is the greatest of the distances to the point, each
+divided by that of the box's side.
 
-A bound is where the variable does not change while the others are at those ends of the box that
-favour it most, moved so far that it does: for two competing species the capacities and, below
-them, what one keeps while the other is at its capacity.
+A bound begins where the variable does not change, with the others at the ends of the box that
+favour it most; it is then moved so far that the variable does change.  For two competing species
+the upper bounds are the capacities; the lower ones are what a species keeps while the other is at
+its capacity.
 
 Sources: H. L. Smith, The discrete dynamics of monotonically decomposable maps, Journal of
 Mathematical Biology 53 (2006); M. R. S. Kulenović, O. Merino, A global attractivity result for maps
@@ -22,9 +23,9 @@ import sympy
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.language import MapRule
-from juggleproof.proofs.stability.certifying import BUDGET, Candidate, beyond
+from juggleproof.proofs.stability import limits
+from juggleproof.proofs.stability.certifying import Candidate, beyond
 from juggleproof.proofs.stability.functions.candidates import (
-    FEW_FOLD,
     Setting,
     bounded_below,
     inverse,
@@ -32,8 +33,7 @@ from juggleproof.proofs.stability.functions.candidates import (
     power_products,
 )
 from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
-from juggleproof.proofs.stability.functions.part_metric import CLOSE
-from juggleproof.proofs.stability.functions.ratios import weighted_distance_candidates
+from juggleproof.proofs.stability.functions.ratios import has_ratios, weighted_distance_candidates
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.maps import HIGH, LOW, Side, ends_of_space
 from juggleproof.proofs.stability.points import roots_of
@@ -55,13 +55,6 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-MOST_STATES = 3
-EACH = 60  # states for each of the parameters
-FAR = 1e-3  # of the greatest value, what is not rounding
-SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of a side; -1: any
-TOGETHER = 3  # of the factors of a constant
-SPAN = 2.5  # powers of ten below and above 1 that a side without an end runs over
-LOOSE = 4.0  # how well a constant fits, above which the fall at the end itself is taken
 Ends = dict[Side, Expr]  # as terms in the parameters
 
 
@@ -69,7 +62,7 @@ def contracting_box_candidates(setting: Setting) -> Iterator[Candidate]:
     """The candidates by which the point attracts every state; what samples refute is left out."""
     system, known = setting.system, setting
     plain = not (setting.point.roots or setting.outer)
-    if not plain or not 1 < len(system.state) <= MOST_STATES or len(system.pieces) > 1:
+    if not plain or not has_ratios(setting):
         return
     setting = replace(setting, have=())
     box = box_of(setting)
@@ -100,7 +93,10 @@ def contracting_box_candidates(setting: Setting) -> Iterator[Candidate]:
         map=f"map-{len(box) - 1}",
     )
     every = [
-        *(replace(one, budget=BUDGET // 4) for one in weighted_distance_candidates(inside)),
+        *(
+            replace(one, budget=limits.PREMISE_WORK // 4)
+            for one in weighted_distance_candidates(inside)
+        ),
         *box_candidates(setting, box, widths, descents[-1][1]),
     ]
     yield from _with_descents(setting, every, radius, descents)
@@ -135,7 +131,7 @@ def _with_descents(
 def box_candidates(
     setting: Setting, box: Ends, widths: Sequence[Expr], on: str
 ) -> Iterator[Candidate]:
-    """The candidates for a V that has one value on all faces of the box."""
+    """Return the candidates for a V that has the same value on all faces of the box."""
     names = setting.system.state
     weights = weights_of(setting, widths)
     terms = [
@@ -147,7 +143,7 @@ def box_candidates(
     function = Function(tuple(terms))
     samples = states_of(setting, box)
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    far = here > FAR * here.max()
+    far = here > limits.BOX_FAR * here.max()
     shares = samples.where(far).least((here - there)[far] / here[far], setting.count)
     products = products_of(setting)
     least, most, size = (
@@ -165,13 +161,13 @@ def radius_of(setting: Setting, widths: Sequence[Expr]) -> str:
     """Less than all widths: what fits them, or 1/(the sum of 1/each)/2."""
     wide = with_ends(setting)
     for rank, radius in bounded_below(below_all(wide, widths), products_of(wide), 1):
-        if rank < LOOSE:
+        if rank < limits.LOOSE:
             return radius
     return written(sympy.factor(1 / (2 * sum(1 / width for width in widths))))
 
 
 def weights_of(setting: Setting, widths: Sequence[Expr]) -> list[Expr]:
-    """Positive polynomials that are to one another as the inverses of the widths."""
+    """Return positive polynomials in the ratio of the inverses of the widths."""
     inverses = [sympy.together(1 / width) for width in widths]
     below = sympy.lcm([sympy.fraction(one)[1] for one in inverses])
     found = sympy.Matrix([sympy.cancel(one * below) for one in inverses])
@@ -230,8 +226,9 @@ def ends_at_point(setting: Setting) -> Ends:
 
 
 def still_at(setting: Setting, ends: Ends, side: Side) -> Expr | None:
-    """Where the variable does not change, on this side of the point or at it, while the others are
-    at the ends that move it most to this side; None where there is none, or such an end is missing.
+    """Return the value at which the variable does not change, on this side of the point or at it,
+    with the others at the ends that move it most to this side; None if there is none, or such an
+    end is missing.
     """
     state = symbols(setting.system.state)
     one = state[side[0]]
@@ -275,13 +272,15 @@ def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]
         at = at_parameters(setting, one)
         inside = end is None or (side[1] * (at_parameters(setting, end) - at) > 0).all()
         gap = side[1] * (at - point)
-        if inside and (gap > -CLOSE).all() and np.median(gap) > CLOSE:
+        if inside and (gap > -limits.ROUNDING).all() and np.median(gap) > limits.ROUNDING:
             return one
     return None
 
 
 def slope_of(setting: Setting, image: int, variable: int) -> int | None:
-    """The sign of the derivative of an image by a variable, where it has one at all samples."""
+    """Return the sign of an image's derivative by a variable; None if it changes between
+    samples.
+    """
     system = setting.system
     term = expression(system.pieces[0][1][image])
     slope = sympy.cancel(sympy.diff(term, symbols(system.state)[variable]))
@@ -290,8 +289,8 @@ def slope_of(setting: Setting, image: int, variable: int) -> int | None:
 
 
 def worst(setting: Setting, ends: Ends, side: Side, at: Expr) -> Expr | None:
-    """The image of a variable at a term, the others at the ends that move it most to this side;
-    None where one is missing.
+    """Return the image of a variable at a term, with the others at the ends that move it most to
+    this side; None if such an end is missing.
     """
     system, (k, direction) = setting.system, side
     state, put = symbols(system.state), {}
@@ -314,10 +313,10 @@ def products_of(setting: Setting) -> list[tuple[str, Floats]]:
     factors = [
         one
         for one in positive_factors(setting.system, setting.domain, known)
-        if np.ptp(np.log(np.asarray(value(one, known), float))) > FEW_FOLD
+        if np.ptp(np.log(np.asarray(value(one, known), float))) > limits.FEW_FOLD
     ]
     found: dict[str, Floats] = {}
-    for few in combinations(factors, min(TOGETHER, len(factors))):
+    for few in combinations(factors, min(limits.TOGETHER, len(factors))):
         found |= dict(power_products(few, known, setting.count))
     return list(found.items())
 
@@ -327,7 +326,7 @@ def products_of(setting: Setting) -> list[tuple[str, Floats]]:
 
 
 def condition(setting: Setting, side: Side, end: Expr) -> str:
-    """The bound as a formula."""
+    """Return the bound as a formula."""
     return f"{setting.system.state[side[0]]} {'<' if side[1] == HIGH else '>'} {written(end)}"
 
 
@@ -352,7 +351,7 @@ def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
     if not found:
         return ""
     factor = as_factor(inverse(found[0][1]))
-    if found[0][0] > LOOSE:
+    if found[0][0] > limits.LOOSE:
         factor = fall_at(setting, entered, side, end) or factor
     above, below = map(written, sympy.fraction(height))
     return f"{factor}*{as_factor(above)}" if below == "1" else f"{factor}/{as_factor(below)}"
@@ -399,18 +398,16 @@ def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
 
 
 def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:
-    """States between the ends, many of them at one, with the number of the parameters that each
-    comes with.
-    """
+    """Return states between the ends, of which many are at an end."""
     known = {side: end for side, end in ends.items() if end is not None}
     ends = {**ends_of_space(setting.system), **known}
     rng = np.random.default_rng(SEED + 3)
-    which = np.repeat(np.arange(setting.count), EACH)
+    which = np.repeat(np.arange(setting.count), limits.STATES_NEAR)
     points = {name: values[which] for name, values in setting.constants.items()}
     for k, name in enumerate(setting.system.state):
-        share = rng.choice(SHARES, len(which))
+        share = rng.choice(limits.BOX_SHARES, len(which))
         share = np.where(share < 0, rng.random(len(which)), share)
-        wide = 10 ** (SPAN * (2 * share - 1)) - 10**-SPAN
+        wide = 10 ** (limits.SPREAD * (2 * share - 1)) - 10**-limits.SPREAD
         low, high = (
             None if end is None else at_parameters(setting, end)[which]
             for end in (ends.get((k, LOW)), ends.get((k, HIGH)))

@@ -1,8 +1,8 @@
 """Energies that a piece conserves, for maps that are affine in pieces: forms E with E(A g) = E(g)
 for the linear part A of a piece, and g the gap to the point.
 
-Where no piece raises E, but states keep it for a step, V = E + E(f) falls by what the first of two
-steps loses, and the second; as an oscillator does whose damping saturates.
+Where no piece raises E, states may still keep it for a step.  V = E + E(f) then falls by the loss
+of the first of two steps and that of the second, as for an oscillator whose damping saturates.
 
 Source: J. P. LaSalle, The Stability and Control of Discrete Processes (1986).
 """
@@ -18,18 +18,16 @@ import numpy as np
 import sympy
 
 from juggleproof.certificates.search.falls.by_products import proof_by_products
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate, Search
 from juggleproof.proofs.stability.functions.candidates import (
     Setting,
     lyapunov_candidates,
     symmetric,
 )
-from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.premise_searches import proof_by_squares
 from juggleproof.proofs.stability.terms import Expr, column, expression, symbols, written
-
-TRIED = 3  # statements for an energy
 
 
 def energy_candidates(setting: Setting) -> Iterator[Candidate]:
@@ -37,7 +35,7 @@ def energy_candidates(setting: Setting) -> Iterator[Candidate]:
     premises that V falls, and by how much at least.
     """
     system = setting.system
-    if setting.have or len(system.pieces) == 1 or not is_affine(system):
+    if setting.have or len(system.pieces) == 1 or not system.is_affine:
         return
     numbers = range(1, len(system.pieces) + 1)
     falls = [f"falls-{i}-{k}" for i, k in product(numbers, numbers)]
@@ -51,7 +49,7 @@ def energy_candidates(setting: Setting) -> Iterator[Candidate]:
     )
     for energy in energies(setting):
         every = lyapunov_candidates(setting, over_two_steps(setting, energy))
-        for one in sorted(every, key=lambda one: one.rank)[:TRIED]:
+        for one in sorted(every, key=lambda one: one.rank)[: limits.TRIED_OF_FAMILY]:
             yield replace(one, searches=searches)
 
 

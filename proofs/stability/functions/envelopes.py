@@ -17,10 +17,10 @@ import sympy
 
 from juggleproof.certificates.cases import ANYWHERE, conjunction
 from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate
 from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below, inverse
 from juggleproof.proofs.stability.functions.templates import Function
-from juggleproof.proofs.stability.points import NEARLY
 from juggleproof.proofs.stability.premise_searches import proof_by_signs
 from juggleproof.proofs.stability.samples import (
     Arrays,
@@ -43,11 +43,6 @@ from juggleproof.proofs.stability.terms import (
     value,
     written,
 )
-
-SLOPES = (0, 1, 2, 3)  # of the involutions that are tried for all maps
-ROUNDING = 1e-11
-STATES = 200  # samples for each of the parameters
-SIZES = np.logspace(-3, 3, 48)  # of distances, relative to those of the point from the bounds
 
 
 @dataclass(frozen=True)
@@ -111,7 +106,7 @@ def slopes(setting: Setting, reach: Expr) -> list[Expr]:
     flip = at[np.argmin(multiplier)]
     if 0 < flip < 100:
         found.append(sympy.Rational(flip).limit_denominator(12))
-    return list(dict.fromkeys([*found, *map(sympy.Integer, SLOPES)]))
+    return list(dict.fromkeys([*found, *map(sympy.Integer, limits.SLOPES)]))
 
 
 def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[Candidate]:
@@ -155,7 +150,7 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
     for equation, _ in sympy.factor_list(sympy.numer(gap))[1]:
         if equation.has(state):
             term = equation.subs(state, sympy.Symbol(name, real=True))
-            if np.median(np.abs(value(written(term), known))) < NEARLY:
+            if np.median(np.abs(value(written(term), known))) < limits.NEARLY_FIXED:
                 lines.append(f"{written(term)} = 0")
     for bound, strict in atoms(system.space):
         if bound.has(state):
@@ -165,7 +160,9 @@ def equation_of(setting: Setting) -> tuple[str, ...]:
 
 
 def below(setting: Setting, least: Floats, most: int) -> list[tuple[float, str]]:
-    """Terms in the parameters below what is least, of higher powers where no others are."""
+    """Return terms in the parameters below `least`; terms of higher powers if there are no
+    others.
+    """
     found = bounded_below(least, setting.products, most)
     return found or bounded_below(least, setting.higher_products, most)
 
@@ -178,7 +175,7 @@ def spare_domain(setting: Setting) -> str:
     divisors = {f"{name} > 0" for name in system.parameters}
     for part in [one for one in kept if one not in divisors]:
         rest = conjunction(*(one for one in kept if one != part))
-        if rest != ANYWHERE and implied(part, region(rest, system.parameters, STATES)):
+        if rest != ANYWHERE and implied(part, region(rest, system.parameters, limits.STATES_MANY)):
             kept.remove(part)
     system = with_licences(replace(system, domain=conjunction(*kept)))
     return with_point_licences(system.domain, setting.point)
@@ -190,14 +187,14 @@ def spare_space(setting: Setting, envelope: Envelope) -> str:
     kept = [*conjuncts(system.space), f"{envelope.upper} > 0"]
     for part in kept[:-1]:
         rest = conjunction(*(one for one in kept if one != part))
-        states = around(system, setting.point, setting.parameters, STATES, rest)
+        states = around(system, setting.point, setting.parameters, limits.STATES_MANY, rest)
         if implied(part, states.points):
             kept.remove(part)
     return conjunction(*kept)
 
 
 def implied(part: str, points: Arrays) -> bool:
-    """Whether a formula holds at all samples, of which there are some."""
+    """Return whether a formula holds at all samples, and there are some."""
     return len(next(iter(points.values()), ())) > 0 and bool(np.all(holds(part, points)))
 
 
@@ -207,7 +204,7 @@ def candidates_for(setting: Setting, envelope: Envelope, closed: bool) -> Iterat
     function = envelope.function(state)
     samples = states_of(setting, envelope)
     here, there = function.along(setting.system, samples.points, len(samples.which))
-    clear = np.abs(here - there) > ROUNDING * here  # else floats do not tell
+    clear = np.abs(here - there) > limits.FALL_ROUNDING * here  # else floats do not tell
     here, there, samples = here[clear], there[clear], samples.where(clear)
     square = samples.points[f"{state}_gap"] ** 2
     if not len(here) or not (there < here).all() or closed and envelope.upper == "1":
@@ -262,12 +259,12 @@ def states_of(setting: Setting, envelope: Envelope) -> Samples:
     """
     (state,) = setting.system.state
     low, point = zero_of(setting, envelope.lower), setting.constants[f"{state}_point"]
-    each = [low[:, None] + np.outer(point - low, SIZES)]
-    near = np.outer(point - low, SIZES[SIZES < 1])
+    each = [low[:, None] + np.outer(point - low, limits.SIZES)]
+    near = np.outer(point - low, limits.SIZES[limits.SIZES < 1])
     each += [point[:, None] + near, point[:, None] - near]
     if envelope.upper != "1":
         end = zero_of(setting, envelope.upper)
-        reach = np.outer(end - point, SIZES[SIZES < 1])
+        reach = np.outer(end - point, limits.SIZES[limits.SIZES < 1])
         each += [end[:, None] + reach, end[:, None] - reach]
     states = np.concatenate(each, axis=1)
     which = np.repeat(np.arange(setting.count), states.shape[1])

@@ -10,16 +10,14 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.functions.candidates import Setting, power_products
 from juggleproof.proofs.stability.samples import SEED, Floats
 from juggleproof.proofs.stability.terms import Expr, atoms, expression, holds, symbols, written
 
-FAR, NEAR = 64.0, 1e-3  # times the distance of two samples; of the way to an end
-HALVINGS = 30  # of it
-
 
 def at_parameters(setting: Setting, term: Expr) -> Floats:
-    """The values at the samples of the parameters, (count,)."""
+    """Return the values at the samples of the parameters, (count,)."""
     known = setting.constants
     with np.errstate(all="ignore"):
         found = sympy.lambdify(symbols(known), term, "numpy")(*known.values())
@@ -27,23 +25,27 @@ def at_parameters(setting: Setting, term: Expr) -> Floats:
 
 
 def with_ends(setting: Setting) -> Setting:
-    """The same with parameters close to the ends of the domain, which constants have to follow."""
+    """Return the setting with more parameters, which are close to the ends of the domain; constants
+    have to follow there too.
+    """
     names = setting.system.parameters
     if not names:
         return setting
     rng, inside = np.random.default_rng(SEED), setting.parameters
     size = setting.count
     chosen = rng.integers(0, size, size)
-    known, far = np.zeros(size), np.full(size, FAR)
+    known, far = np.zeros(size), np.full(size, limits.FAR_END)
     steps = {name: inside[name] - inside[name][chosen] for name in names}
-    for _ in range(HALVINGS):
+    for _ in range(limits.END_HALVINGS):
         middle = (known + far) / 2
         here = {name: inside[name] + middle * steps[name] for name in names}
         holding = np.broadcast_to(holds(setting.domain, here), (size,))
         known, far = np.where(holding, middle, known), np.where(holding, far, middle)
-    near = {name: inside[name] + (1 - NEAR) * known * steps[name] for name in names}
+    near = {name: inside[name] + (1 - limits.NEAR_END) * known * steps[name] for name in names}
     with np.errstate(all="ignore"):
-        holding = np.broadcast_to(holds(setting.domain, near), (size,)) & (known < FAR / 2)
+        holding = np.broadcast_to(holds(setting.domain, near), (size,)) & (
+            known < limits.FAR_END / 2
+        )
     every = {name: np.concatenate([inside[name], near[name][holding]]) for name in names}
     return replace(setting, parameters=every)
 

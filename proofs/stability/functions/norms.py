@@ -11,35 +11,16 @@ from fractions import Fraction
 import highspy
 import numpy as np
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate
-from juggleproof.proofs.stability.functions.candidates import Setting, at_samples, derivatives
+from juggleproof.proofs.stability.functions.candidates import Setting, derivatives
 from juggleproof.proofs.stability.functions.templates import (
     Function,
     program,
     signed,
 )
-from juggleproof.proofs.stability.maps import Map
-from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after
-from juggleproof.proofs.stability.terms import holds, symbols
-
-MOST_ROWS = 24
-CORNERS = 24  # parameters at which rows are carried back
-DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 50, 100)
-MOST_NORMS = 3  # that are tried
-SMALLEST_SIZE = 8  # halvings of the neighbourhood
-SLOWEST = Fraction(1, 256)  # fall, as a share of the norm, that is tried
-LOCAL_SHARES = (Fraction(1), Fraction(1, 2), Fraction(1, 8))  # of what samples leave
-SHARES = (0.5, 0.75, 0.9, 0.97)  # of the way from the spectral radius to 1, for the rate
-
-
-def is_affine(system: Map) -> bool:
-    """Whether every piece is affine in the state."""
-    return all(one.free_symbols.isdisjoint(symbols(system.state)) for one in system.derivatives)
-
-
-def matrices_of(system: Map, parameters: Arrays, count: int) -> Floats:
-    """The matrices of all pieces at all parameters, (pieces times parameters, n, n)."""
-    return np.concatenate([at_samples(one, parameters, count) for one in system.derivatives])
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, after, matrices_of
+from juggleproof.proofs.stability.terms import holds
 
 
 def corners(setting: Setting) -> Arrays:
@@ -49,8 +30,10 @@ def corners(setting: Setting) -> Arrays:
         return {}
     values = np.stack([setting.parameters[name] for name in names])
     scaled = (values.T - values.mean(axis=1)) / (values.std(axis=1) + 1e-12)
-    signs = np.array(list(itertools.product((-1.0, 0.3, 1.0), repeat=len(names))))[: 4 * CORNERS]
-    chosen = sorted({int(np.argmax(scaled @ sign)) for sign in signs})[:CORNERS]
+    signs = np.array(list(itertools.product((-1.0, 0.3, 1.0), repeat=len(names))))[
+        : 4 * limits.CORNERS
+    ]
+    chosen = sorted({int(np.argmax(scaled @ sign)) for sign in signs})[: limits.CORNERS]
     return {name: setting.parameters[name][chosen] for name in names}
 
 
@@ -101,7 +84,7 @@ def invariant_rows(matrices: Floats, start: Floats, rate: float) -> Floats | Non
                 continue
             rows = np.vstack([rows, image])
             frontier.append(image)
-            if len(rows) > MOST_ROWS:
+            if len(rows) > limits.MOST_ROWS:
                 return None
     kept = list(range(len(rows)))
     for k in list(kept):
@@ -115,7 +98,7 @@ def rounded_rows(rows: Floats, matrices: Floats) -> Iterator[tuple[list[list[Fra
     """The rows as rationals, the simplest first, with a rate below 1 at the matrices."""
     scaled = rows / np.abs(rows).max()
     seen = set()
-    for denominator in DENOMINATORS:
+    for denominator in limits.ROW_DENOMINATORS:
         exact: list[list[Fraction]] = []
         for row in scaled:
             fractions = [Fraction(round(x * denominator), denominator) for x in row]
@@ -156,13 +139,13 @@ def norms(matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
     radius = max(float(np.abs(np.linalg.eigvals(matrix)).max()) for matrix in matrices)
     if radius >= 1:
         return
-    for share in SHARES:
+    for share in limits.RATE_SHARES:
         rate = max(radius + share * (1 - radius), 1e-3)
         for start in first_rows(matrices[0]):
             rows = invariant_rows(matrices, start, rate)
             if rows is not None:
                 found = itertools.islice(rounded_rows(rows, matrices), 1)
-                yield from (one for one in found if 1 - one[1] > SLOWEST)
+                yield from (one for one in found if 1 - one[1] > limits.SLOWEST)
 
 
 def norm_candidate(
@@ -190,7 +173,7 @@ def norm_candidates(setting: Setting) -> Iterator[Candidate]:
     far = corners(setting)
     count = len(next(iter(far.values()))) if far else 1
     found = norms(matrices_of(setting.system, far, count))
-    for rows, rate in itertools.islice(found, MOST_NORMS):
+    for rows, rate in itertools.islice(found, limits.TRIED_OF_FAMILY):
         yield norm_candidate(setting, rows, rate, Fraction(0))
 
 
@@ -205,18 +188,18 @@ def local_norm_candidates(setting: Setting) -> Iterator[Candidate]:
     system = setting.system
     n = len(system.state)
     matrices = derivatives(setting)
-    chosen = np.linspace(0, setting.count - 1, min(setting.count, CORNERS)).astype(int)
+    chosen = np.linspace(0, setting.count - 1, min(setting.count, limits.CORNERS)).astype(int)
     rng = np.random.default_rng(SEED)
-    which = rng.integers(0, setting.count, 4000)
+    which = rng.integers(0, setting.count, limits.NORM_STATES)
     known = {one: values[which] for one, values in setting.constants.items()}
-    for rows, rate in itertools.islice(norms(matrices[chosen]), MOST_NORMS):
+    for rows, rate in itertools.islice(norms(matrices[chosen]), limits.TRIED_OF_FAMILY):
         floats = np.array([[float(x) for x in row] for row in rows])
         slower = (1 + rate) / 2
-        if 1 - slower < SLOWEST:
+        if 1 - slower < limits.SLOWEST:
             continue
         gaps = rng.uniform(-1, 1, (len(which), n))
         gaps /= np.abs(gaps @ floats.T).max(axis=1)[:, None]  # of norm 1
-        for power in range(SMALLEST_SIZE):
+        for power in range(limits.LOCAL_HALVINGS):
             size = Fraction(1, 2**power)
             points = dict(known)
             for j, one in enumerate(system.state):
@@ -231,6 +214,6 @@ def local_norm_candidates(setting: Setting) -> Iterator[Candidate]:
                 before = np.abs(here @ floats.T).max(axis=1)
                 fits = np.abs(moved @ floats.T).max(axis=1) <= float(slower) * before
             if fits[inside].all():
-                for share in LOCAL_SHARES:
+                for share in limits.LOCAL_SHARES:
                     yield norm_candidate(setting, rows, slower, size * share)
                 break

@@ -23,6 +23,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.cases import conjunction
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate
 from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below
 from juggleproof.proofs.stability.functions.equations import (
@@ -33,9 +34,9 @@ from juggleproof.proofs.stability.functions.equations import (
     with_ends,
     with_equations,
 )
-from juggleproof.proofs.stability.functions.part_metric import CLOSE, values
 from juggleproof.proofs.stability.functions.ratio_searches import Row, searches_for
 from juggleproof.proofs.stability.functions.templates import Function
+from juggleproof.proofs.stability.functions.weighted_terms import values
 from juggleproof.proofs.stability.maps import bounds
 from juggleproof.proofs.stability.samples import SEED, Floats, Samples, licence
 from juggleproof.proofs.stability.terms import (
@@ -49,12 +50,6 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-MOST_STATES = 3
-MOST_SHIFTS = 2
-POWERS = (0, 1)  # of 1 + V, that the loss is divided by
-TRIED = 2
-LONGEST = 400  # matrix of sums, in characters: the weights of a longer one are too large
-
 
 def ratio_candidates(setting: Setting) -> Iterator[Candidate]:
     """The candidates that samples do not refute, those whose loss fits best first, with searches
@@ -67,8 +62,8 @@ def ratio_candidates(setting: Setting) -> Iterator[Candidate]:
 
 
 def weighted_distance_candidates(setting: Setting) -> Iterator[Candidate]:
-    """The same for weighted distances of a map that contracts them in the whole space: by the
-    comparison matrix |A| of the derivative A at the point.
+    """Return the candidates for weighted distances of a map that contracts them in the whole space,
+    by the comparison matrix |A| of the derivative A at the point.
     """
     if has_ratios(setting):
         setting, put = with_equations(setting)
@@ -77,7 +72,7 @@ def weighted_distance_candidates(setting: Setting) -> Iterator[Candidate]:
 
 def has_ratios(setting: Setting) -> bool:
     """Whether the map has one piece, and two state variables or three."""
-    return 1 < len(setting.system.state) <= MOST_STATES and len(setting.system.pieces) == 1
+    return 1 < len(setting.system.state) <= limits.MOST_STATES and len(setting.system.pieces) == 1
 
 
 def candidates_for(
@@ -87,7 +82,7 @@ def candidates_for(
     derivative = in_logarithms(setting, origin, put)
     for rows in sets_of_rows(len(setting.system.state), is_plain(origin)):
         sums = sums_of(setting, derivative, rows)
-        if sums is None or len(str(sums.matrix)) > LONGEST:
+        if sums is None or len(str(sums.matrix)) > limits.MOST_SIZE:
             continue
         found = []
         for weights in weights_of(setting, sums.matrix):
@@ -96,7 +91,7 @@ def candidates_for(
             for one in _weighted(setting, put, origin, rows, weights, falls):
                 found.append((one.rank + len(" ".join(terms)) / 50, one, weights))
         if found:
-            best = sorted(found, key=lambda one: one[0])[:TRIED]
+            best = sorted(found, key=lambda one: one[0])[: limits.TRIED]
             return [
                 replace(one, searches=searches_for(setting, put, rows, origin, weights, sums.used))
                 for _, one, weights in best
@@ -121,13 +116,13 @@ def origins(setting: Setting) -> Iterator[list[Expr]]:
             if len(named) == 1 and sympy.diff(factor, *named).is_Rational:
                 slope = sympy.diff(factor, *named)
                 shifts[sympy.expand(factor / slope - named.pop())] = None
-    for shift in itertools.islice(shifts, MOST_SHIFTS):
+    for shift in itertools.islice(shifts, limits.MOST_SHIFTS):
         yield [one + shift for one in state]
 
 
 def origins_on_boundary(setting: Setting, low: dict[str, str]) -> Iterator[list[Expr]]:
-    """Where the point is 0 in some variables, which no ratio can be of: these plus half of
-    another of its coordinates.
+    """Yield origins for a point that is 0 in some variables.  No ratio is to 0: half of another
+    coordinate of the point is added to these variables.
     """
     pairs = dict(zip(symbols(setting.system.state), map(expression, setting.point.terms)))
     zero = [one for one, e in pairs.items() if e == 0]
@@ -176,7 +171,7 @@ class Sums:
     signs: list[list[int]]
 
     def used(self, term: int) -> list[int]:
-        """The terms of V that bound the next value of one of them, by their numbers."""
+        """Return the numbers of the terms of V that bound the next value of this term."""
         size = len(self.signs)
         side, row = divmod(term, size)
         return [
@@ -185,8 +180,8 @@ class Sums:
 
 
 def sums_of(setting: Setting, derivative: Expr, rows: Sequence[Row]) -> Sums | None:
-    """The sums with the least coefficients, or None where there are none, or the spectral radius is
-    not below 1 at all parameters.
+    """Return the sums with the least coefficients; None if there are none, or if the spectral
+    radius is 1 or more at some parameters.
     """
     images = [_combination(setting, sympy.Matrix([row]) * derivative, rows) for row in rows]
     found = [image for image in images if image is not None]
@@ -226,8 +221,8 @@ def falls_of(matrix: Expr, weights: Sequence[Expr]) -> list[Expr]:
 def _combination(
     setting: Setting, image: Expr, rows: Sequence[Row]
 ) -> list[tuple[Expr, int]] | None:
-    """Coefficients >= 0 of rows or their opposites whose sum is the image, the least ones, as they
-    have one sign at all parameters, and these signs; None where there are none.
+    """Return the least coefficients >= 0 with which rows or their opposites make up the image, and
+    for each the sign of its row; None if the signs change between parameters.
     """
     best: tuple[float, list[tuple[Expr, int]]] | None = None
     for chosen in itertools.combinations(range(len(rows)), image.cols):
@@ -238,13 +233,15 @@ def _combination(
         total = 0.0
         for k, one in zip(chosen, (image * basis.inv()).applyfunc(sympy.cancel)):
             at = at_parameters(setting, one)
-            if not np.isfinite(at).all() or (at.min() < -CLOSE and at.max() > CLOSE):
+            if not np.isfinite(at).all() or (
+                at.min() < -limits.ROUNDING and at.max() > limits.ROUNDING
+            ):
                 break
-            if np.abs(at).max() > CLOSE:
-                found[k] = (one, 1) if at.max() > CLOSE else (-one, -1)
+            if np.abs(at).max() > limits.ROUNDING:
+                found[k] = (one, 1) if at.max() > limits.ROUNDING else (-one, -1)
             total += float(np.abs(at).mean())
         else:
-            if best is None or total < best[0] - CLOSE:
+            if best is None or total < best[0] - limits.ROUNDING:
                 best = total, found
     return best and best[1]
 
@@ -302,7 +299,7 @@ def _weighted(
         setting = at_corners(setting, weights)
     here, there, samples = values(setting, terms)
     before, now = here.max(axis=0), there.max(axis=0)
-    if not len(before) or (now > before * (1 + CLOSE)).any():
+    if not len(before) or (now > before * (1 + limits.ROUNDING)).any():
         return
     factors = factors_of(setting, falls)
     # the least of positive numbers is above 1/(the sum of 1/each), and the greatest below the sum
@@ -321,7 +318,7 @@ def _weighted(
     ball, far = (written(radius), written(upper)), _divided("distance", total)
     positive = [*factors, *factors_of(setting, [total, radius]), *factors_of(setting, weights)]
     licensed, on = _licensed(setting, origin, positive)
-    for power in POWERS:
+    for power in limits.VALUE_POWERS:
         least = samples.least((before - now) / before * (1 + before) ** power, setting.count)
         constants = _constants(setting, factors, falls, least)
         for rank, constant in constants:
@@ -337,12 +334,12 @@ def _weighted(
 def _constants(
     setting: Setting, factors: Sequence[Expr], falls: Sequence[Expr], least: Floats
 ) -> list[tuple[float, str]]:
-    """Terms below what is least at samples and the falls close to the point, also where parameters
-    are close to an end; those that follow both there, where no others are.
+    """Return terms below `least` and below the falls close to the point, also at parameters close
+    to an end.  Terms that follow `least` come first; else they follow both there.
     """
     wide = with_ends(setting)
     fall = np.min([at_parameters(wide, one) for one in falls], axis=0)
-    least = np.append(least + CLOSE, np.full(wide.count - setting.count, np.inf))
+    least = np.append(least + limits.ROUNDING, np.full(wide.count - setting.count, np.inf))
     below = np.minimum(least, fall)
     found = [
         (rank, text)
@@ -353,8 +350,8 @@ def _constants(
 
 
 def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
-    """The same with states at the corners of the boxes around the point with these sides, where a
-    map that is monotone in each variable moves most.
+    """Return the setting with more states, at the corners of boxes around the point with these
+    sides: a map that is monotone in each variable moves most there.
     """
     system, samples = setting.system, setting.states
     sides = [at_parameters(setting, one)[samples.which] for one in weights]
@@ -378,8 +375,8 @@ def at_corners(setting: Setting, weights: Sequence[Expr]) -> Setting:
 def _licensed(
     setting: Setting, origin: Sequence[Expr], positive: Sequence[Expr]
 ) -> tuple[Setting, str]:
-    """The setting whose domain, or whose premises, say that these terms are positive; and the set
-    of the statement, which says it of what the ratios are of.
+    """Return the setting whose domain or premises say that these terms are positive, and the set of
+    the statement, which says that the origins are.
     """
     domain, have = setting.domain, list(setting.have)
     for factor in positive:

@@ -11,10 +11,10 @@ from functools import partial
 import numpy as np
 import sympy
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate
 from juggleproof.proofs.stability.functions.candidates import Setting, bounded_below, small_balls
 from juggleproof.proofs.stability.functions.templates import (
-    TURNS,
     Function,
     best_weights,
     margins,
@@ -22,7 +22,7 @@ from juggleproof.proofs.stability.functions.templates import (
     rounded,
 )
 from juggleproof.proofs.stability.premise_searches import proof_by_signs
-from juggleproof.proofs.stability.samples import Floats, around, region
+from juggleproof.proofs.stability.samples import Floats
 from juggleproof.proofs.stability.terms import (
     Expr,
     atoms,
@@ -33,11 +33,6 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-LOSSES = 2  # candidates for the constant of a loss
-FUNCTIONS = 2
-SMALL = 0.01  # of the greatest value of a bound
-CLOSE = 1e-3  # of V, where a piece is taken to reach the point
-
 
 def saturated_candidates(setting: Setting) -> Iterator[Candidate]:
     """The candidates for quadratic forms that fall at samples, with a loss c V/(1 + V).  Their
@@ -45,16 +40,14 @@ def saturated_candidates(setting: Setting) -> Iterator[Candidate]:
     """
     system = setting.system
     template = next(quadratic_templates(system, setting.piece, ()))
-    parameters = region(setting.domain, system.parameters, 500)
-    tests = around(system, setting.point, parameters, 20).points
     if len(system.pieces) == 1:
         return
     for scale in scales(setting):
         rows, _ = margins(template, system, setting.states.points, scale)
-        every = np.concatenate([rows, margins(template, system, tests, scale)[0]])
+        every = np.concatenate([rows, margins(template, system, setting.tests, scale)[0]])
         weights = weights_with_missed(rows, every)
         found = iter(()) if weights is None else rounded(weights, every)
-        for numbers in itertools.islice(found, FUNCTIONS):
+        for numbers in itertools.islice(found, limits.TRIED):
             yield from candidates_for(setting, template.terms(numbers)[0])
 
 
@@ -63,13 +56,13 @@ def scales(setting: Setting) -> Iterator[str]:
     yield "1"
     for bound, strict in atoms(setting.domain):
         at = np.asarray(value(written(bound), setting.parameters), float)
-        if strict and 0 < at.min() < SMALL * at.max():
+        if strict and 0 < at.min() < limits.SMALL_BOUND * at.max():
             yield written(bound)
 
 
 def weights_with_missed(rows: Floats, every: Floats) -> Floats | None:
-    """Weights for these rows and, turn by turn, for those of all that they miss."""
-    for _ in range(TURNS if len(rows) else 0):
+    """Return weights for these rows; in each turn the rows that they miss are added."""
+    for _ in range(limits.TURNS if len(rows) else 0):
         weights = best_weights(rows)
         missed = np.zeros(0) if weights is None else every @ weights <= 0
         if not missed.any():
@@ -92,7 +85,7 @@ def candidates_for(setting: Setting, term: str) -> Iterator[Candidate]:
     shares, reach = np.full(count, np.inf), []
     for guard, _ in system.pieces:
         inside = np.broadcast_to(holds(guard, samples.points), (count,)) & fits
-        reach.append(bool((here[inside] < CLOSE).any()))
+        reach.append(bool((here[inside] < limits.SMALL_VALUE).any()))
         shares[inside] = (here - there)[inside] / (here[inside] if reach[-1] else 1)
     floor = samples.least(np.where(fits, here / np.where(fits, size, 1), np.inf), setting.count)
     lowest = bounded_below(floor, setting.products, 1)
@@ -100,7 +93,7 @@ def candidates_for(setting: Setting, term: str) -> Iterator[Candidate]:
     if not lowest or ball is None:
         return
     least = samples.least(shares, setting.count) / 2
-    for _, drop in bounded_below(least, setting.products, LOSSES):
+    for _, drop in bounded_below(least, setting.products, limits.TRIED):
         constant = written(expression(drop) * expression(lowest[0][1]) / 2)
         signs = {
             "least": least_signs(setting, term, expression(lowest[0][1])),
@@ -132,7 +125,7 @@ def numerator(setting: Setting, term: Expr) -> str:
 
 
 def least_signs(setting: Setting, term: str, steepness: Expr) -> list[str]:
-    """V less a lower bound that is < 0 at the point, and V less one in the distance."""
+    """Return V less a bound that is < 0 at the point, and V less a bound in the distance."""
     distance, level = symbols(["distance", "value"])
     squares = sum(gap**2 for gap in symbols([f"{one}_gap" for one in setting.system.state]))
     bounds = [

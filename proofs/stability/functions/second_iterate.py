@@ -1,10 +1,10 @@
-"""Maps of one variable that decrease, whose second iterate is closer to the point e: on one side of
-it the distance, on the other that of the next state with a weight c > 1,
+"""Maps of one variable that decrease, and whose second iterate is closer to the point e.  V is the
+distance on one side of e; on the other it is the distance of the next state, with a weight c > 1:
 
     V = max(s - e, c (f(s) - e))    or    V = max(e - s, c (e - f(s))).
 
-From the other side V falls to V/c, from the one side to c |f(f(s)) - e|.  Such a map has no cycle
-but e if and only if f(f(s)) is closer to e than s is, for all s.
+V falls to V/c from the other side, and to c |f(f(s)) - e| from the one side.  Such a map has no
+cycle but e if and only if f(f(s)) is closer to e than s is, for all s.
 
 Source: W. A. Coppel, The solution of equations by iteration, Mathematical Proceedings of the
 Cambridge Philosophical Society 51 (1955).
@@ -21,6 +21,7 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import conjunction
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate, Search
 from juggleproof.proofs.stability.functions.candidates import (
     Setting,
@@ -29,11 +30,8 @@ from juggleproof.proofs.stability.functions.candidates import (
     small_balls,
 )
 from juggleproof.proofs.stability.functions.equations import at_parameters
-from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.two_sided import (
-    FEW,
-    MOST_POINTS,
     is_clear,
     products_of_shares,
     proof_that_it_falls,
@@ -43,10 +41,6 @@ from juggleproof.proofs.stability.functions.two_sided import (
 )
 from juggleproof.proofs.stability.samples import licence
 from juggleproof.proofs.stability.terms import Expr, as_factor, symbols, written
-
-MEANS = ((0, 1), (1, 1), (3, 1))  # (p, q): 1/c = (p + q l)/(p + q), where -l is the slope at e
-TRIED = 3  # functions
-ROUNDING = 1e-10  # of the point, relative to it
 
 
 def licensed_space(setting: Setting) -> str:
@@ -63,7 +57,7 @@ def second_iterate_candidates(setting: Setting) -> Iterator[Candidate]:
     nothing that is 0, those first whose loss fits best, with searches for the premises that V
     falls.
     """
-    if len(setting.system.state) > 1 or is_affine(setting.system):
+    if len(setting.system.state) > 1 or setting.system.is_affine:
         return
     space = licensed_space(setting)
     setting = setting if space == setting.system.space else setting.inside(space)
@@ -75,12 +69,12 @@ def second_iterate_candidates(setting: Setting) -> Iterator[Candidate]:
     setting = replace(setting, states=samples.where(is_exact(setting)[samples.which]))
     found = []
     for sign in (1, -1):
-        for k, mean in enumerate(MEANS):
+        for k, mean in enumerate(limits.MEANS):
             function = function_of(setting, slope, sign, mean)
             searches = _searches(setting, put, function)
             for one in candidates_for(setting, slope, function):
                 found.append(replace(one, rank=one.rank + k / 4, searches=searches))
-    yield from sorted(found, key=lambda one: one.rank)[:TRIED]
+    yield from sorted(found, key=lambda one: one.rank)[: limits.TRIED_OF_FAMILY]
 
 
 def _image(setting: Setting) -> Expr:
@@ -96,12 +90,12 @@ def is_exact(setting: Setting) -> NDArray[np.bool_]:
     point = known[f"{state}_point"]
     with np.errstate(all="ignore"):
         (image,) = setting.system.next(known | {state: point})
-    exact = np.asarray(np.abs(image - point) <= ROUNDING * np.abs(point))
-    return exact if exact.mean() > FEW else np.ones(setting.count, bool)
+    exact = np.asarray(np.abs(image - point) <= limits.ROUNDING * np.abs(point))
+    return exact if exact.mean() > limits.FEW else np.ones(setting.count, bool)
 
 
 def slope_of(setting: Setting, put: dict[Expr, Expr]) -> Expr:
-    """By what the map decreases at the point."""
+    """Return -f'(e), the slope with which the map decreases at the point."""
     (state,), (point,) = symbols(setting.system.state), setting.point_names
     return sympy.factor(-sympy.diff(_image(setting), state).subs(state, point).xreplace(put))
 
@@ -146,7 +140,7 @@ def _searches(setting: Setting, put: dict[Expr, Expr], function: Function) -> di
     """For the premises that V falls."""
     samples, roots = setting.states, [root for root, _ in setting.point.roots]
     known = samples.points | {"value": function.at(samples.points, len(samples.which))}
-    step = 1 + len(samples.which) // MOST_POINTS
+    step = 1 + len(samples.which) // limits.MOST_SIGNS
     search = partial(
         proof_that_it_falls,
         terms=range(2),

@@ -15,13 +15,10 @@ import highspy
 import numpy as np
 
 from juggleproof.certificates.search.psatz.linear_program import Solver
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.maps import Map, bounds
 from juggleproof.proofs.stability.samples import Arrays, Floats, after
 from juggleproof.proofs.stability.terms import as_factor, column, expression, holds, value, written
-
-DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
-LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
-TURNS = 6  # of adding the samples that are missed
 
 
 @dataclass(frozen=True)
@@ -33,7 +30,7 @@ class Function:
     divisor: str = "1"
 
     def at(self, points: Arrays, count: int) -> Floats:
-        """Its values at so many states."""
+        """Return its values at `count` states."""
         parts = [column(t, points, count) for t in self.terms]
         if self.guards:
             inside = [np.broadcast_to(holds(g, points), (count,)) for g in self.guards]
@@ -42,7 +39,7 @@ class Function:
         return found
 
     def along(self, system: Map, points: Arrays, count: int) -> tuple[Floats, Floats]:
-        """Its values at so many states, and at the next states."""
+        """Return its values at `count` states, and at the next states."""
         with np.errstate(all="ignore"):
             return self.at(points, count), self.at(after(system, points), count)
 
@@ -156,9 +153,9 @@ def products_of_gaps(system: Map) -> tuple[str, ...]:
 
 
 def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Iterator[Template]:
-    """Quadratic forms in the differences, of constant coefficients first, then of coefficients that
-    are linear in the parameters, of a part for each piece, and divided by what is positive.  piece:
-    the one that the point is in.
+    """Yield quadratic forms in the distances to the point: with constant coefficients, divided by
+    terms that are positive, with coefficients linear in the parameters, and with a part for each
+    piece.  piece: the number of the piece that the point is in.
     """
     gaps = [name + "_gap" for name in system.state]
     squares = products_of_gaps(system)
@@ -225,8 +222,8 @@ def margins(
 
 
 def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
-    """Weights between -1 and 1 with the greatest least margin; then, where `simple`, those of least
-    sum that keep a quarter of it.  None where no margin is positive.
+    """Return weights between -1 and 1 with the greatest least margin; if `simple`, then the weights
+    of least sum that keep a quarter of this margin.  None if no margin is positive.
     """
     count, unknowns = rows.shape
     found = program(
@@ -236,7 +233,7 @@ def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
         np.array([1.0] * (unknowns + 1)),
         np.array([0.0] * unknowns + [-1.0]),
     )
-    if found is None or found[-1] < LEAST_MARGIN:
+    if found is None or found[-1] < limits.PROGRAM_TOLERANCE:
         return None
     if not simple:
         return found[:-1]
@@ -261,10 +258,6 @@ def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
 SOLVER = Solver((("output_flag", False), ("threads", 1), ("random_seed", 1)))
 
 
-FIRST = 300  # rows that a linear program begins with; those that it breaks are added
-TOLERANCE = 1e-7  # HiGHS's own tolerance
-
-
 def program(
     matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
 ) -> Floats | None:
@@ -273,16 +266,16 @@ def program(
     """
     rows = len(matrix)
     asked = np.zeros(rows, bool)
-    asked[:: max(rows // FIRST, 1)] = True
+    asked[:: max(rows // limits.PROGRAM_ROWS, 1)] = True
     while True:
         found = _program(matrix[asked], least[asked], low, high, costs)
         if found is None:
             return None
-        broken = np.flatnonzero(~asked & (matrix @ found < least - TOLERANCE))
+        broken = np.flatnonzero(~asked & (matrix @ found < least - limits.PROGRAM_TOLERANCE))
         if not len(broken):
             return found
         by = (matrix[broken] @ found - least[broken]).argsort(kind="stable")
-        asked[broken[by[:FIRST]]] = True
+        asked[broken[by[: limits.PROGRAM_ROWS]]] = True
 
 
 def _program(
@@ -310,7 +303,7 @@ def rounded(weights: Floats, rows: Floats) -> Iterator[list[Fraction]]:
     """The weights as rationals, the simplest first, that keep every margin positive."""
     largest = np.abs(weights).max()
     seen = set()
-    for denominator in DENOMINATORS:
+    for denominator in limits.DENOMINATORS:
         numbers = [Fraction(round(w / largest * denominator), denominator) for w in weights]
         floats = np.array([float(n) for n in numbers])
         if tuple(numbers) not in seen and (rows @ floats > 0).all():
@@ -330,7 +323,7 @@ def lyapunov_functions(
     if (every @ plain > 0).all() and (chosen @ plain > 0).all():
         yield [Fraction(int(one)) for one in plain]
         return
-    for _ in range(TURNS):
+    for _ in range(limits.TURNS):
         weights = best_weights(chosen)
         if weights is None:
             return
@@ -340,9 +333,4 @@ def lyapunov_functions(
         chosen = np.concatenate([chosen, every[missed][:200]])
     else:
         return
-    count = 0
-    for numbers in rounded(weights, every):
-        yield numbers
-        count += 1
-        if count == 2:
-            return
+    yield from itertools.islice(rounded(weights, every), limits.TRIED)

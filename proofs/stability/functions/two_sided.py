@@ -1,13 +1,14 @@
-"""Maps of one variable: the distance to the point e above it, and below it the distance times a
-power of (e - l)/(s - l), for a lower bound l of the space, or the same with an upper bound:
+"""Functions of one variable with a distance on each side of the point e: above it the distance, and
+below it the distance times a power of (e - l)/(s - l), for a lower bound l of the space, or the
+same with an upper bound:
 
-    V = max(s - e, (e - s) ((e - l)/(s - l))^k),
+    V = max(s - e, (e - s) ((e - l)/(s - l))^k).
 
-of degree less than the squares of these.  By what share a side falls is a quotient, whose values at
-the point and at the ends of the space are what the loss is sought among.  Where the map is affine
-in pieces, the distances with a weight on each side: V = max(u (s - e), v (e - s)), which falls
-where what is above the point comes below it to less than u/v times the distance, and what is below
-it above it to less than v/u times.
+Their degree is less than that of their squares.  The share by which a side falls is a quotient; its
+values at the point and at the ends of the space make the constants of a loss.  For maps that are
+affine in pieces the distances have a weight on each side: V = max(u (s - e), v (e - s)).  It falls
+if states above the point come below it to less than u/v times the distance, and states below it
+come above it to less than v/u times the distance.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from juggleproof.certificates.cases import conjunction
 from juggleproof.certificates.nodes import Proof
 from juggleproof.certificates.search.falls.by_factors import proof_by_factors
 from juggleproof.certificates.search.falls.by_products import proof_by_products
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Candidate, Search
 from juggleproof.proofs.stability.functions.candidates import (
     Setting,
@@ -33,13 +35,12 @@ from juggleproof.proofs.stability.functions.candidates import (
     losses,
     small_balls,
 )
-from juggleproof.proofs.stability.functions.envelopes import SIZES, equation_of
+from juggleproof.proofs.stability.functions.envelopes import equation_of
 from juggleproof.proofs.stability.functions.equations import (
     at_parameters,
     factors_of,
     with_equations,
 )
-from juggleproof.proofs.stability.functions.norms import is_affine
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.samples import Arrays, Floats, Samples, after, ends_of, licence
 from juggleproof.proofs.stability.terms import (
@@ -53,24 +54,13 @@ from juggleproof.proofs.stability.terms import (
     written,
 )
 
-POWERS = (0, 1, 2)
-TRIED = 2  # losses of a function
-SHAPES = ((1, 0), (1, 1))  # (k, j) for losses V^k/(1 + V)^j
-SLOW_SHAPES = ((2, 1), (3, 2))  # where the multiplier is 1
-CLOSE = 1e-6  # of the distance to an end, what is not looked at
-FAR = 1e4  # times the rounding of the point
-FEW = 0.25  # of the parameters
 EPSILON = float(np.finfo(float).eps)
-MOST_TERMS = 6  # of which the products are tried as constants
-FEW_COLUMNS = 1500  # of a program of products
-MOST_POINTS = 3000  # at which signs of factors are looked at
-LONGEST = 80  # constant, in characters
 
 
 @dataclass(frozen=True)
 class Side:
-    """The distance to the point on one of its sides, as it is or over a power of a bound of the
-    space, which it tends to infinity at.
+    """The distance to the point on one of its sides, as it is, or over a power of a bound of the
+    space; at the bound it tends to infinity.
     """
 
     sign: int  # 1 above the point, -1 below
@@ -89,7 +79,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Sides:
-    """A function of two sides, or of the same with weights."""
+    """A function of two sides, which may have weights."""
 
     rank: float  # small where it is simple
     function: Function
@@ -110,7 +100,7 @@ def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
     for each in functions(setting):
         samples, count = setting.states, len(each.function.terms)
         known = samples.points | {"value": each.function.at(samples.points, len(samples.which))}
-        step = 1 + len(samples.which) // MOST_POINTS
+        step = 1 + len(samples.which) // limits.MOST_SIGNS
         search = partial(
             proof_that_it_falls,
             terms=range(count),
@@ -129,7 +119,7 @@ def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
                 proof_by_products, terms=range(count), unknowns=unknowns, squares=(), signs=()
             )
         best = sorted(candidates_for(setting, each, put), key=lambda one: one.rank)
-        for one in best[:TRIED]:
+        for one in best[: limits.TRIED]:
             yield replace(one, rank=one.rank + each.rank, searches=searches)
 
 
@@ -142,9 +132,9 @@ def proof_that_it_falls(
     gap: str,
     points: Arrays,
 ) -> Proof | None:
-    """A proof by products of what is positive, or by the signs of factors."""
+    """Return a proof by products of positive terms, or by the signs of factors."""
     gaps = [gap]
-    found = proof_by_products(premise, known, terms, unknowns, gaps, gaps, FEW_COLUMNS)
+    found = proof_by_products(premise, known, terms, unknowns, gaps, gaps, limits.MOST_COLUMNS)
     for left_out in dict.fromkeys((tuple(unknowns), tuple(roots))):
         found = found or proof_by_factors(premise, known, left_out, gap, points)
     return found
@@ -154,7 +144,7 @@ def solved(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
     """What to put for a parameter or the point, from the equation of the point; and the setting,
     whose premises know this equation, and what the domain says of the parameter then.
     """
-    if is_affine(setting.system):
+    if setting.system.is_affine:
         return setting, {}
     found, put = with_equations(setting)
     if not setting.have:
@@ -181,7 +171,7 @@ def functions(setting: Setting) -> Iterator[Sides]:
     """The functions to try."""
     state = setting.system.state[0]
     every = [
-        [Side(sign, bound, power) for power in POWERS if bound or not power]
+        [Side(sign, bound, power) for power in limits.SIDE_POWERS if bound or not power]
         for sign, bound in zip((1, -1), ends(setting))
     ]
     for over, under in product(*every):
@@ -189,13 +179,13 @@ def functions(setting: Setting) -> Iterator[Sides]:
         terms = (over.term(state), under.term(state))
         function = Function(terms, divisor="*".join(used) or "1")
         yield Sides(over.power + under.power, function, (over, under))
-    if is_affine(setting.system) and len(setting.system.pieces) > 1:
+    if setting.system.is_affine and len(setting.system.pieces) > 1:
         yield from (Sides(0.0, function) for function in weighted(setting))
 
 
 def ends(setting: Setting) -> tuple[str, str]:
-    """What is > 0 in the space and falls, or grows, at the point for all parameters: an upper
-    bound, and a lower one; nothing where there is none.
+    """Return an upper bound of the space and a lower one: terms that are > 0 in the space, and fall
+    or grow at the point for all parameters.  A bound that is missing is empty.
     """
     (state,) = symbols(setting.system.state)
     found = {1: "", -1: ""}
@@ -211,9 +201,9 @@ def ends(setting: Setting) -> tuple[str, str]:
 
 
 def weighted(setting: Setting) -> Iterator[Function]:
-    """The distances with weights on each side, where one slope d alone takes states from a side to
-    the other, and slopes c back: d, and 1 - (the product of all 1 - c d)/2 on the other side, which
-    is between 1 and each of c d.
+    """Yield the distances with a weight on each side, if one slope d alone takes states from a side
+    to the other, and slopes c take them back: d on one side, and on the other 1 - (the product of
+    all 1 - c d)/2, which is between 1 and each c d.
     """
     gap = f"{setting.system.state[0]}_gap"
     slopes = {side: crossing(setting, side) for side in (1, -1)}
@@ -227,8 +217,8 @@ def weighted(setting: Setting) -> Iterator[Function]:
 
 
 def crossing(setting: Setting, side: int) -> list[Expr]:
-    """The slopes, as terms in the parameters, of the pieces that take states on this side of the
-    point to the other.
+    """Return the slopes of the pieces that take states on this side of the point to the other
+    side.
     """
     system, points = setting.system, setting.states.points
     gap = f"{system.state[0]}_gap"
@@ -256,13 +246,13 @@ def candidates_for(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> Ite
         return
     steep = here / np.abs(samples.points[f"{state}_gap"])
     far = "distance"
-    if steep.min(initial=1.0) < 1 - CLOSE:
+    if steep.min(initial=1.0) < 1 - limits.END_CLOSE:
         for _, bound in bounded_below(samples.least(steep, setting.count), setting.products, 1):
             far = f"{as_factor(bound)}*distance"
     terms = shares(setting, sides, put)
     slow = bool(terms) and not terms[0]
     known = [*setting.products, *products_of_shares(setting, terms)]
-    for power, divided in SLOW_SHAPES if slow else SHAPES:
+    for power, divided in limits.SLOW_LOSS_SHAPES if slow else limits.LOSS_SHAPES:
         size, least = ("value", far) if power == 1 else (f"value^{power}", f"({far})^{power}")
         falls = (here - there) / here**power, 1 + here
         for rank, constant, loss, at_least in losses(
@@ -273,21 +263,21 @@ def candidates_for(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> Ite
 
 
 def is_clear(setting: Setting, here: Floats, there: Floats) -> NDArray[np.bool_]:
-    """At which samples rounding does not say whether V falls: those of parameters of which that is
-    so at all samples, if these are not few.
+    """Return at which samples rounding does not hide whether V falls.  Parameters with a sample
+    that is hidden are left out, if enough others are left.
     """
     (state,), samples = setting.system.state, setting.states
     size = np.abs(samples.points[state]) + np.abs(samples.points[f"{state}_point"])
-    rounding = FAR * EPSILON * size / np.abs(samples.points[f"{state}_gap"])
+    rounding = limits.POINT_ROUNDINGS * EPSILON * size / np.abs(samples.points[f"{state}_gap"])
     clear = np.asarray(np.abs(here - there) > rounding * here)
     every = np.ones(setting.count, bool)
     every[samples.which[~clear]] = False
-    return clear & every[samples.which] if every.mean() > FEW else clear
+    return clear & every[samples.which] if every.mean() > limits.FEW else clear
 
 
 def ball(setting: Setting, sides: Sides) -> tuple[str, str] | None:
-    """A radius within which no linear bound that V divides by is less than half of what it is at
-    the point, and what V is at most there, by the distance; None where there is no such bound.
+    """Return a radius within which each linear bound that V divides by is at least half of its
+    value at the point, and a bound of V there by the distance; None if V divides by no such bound.
     """
     (state,) = symbols(setting.system.state)
     at = expression(setting.point.terms[0]) if not setting.have else setting.point_names[0]
@@ -304,8 +294,8 @@ def ball(setting: Setting, sides: Sides) -> tuple[str, str] | None:
 
 
 def shares(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> list[Expr]:
-    """By what share of V its terms fall at the point, for states on the same side of it and on the
-    other, and at the ends of the space, where V goes over from one side to the same.
+    """Return the shares of V by which its terms fall at the point, from either side, and at the
+    ends of the space.
     """
     if not sides.sides or not put:
         return []
@@ -334,17 +324,17 @@ def products_of_shares(setting: Setting, terms: Sequence[Expr]) -> list[tuple[st
     used = [one for one in terms if one.free_symbols and (at_parameters(setting, one) > 0).all()]
     several = [sympy.factor(a * b) for a, b in combinations_with_replacement(used, 2)]
     found = []
-    for one in dict.fromkeys([*used, *several][:MOST_TERMS]):
+    for one in dict.fromkeys([*used, *several][: limits.MOST_SHARES]):
         above, below = map(written, sympy.fraction(one))
         text = above if below == "1" else f"{as_factor(above)}/({below})"
-        if len(text) <= LONGEST:
+        if len(text) <= limits.MOST_CONSTANT:
             found.append((text, at_parameters(setting, one)))
     return found
 
 
 def with_licences(setting: Setting, constant: str) -> Setting:
-    """The setting whose premises know what is positive in the constant: of the parameters where
-    they know nothing else of the point.
+    """Return the setting whose premises know that the factors of the constant are positive; if they
+    know nothing of the point, its domain says so.
     """
     facts = conjunction(setting.domain, *setting.have)
     known = {str(bound) for bound, strict in atoms(facts) if strict}
@@ -369,9 +359,11 @@ def states_of(setting: Setting) -> Samples:
     known = [end for end in ends_of(setting.system.space, state) if end is not None]
     reach = [end - point for end in known]
     reach += [-one for one in reach or [np.ones(setting.count)]]
-    sizes = [one for one in (*SIZES, *(1 - SIZES), 1.0) if abs(one) > CLOSE]
+    sizes = [
+        one for one in (*limits.SIZES, *(1 - limits.SIZES), 1.0) if abs(one) > limits.END_CLOSE
+    ]
     gaps = np.concatenate([np.outer(one, sizes) for one in reach], axis=1)
-    units = np.concatenate([SIZES, -SIZES])
+    units = np.concatenate([limits.SIZES, -limits.SIZES])
     gaps = np.concatenate([gaps, *(end - point[:, None] + units for end in known)], axis=1)
     which = np.repeat(np.arange(setting.count), gaps.shape[1])
     points = {name: values[which] for name, values in setting.constants.items()}
@@ -380,4 +372,6 @@ def states_of(setting: Setting) -> Samples:
     at = {name: setting.constants[name] for name in setting.system.parameters}
     rounding = np.abs(setting.system.next({**at, state: point})[0] - point)
     rounding = np.maximum(rounding, EPSILON * np.abs(point))
-    return Samples(points, which).where(inside & (np.abs(gaps.ravel()) > FAR * rounding[which]))
+    return Samples(points, which).where(
+        inside & (np.abs(gaps.ravel()) > limits.POINT_ROUNDINGS * rounding[which])
+    )

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.attracting import Strategy
 from juggleproof.proofs.stability.certifying import Candidate, Proof
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.maps import Map, read_rows
-from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
+from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
@@ -25,7 +26,7 @@ def at_point(system: Map, *terms: str, inside: bool = False) -> Setting:
     without a coordinate 0.
     """
     system = with_licences(system)
-    parameters = region(system.domain, system.parameters, PARAMETERS)
+    parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     every = [one for one in fixed_points(system) if one.exists(system, parameters).all()]
     every = [one for one in every if not terms or one.point.terms == terms]
     fixed = next(one for one in every if not inside or "0" not in one.point.terms)
@@ -52,10 +53,19 @@ def proved(
     return [rule.name.rpartition("/")[2] for rule in proof.rules]
 
 
-def first_line(text: str, name: str, folder: Path) -> tuple[int, str]:
-    """The exit code of the command for a map, and the first line of what it prints."""
-    path = folder / f"{name}.map"
+def name_of(line: str) -> str:
+    """The name of the map in the first line of what the command prints."""
+    return line.partition(":")[0].rpartition(" ")[2]
+
+
+def assert_settled(line: str, text: str, folder: Path) -> None:
+    """The command prints this line of the map first, or a line that begins so where it ends with a
+    colon, and its exit code is that of the verdict.
+    """
+    path = folder / f"{name_of(line)}.map"
     path.write_text(text + "\n")
     done = running.run("stability", str(path))
-    assert not done.stderr
-    return done.returncode, done.stdout.split("\n")[0]
+    first = done.stdout.split("\n")[0]
+    assert first == line or line.endswith(": ") and first.startswith(line)
+    code = {"proved": 0, "in part": 3}.get(line[:8].strip(), 1)
+    assert (done.returncode, done.stderr) == (code, "")

@@ -18,10 +18,11 @@ from juggleproof import MapRule, stability
 from juggleproof.certificates.language import ClaimError, bounds_of
 from juggleproof.proofs.conclusions import Lines
 from juggleproof.proofs.stability.findings import Finding, Meaning, finding_of
-from juggleproof.proofs.stability.maps import Map, read_rows
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.search import Outcome, search_stability
 from juggleproof.proofs.stability.terms import holds
 from tests.proofs.command import running
+from tests.proofs.stability.maps import map_of
 
 EVERY = "is stable and attracts every state"
 SAID = re.compile(rf"(?P<point>.+?) {EVERY}(?P<how> (?:at least where|where|if and only if) )?(.*)")
@@ -69,10 +70,6 @@ FAILS_AT_AN_END = {  # by what certifies it: the map, and for which parameters i
         "0 < 0",
     ),
 }
-
-
-def map_of(name: str, text: str) -> Map:
-    return read_rows(name, [(line.split()[0], line.partition(" ")[2]) for line in text.split("\n")])
 
 
 def corners(system: Map) -> Iterator[dict[str, Fraction]]:
@@ -149,7 +146,7 @@ LONG = {"irrational-end", "saturated", "envelope", "box-entered"}
 )
 def test_a_point_that_fails_at_an_end_alone_is_not_proved_there_holds(name: str) -> None:
     text, truth = FAILS_AT_AN_END[name]
-    system = map_of(name, text)
+    system = map_of(text, name)
     outcome = search_stability(system)
     assert outcome.finding.verdict in ("in part", "refuted")
     assert_true(outcome, system, truth)
@@ -177,7 +174,7 @@ def test_what_is_said_of_a_drawn_map_is_so_at_the_ends_of_its_domain_holds(
 ) -> None:
     domain = f"{ends[0]} {signs[0]} a and a {signs[1]} {ends[1]}"
     text = f"over a\ndomain {domain}\nstate x y\npiece {shape.format(f'({number})')}"
-    system = map_of("drawn", text)
+    system = map_of(text, "drawn")
     outcome = search_stability(system)
     assert_true(outcome, system, SHAPES[shape].format(f"({number})"))
     for parameters in corners(system):
@@ -201,7 +198,7 @@ POINTS = "state x\npiece x < 0 -> x - (x^2 - 2)\npiece x >= 0 -> x + (x^2 - 3)"
 
 
 def test_each_point_has_the_root_of_its_own_statement_holds() -> None:
-    finding = search_stability(map_of("roots", POINTS)).finding
+    finding = search_stability(map_of(POINTS, "roots")).finding
     assert finding.sentence == "(-sqrt(2)) is not stable; sqrt(3) is not stable"
 
 
@@ -254,7 +251,7 @@ def forged(outcome: Outcome, system: Map, **rows: str) -> Finding | None:
 
 def test_a_sentence_follows_the_statements_and_nothing_else_holds() -> None:
     """Whatever line of a statement says less, the sentence says less."""
-    system = map_of("half", "over a\ndomain 0 <= a and a < 1\nstate x\npiece a*x")
+    system = map_of("over a\ndomain 0 <= a and a < 1\nstate x\npiece a*x", "half")
     outcome = search_stability(system)
     whole = forged(outcome, system)
     assert whole and (whole.verdict, whole.sentence) == ("proved", f"0 {EVERY}")
@@ -272,7 +269,7 @@ def test_a_sentence_follows_the_statements_and_nothing_else_holds() -> None:
 
 
 def test_rejects_that_a_map_has_no_fixed_point_without_guards_that_say_so() -> None:
-    system = map_of("shift", "state x\npiece x + 1")
+    system = map_of("state x\npiece x + 1", "shift")
     outcome = search_stability(system)
     assert outcome.finding.verdict == "refuted"
     last = outcome.proof.rules[-1]

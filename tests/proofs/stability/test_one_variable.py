@@ -13,16 +13,17 @@ import sympy
 from juggleproof.certificates.algebra.polynomials import Packing, Ring
 from juggleproof.certificates.search.psatz.linear_program import Program, normal_forms
 from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import Proof
 from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.chetaev import cone_functions
 from juggleproof.proofs.stability.functions.two_sided import two_sided_candidates
-from juggleproof.proofs.stability.maps import Map, read_rows
-from juggleproof.proofs.stability.points import PARAMETERS, fixed_points, roots_of
+from juggleproof.proofs.stability.points import fixed_points, roots_of
 from juggleproof.proofs.stability.samples import region
+from juggleproof.proofs.stability.search import search_stability
 from juggleproof.proofs.stability.settings import setting_of
-from tests.proofs.command import running
+from tests.proofs.stability.maps import assert_settled, map_of, name_of
 
 STABLE = "is stable and attracts every state"
 CONVERTER = (
@@ -37,91 +38,67 @@ BORDER = (
     "piece x <= 0 -> a*x + 1\npiece x > 0 -> b*x + 1"
 )
 LOGISTIC = "state x\nspace 0 < x and x < 1\npiece {}*x*(1 - x)"
-SETTLED = {  # name: (text, first line)
-    "converter": (CONVERTER.format("0 < k and k < 0.03"), f"proved   converter: 25 {STABLE}"),
-    "threshold": (SIGMOID.format(1), f"proved   threshold: ((r + sqrt(r^2 - 4))/2) {STABLE}"),
-    "below-it": (
-        SIGMOID.format(0),
-        "refuted  below-it: ((r + sqrt(r^2 - 4))/2) does not attract 0, which is a fixed point",
+SETTLED = {  # the first line of what is printed: the map
+    f"proved   converter: 25 {STABLE}": CONVERTER.format("0 < k and k < 0.03"),
+    f"proved   threshold: ((r + sqrt(r^2 - 4))/2) {STABLE}": SIGMOID.format(1),
+    "refuted  below-it: ((r + sqrt(r^2 - 4))/2) does not attract 0, which is a fixed point": (
+        SIGMOID.format(0)
     ),
-    "harvest": (
-        HARVEST.format("0 < h and h < 1"),
+    (
         f"in part  harvest: (-h*r + r - 1) {STABLE} where -h*r + r - 1 > 0; elsewhere no state of"
-        " the space is a fixed point",
+        " the space is a fixed point"
+    ): HARVEST.format("0 < h and h < 1"),
+    "refuted  all-harvested: no state of the space is a fixed point": (
+        HARVEST.format("(1 - h)*r <= 1 and 0 < h and h < 1")
     ),
-    "all-harvested": (
-        HARVEST.format("(1 - h)*r <= 1 and 0 < h and h < 1"),
-        "refuted  all-harvested: no state of the space is a fixed point",
+    f"proved   peak: sqrt(r - 1) {STABLE}": (
+        "over r\ndomain 1 < r and r < 10\nstate x\nspace x > 0\npiece r*x/(1 + x^2)"
     ),
-    "peak": (
-        "over r\ndomain 1 < r and r < 10\nstate x\nspace x > 0\npiece r*x/(1 + x^2)",
-        f"proved   peak: sqrt(r - 1) {STABLE}",
+    f"proved   cube-root: e {STABLE}; here a = e^3": (
+        "over a\ndomain a > 0\nstate x\nspace x > 0\npiece (2*x + a/x^2)/3"
     ),
-    "cube-root": (
-        "over a\ndomain a > 0\nstate x\nspace x > 0\npiece (2*x + a/x^2)/3",
-        f"proved   cube-root: e {STABLE}; here a = e^3",
-    ),
-    "recessive": (
+    f"proved   recessive: 0 {STABLE}": (
         "over s\ndomain 0 < s and s < 1\nstate q\nspace 0 <= q and q < 1\n"
-        "piece q*(1 - s*q)/(1 - s*q^2)",
-        f"proved   recessive: 0 {STABLE}",
+        "piece q*(1 - s*q)/(1 - s*q^2)"
     ),
-    "not-selected": (
-        "state q\nspace 0 <= q and q < 1\npiece q*(1 - q^2)/(1 - q^2)",
-        "refuted  not-selected: 0 does not attract 1/2, which is a fixed point",
+    "refuted  not-selected: 0 does not attract 1/2, which is a fixed point": (
+        "state q\nspace 0 <= q and q < 1\npiece q*(1 - q^2)/(1 - q^2)"
     ),
-    "two-cycles": (
-        "over a\ndomain a > 1\nstate x\nspace x > 0\npiece max(a/x, 1)",
-        "refuted  two-cycles: sqrt(a) does not attract 1, which is periodic",
+    "refuted  two-cycles: sqrt(a) does not attract 1, which is periodic": (
+        "over a\ndomain a > 1\nstate x\nspace x > 0\npiece max(a/x, 1)"
     ),
-    "momentum": (
-        MOMENTUM.format("0 < h and h < 2"),
-        f"in part  momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0",
+    f"in part  momentum: (0, 0) {STABLE} if and only if -2*h*m - h + 2*m + 2 > 0": (
+        MOMENTUM.format("0 < h and h < 2")
     ),
-    "too-long-steps": (
-        MOMENTUM.format("7/4 <= h and h < 2 and m >= 1/2"),
-        "refuted  too-long-steps: (0, 0) is not stable",
+    "refuted  too-long-steps: (0, 0) is not stable": (
+        MOMENTUM.format("7/4 <= h and h < 2 and m >= 1/2")
     ),
-    "border": (
-        BORDER.format("-3 < a and a < 0"),
+    (
         f"in part  border: (-1/(b - 1)) {STABLE} where -a*b + 1 > 0; where -a*b + 1 < 0, it does"
-        " not attract ((-b - 1)/(a*b - 1)), which is periodic; elsewhere nothing is known",
+        " not attract ((-b - 1)/(a*b - 1)), which is periodic; elsewhere nothing is known"
+    ): BORDER.format("-3 < a and a < 0"),
+    "refuted  cycle: (-1/(b - 1)) does not attract ((-b - 1)/(a*b - 1)), which is periodic": (
+        BORDER.format("-3 < a and a < -2 and a*b > 1")
     ),
-    "cycle": (
-        BORDER.format("-3 < a and a < -2 and a*b > 1"),
-        "refuted  cycle: (-1/(b - 1)) does not attract ((-b - 1)/(a*b - 1)), which is periodic",
-    ),
-    "logistic-inside": (LOGISTIC.format("2.99"), f"proved   logistic-inside: 199/299 {STABLE}"),
-    "logistic-at-end": (LOGISTIC.format("3"), f"proved   logistic-at-end: 2/3 {STABLE}"),
-    "logistic-by-name": (
-        "over a\ndomain a = 3\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)",
-        f"proved   logistic-by-name: ((a - 1)/a) {STABLE}",
+    f"proved   logistic-inside: 199/299 {STABLE}": LOGISTIC.format("2.99"),
+    f"proved   logistic-at-end: 2/3 {STABLE}": LOGISTIC.format("3"),
+    f"proved   logistic-by-name: ((a - 1)/a) {STABLE}": (
+        "over a\ndomain a = 3\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)"
     ),
 }
 
 
-@pytest.mark.parametrize("name", SETTLED)
-def test_a_map_is_settled_on_both_sides_of_its_condition_holds(name: str, tmp_path: Path) -> None:
-    text, line = SETTLED[name]
-    path = tmp_path / f"{name}.map"
-    path.write_text(text + "\n")
-    done = running.run("stability", str(path))
-    assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
+@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+def test_a_map_is_settled_on_both_sides_of_its_condition_holds(line: str, tmp_path: Path) -> None:
+    assert_settled(line, SETTLED[line], tmp_path)
 
 
-def test_rejects_a_point_beyond_its_condition(tmp_path: Path) -> None:
-    path = tmp_path / "beyond.map"
-    path.write_text(LOGISTIC.format("3.01") + "\n")
-    assert not running.run("stability", str(path)).stdout.startswith("proved")
-
-
-def system_of(text: str) -> Map:
-    rows = [(line.split()[0], line.partition(" ")[2]) for line in text.splitlines()]
-    return read_rows("one", rows)
+def test_rejects_a_point_beyond_its_condition() -> None:
+    assert search_stability(map_of(LOGISTIC.format("3.01"))).finding.verdict != "proved"
 
 
 def setting_at(text: str) -> Setting:
-    system = system_of(text)
+    system = map_of(text)
     return setting_of(system, fixed_points(system)[0], system.domain)
 
 
@@ -136,9 +113,9 @@ def test_a_condition_with_a_square_root_is_a_polynomial_holds() -> None:
     """The multiplier at (sqrt(4 s + 1) - 1)/(2 s) is 1 - sqrt(4 s + 1)."""
     text = "over s\ndomain 0 < s and s < {}\nstate p\nspace 0 <= p and p <= 1\npiece 1 - s*p^2"
     for end, rows in (("1", ["3 - 4*s > 0"]), ("1/2", [])):
-        system = system_of(text.format(end))
+        system = map_of(text.format(end))
         (fixed,) = fixed_points(system)
-        assert narrowed(system, fixed, region(system.domain, ("s",), PARAMETERS)) == rows
+        assert narrowed(system, fixed, region(system.domain, ("s",), limits.PARAMETERS)) == rows
 
 
 def test_linear_forms_grow_in_a_cone_that_is_kept_holds() -> None:
@@ -165,7 +142,7 @@ def test_factors_of_low_degree_have_these_zeros_holds(text: str) -> None:
 
 
 def test_rejects_premises_beyond_the_work_that_is_granted() -> None:
-    rule = system_of("state x\nspace 0 <= x and x <= 1\npiece x/2").rule("one/map")
+    rule = map_of("state x\nspace 0 <= x and x <= 1\npiece x/2").rule("m/map")
     proof = Proof(most=0)
     assert not proof.add(rule) and proof.fault.startswith("no proof of the premise")
     proof.grant(10_000)

@@ -50,7 +50,7 @@ def test_rejects_a_point_that_some_values_have_twice_or_not_at_all(name: str) ->
 def test_what_samples_alone_say_of_the_point_is_said_to_rest_on_them_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("juggleproof.proofs.stability.points_as_parameters.BUDGET", 0)
+    monkeypatch.setattr("juggleproof.proofs.stability.limits.POINT_WORK", 0)
     found = search_stability(MAPS["root"]).finding
     assert found.verdict == "in part"
     assert found.sentence.endswith(

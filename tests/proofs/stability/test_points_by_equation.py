@@ -112,7 +112,7 @@ def test_rejects_that_there_is_a_zero_where_there_is_none(name: str) -> None:
 def test_what_samples_alone_say_of_the_zero_is_said_to_rest_on_them_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("juggleproof.proofs.stability.points_as_parameters.BUDGET", 0)
+    monkeypatch.setattr("juggleproof.proofs.stability.limits.POINT_WORK", 0)
     found = search_stability(HASSELL).finding
     assert found.verdict == "in part"
     assert found.sentence.endswith("e < 17/64, where samples alone say that there is one")

@@ -9,8 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.domains import narrowed
-from juggleproof.proofs.stability.functions import part_metric
+from juggleproof.proofs.stability.functions import weighted_terms
 from juggleproof.proofs.stability.functions.equations import with_ends
 from juggleproof.proofs.stability.functions.ratios import (
     origins,
@@ -18,7 +19,7 @@ from juggleproof.proofs.stability.functions.ratios import (
     weighted_distance_candidates,
 )
 from juggleproof.proofs.stability.maps import Map
-from juggleproof.proofs.stability.points import PARAMETERS, fixed_points
+from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.search import search_stability
 from tests.proofs.stability.maps import at_point, map_of, of_its_map, proved
@@ -64,7 +65,7 @@ def test_a_delayed_map_that_turns_is_stable_holds() -> None:
 
 def test_a_condition_with_a_root_is_found_holds() -> None:
     system = with_licences(RATIONAL)
-    parameters = region(system.domain, system.parameters, PARAMETERS)
+    parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     (fixed,) = (one for one in fixed_points(system) if one.exists(system, parameters).any())
     assert narrowed(system, fixed, parameters) == ["q - 1 > 0"]
     found = search_stability(RATIONAL)
@@ -114,8 +115,8 @@ def test_no_weights_are_found_where_no_sample_is_in_range_holds(
 ) -> None:
     setting = SimpleNamespace(system=SimpleNamespace(state=("x",)), count=1)
     none = np.zeros((2, 0)), np.zeros((2, 0)), SimpleNamespace()
-    monkeypatch.setattr(part_metric, "values", lambda *_: none)
-    assert part_metric._weights(setting, ["x", "1/x"]) == ()  # type: ignore[arg-type]
+    monkeypatch.setattr(weighted_terms, "values", lambda *_: none)
+    assert weighted_terms._weights(setting, ["x", "1/x"]) == ()  # type: ignore[arg-type]
 
 
 def epidemic(domain: str) -> Map:

@@ -11,7 +11,8 @@ import pytest
 import sympy
 
 from juggleproof.certificates import checker
-from juggleproof.proofs.stability.certifying import BUDGET, EFFORTS, Proof
+from juggleproof.proofs.stability import limits
+from juggleproof.proofs.stability.certifying import EFFORTS, Proof
 from juggleproof.proofs.stability.failing import is_fixed
 from juggleproof.proofs.stability.maps import read_rows
 from juggleproof.proofs.stability.points import as_point, fixed_points
@@ -19,6 +20,7 @@ from juggleproof.proofs.stability.refuting import instability_rules
 from juggleproof.proofs.stability.search import without_empty_pieces
 from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
+from tests.proofs.stability.maps import assert_settled, name_of
 
 STABLE = "is stable and attracts every state"
 NO_FIXED_POINT = "no state of the space is a fixed point"
@@ -33,80 +35,62 @@ SLOPE = "over b\ndomain 1/2 <= b and b <= 1\nstate x\n" + "\n".join(
         "piece x >= 1/4 -> {0}*x - b",
     ]
 )
-SETTLED = {  # name: (text, first line)
-    "unstable-cycle": (
-        CYCLE.format("0 < a and a < 2"),
-        f"in part  unstable-cycle: (1/(a + 1)) {STABLE} if and only if a < 1",
+SETTLED = {  # the first line of what is printed: the map
+    f"in part  unstable-cycle: (1/(a + 1)) {STABLE} if and only if a < 1": (
+        CYCLE.format("0 < a and a < 2")
     ),
-    "no-cycle": (CYCLE.format("0 < a and a < 1"), f"proved   no-cycle: (1/(a + 1)) {STABLE}"),
-    "line": (
-        BALL.format("t + v"),
-        "refuted  line: (0, 0) does not attract (0, 1/2), which is a fixed point",
-    ),
-    "plane-of-two-rates": (  # a multiplier is 1 for all parameters
+    f"proved   no-cycle: (1/(a + 1)) {STABLE}": CYCLE.format("0 < a and a < 1"),
+    "refuted  line: (0, 0) does not attract (0, 1/2), which is a fixed point": BALL.format("t + v"),
+    # a multiplier is 1 for all parameters
+    "refuted  plane-of-two-rates: (0, 0) does not attract (1/2, 1/2), which is a fixed point": (
         "over a b\ndomain 0 < a and a < 1 and 0 < b and b < 1\nstate x y\n"
-        "piece (1 - a)*x + a*y, (1 - b)*y + b*x",
-        "refuted  plane-of-two-rates: (0, 0) does not attract (1/2, 1/2), which is a fixed point",
+        "piece (1 - a)*x + a*y, (1 - b)*y + b*x"
     ),
-    "focus": (  # L. A. Metzler, Review of Economics and Statistics 23, 1941
-        "over b k\ndomain 0 < b and b < 1 and 0 < k and k < 1\nstate y z\n"
-        "piece (2 + k)*b*y - (1 + k)*b*z + 1, y",
+    # L. A. Metzler, Review of Economics and Statistics 23, 1941
+    (
         f"in part  focus: (-1/(b - 1), -1/(b - 1)) {STABLE} where -b*k - b + 1 > 0;"
-        " where -b*k - b + 1 < 0, it is not stable; elsewhere nothing is known",
+        " where -b*k - b + 1 < 0, it is not stable; elsewhere nothing is known"
+    ): (
+        "over b k\ndomain 0 < b and b < 1 and 0 < k and k < 1\nstate y z\n"
+        "piece (2 + k)*b*y - (1 + k)*b*z + 1, y"
     ),
-    "quotient-in-a-guard": (  # of a divisor that is not 0 on the closed space
-        "over h\ndomain 0 < h and h < 1\nstate x\nspace x >= 0\npiece max(0, 4*x/(1 + x) - h)",
+    # of a divisor that is not 0 on the closed space
+    (
         "refuted  quotient-in-a-guard: ((-h + sqrt(h^2 - 10*h + 9) + 3)/2) does not attract 0,"
-        " which is a fixed point",
+        " which is a fixed point"
+    ): "over h\ndomain 0 < h and h < 1\nstate x\nspace x >= 0\npiece max(0, 4*x/(1 + x) - h)",
+    f"proved   no-line: (0, 0) {STABLE}": BALL.format("t/2 + v"),
+    "refuted  rotation: (1, 1) does not attract (0, 0), which is periodic": (
+        "state x y\npiece 1 - y + abs(x), x"
     ),
-    "no-line": (BALL.format("t/2 + v"), f"proved   no-line: (0, 0) {STABLE}"),
-    "rotation": (
-        "state x y\npiece 1 - y + abs(x), x",
-        "refuted  rotation: (1, 1) does not attract (0, 0), which is periodic",
+    f"proved   spiral: (0, 0) {STABLE}": "state x y\npiece (x - y)/2, x/2",
+    "refuted  period-nine: (0, 0) does not attract (-1/2, 1/4), which is periodic": (
+        "state x y\npiece abs(x) - y, x"
     ),
-    "spiral": ("state x y\npiece (x - y)/2, x/2", f"proved   spiral: (0, 0) {STABLE}"),
-    "period-nine": (
-        "state x y\npiece abs(x) - y, x",
-        "refuted  period-nine: (0, 0) does not attract (-1/2, 1/4), which is periodic",
-    ),
-    "boundary": (TENT.format("2"), f"in part  boundary: 0 {STABLE} if and only if m < 1"),
-    "no-boundary": (TENT.format("1"), f"proved   no-boundary: 0 {STABLE}"),
-    "nowhere": (PHASE.format("1/2"), f"refuted  nowhere: {NO_FIXED_POINT}"),
-    "nowhere-in-quotients": (
-        "state x\nspace x > 0\npiece x + 1/x",
-        f"refuted  nowhere-in-quotients: {NO_FIXED_POINT}",
-    ),
-    "somewhere": (
-        PHASE.format("0"),
-        "refuted  somewhere: (-1/2) does not attract (-1), which is a fixed point",
-    ),
-    "drift-beside-rest": (  # where the first variable drifts, the second may rest
+    f"in part  boundary: 0 {STABLE} if and only if m < 1": TENT.format("2"),
+    f"proved   no-boundary: 0 {STABLE}": TENT.format("1"),
+    f"refuted  nowhere: {NO_FIXED_POINT}": PHASE.format("1/2"),
+    f"refuted  nowhere-in-quotients: {NO_FIXED_POINT}": "state x\nspace x > 0\npiece x + 1/x",
+    "refuted  somewhere: (-1/2) does not attract (-1), which is a fixed point": PHASE.format("0"),
+    # where the first variable drifts, the second may rest
+    f"proved   drift-beside-rest: (0, 0) {STABLE}": (
         "over h\ndomain 0 < h and h < 1\nstate x y\n"
-        "piece x - h*max(-1, min(1, x - y)), y - h*max(-1, min(1, y))",
-        f"proved   drift-beside-rest: (0, 0) {STABLE}",
+        "piece x - h*max(-1, min(1, x - y)), y - h*max(-1, min(1, y))"
     ),
-    "each-unstable": (
-        SLOPE.format("2"),
-        "refuted  each-unstable: (-b) is not stable; 0 is not stable; b is not stable",
+    "refuted  each-unstable: (-b) is not stable; 0 is not stable; b is not stable": (
+        SLOPE.format("2")
     ),
-    "bound": (
-        "state v\nspace 1 <= v and v <= 2\npiece v/2 + max(0, 1 - v)/v + 1/2",
-        f"proved   bound: 1 {STABLE}",
+    f"proved   bound: 1 {STABLE}": (
+        "state v\nspace 1 <= v and v <= 2\npiece v/2 + max(0, 1 - v)/v + 1/2"
     ),
-    "root": (  # without parameters
-        "state x\nspace x > 0\npiece 1/(1 + x)",
-        f"proved   root: ((sqrt(5) - 1)/2) {STABLE}",
-    ),
+    # without parameters
+    f"proved   root: ((sqrt(5) - 1)/2) {STABLE}": "state x\nspace x > 0\npiece 1/(1 + x)",
 }
 
 
-@pytest.mark.parametrize("name", SETTLED)
-def test_a_map_is_refuted_where_it_has_the_hypothesis_holds(name: str, tmp_path: Path) -> None:
-    text, line = SETTLED[name]
-    path = tmp_path / f"{name}.map"
-    path.write_text(text + "\n")
-    done = running.run("stability", str(path))
-    assert (done.stdout.split("\n")[0], done.stderr) == (line, "")
+@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+def test_a_map_is_refuted_where_it_has_the_hypothesis_holds(line: str, tmp_path: Path) -> None:
+    assert_settled(line, SETTLED[line], tmp_path)
 
 
 def test_the_divisor_of_a_point_has_no_root_holds() -> None:
@@ -138,7 +122,9 @@ def test_rejects_a_point_that_is_not_fixed() -> None:
 def test_a_false_premise_is_not_sought_for_long_holds() -> None:
     text = "statement a/a\nforall x y\ngiven x > 0 and y > 0\nshow x^3 + y^3 > 2*x*y"
     proof = Proof()
-    assert proof.proof_of(checker.read_statements(text)["a/a"], EFFORTS, BUDGET) is None
+    assert (
+        proof.proof_of(checker.read_statements(text)["a/a"], EFFORTS, limits.PREMISE_WORK) is None
+    )
     assert proof.work < 3000
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from juggleproof.proofs.stability.functions.templates import Sides, program
-from juggleproof.proofs.stability.functions.weighted_sums import weighted_sum_candidates
+from juggleproof.proofs.stability.functions.weighted_terms import weighted_sum_candidates
 from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.search import Outcome, search_stability
 from tests.proofs.stability.maps import at_point, map_of, proved
