@@ -33,7 +33,11 @@ from juggleproof.proofs.stability.functions.candidates import (
     power_products,
 )
 from juggleproof.proofs.stability.functions.equations import at_parameters, with_ends
-from juggleproof.proofs.stability.functions.ratios import has_ratios, weighted_distance_candidates
+from juggleproof.proofs.stability.functions.ratios import (
+    has_ratios,
+    weighted_distance_candidates,
+    without_divisors,
+)
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.maps import HIGH, LOW, Side, ends_of_space
 from juggleproof.proofs.stability.points import roots_of
@@ -133,7 +137,7 @@ def box_candidates(
 ) -> Iterator[Candidate]:
     """Return the candidates for a V that has the same value on all faces of the box."""
     names = setting.system.state
-    weights = weights_of(setting, widths)
+    weights = list(without_divisors(setting, sympy.Matrix([1 / one for one in widths])))
     terms = [
         f"{as_factor(written(weight))}*{names[k]}_gap"
         if side == HIGH
@@ -164,15 +168,6 @@ def radius_of(setting: Setting, widths: Sequence[Expr]) -> str:
         if rank < limits.LOOSE:
             return radius
     return written(sympy.factor(1 / (2 * sum(1 / width for width in widths))))
-
-
-def weights_of(setting: Setting, widths: Sequence[Expr]) -> list[Expr]:
-    """Return positive polynomials in the ratio of the inverses of the widths."""
-    inverses = [sympy.together(1 / width) for width in widths]
-    below = sympy.lcm([sympy.fraction(one)[1] for one in inverses])
-    found = sympy.Matrix([sympy.cancel(one * below) for one in inverses])
-    found = (found / sympy.gcd(list(found))).applyfunc(sympy.factor)
-    return list(found if at_parameters(setting, found[0]).max() > 0 else -found)
 
 
 def below_all(setting: Setting, terms: Sequence[Expr]) -> Floats:

@@ -201,14 +201,14 @@ def weights_of(setting: Setting, matrix: Expr) -> list[list[Expr]]:
     """
     size = matrix.rows
     adjugate = (sympy.eye(size) - matrix).adjugate().applyfunc(sympy.cancel)
-    columns = [_without_divisors(setting, adjugate[:, k]) for k in range(size)]
+    columns = [without_divisors(setting, adjugate[:, k]) for k in range(size)]
     found: dict[tuple[Expr, ...], None] = {}
     for entry in (None, *range(size)):
         if entry is not None and any(column[entry] == 0 for column in columns):
             continue
         scaled = [column if entry is None else column / column[entry] for column in columns]
         total = sum(scaled[1:], scaled[0]).applyfunc(sympy.together)
-        found[tuple(_without_divisors(setting, total))] = None
+        found[tuple(without_divisors(setting, total))] = None
     return list(map(list, found))
 
 
@@ -246,7 +246,7 @@ def _combination(
     return best and best[1]
 
 
-def _without_divisors(setting: Setting, column: Expr) -> Expr:
+def without_divisors(setting: Setting, column: Expr) -> Expr:
     """The column times a term, so that its entries are positive polynomials, as low as may be."""
     below = sympy.lcm([sympy.fraction(sympy.together(one))[1] for one in column])
     column = (column * below).applyfunc(sympy.cancel)

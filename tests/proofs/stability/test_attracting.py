@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from juggleproof.proofs.stability.attracting import BY_SHAPE, Strategy
+from juggleproof.proofs.stability.attracting import Strategy
 from juggleproof.proofs.stability.certifying import Candidate, either
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.norms import norm_candidates
@@ -48,7 +48,11 @@ def test_the_first_search_that_finds_a_proof_ends_it_holds() -> None:
     asked: list[str] = []
 
     def search(name: str, found: Any) -> Any:
-        return lambda premise, known: asked.append(name) or found
+        def one(premise: object, known: object) -> Any:
+            asked.append(name)
+            return found
+
+        return one
 
     both: Any = either(search("a", None), search("b", "proof"), search("c", "late"))
     assert both(None, {}) == "proof" and asked == ["a", "b"]
@@ -57,6 +61,12 @@ def test_the_first_search_that_finds_a_proof_ends_it_holds() -> None:
 def test_a_strategy_for_affine_maps_has_no_candidates_for_others_holds() -> None:
     setting = at_point(map_of("state x\nspace x > 0\npiece (x + 2/x)/2"))
     asked: list[Setting] = []
-    strategy = replace(BY_SHAPE[0], candidates=lambda one: asked.append(one) or ())  # type: ignore
-    assert strategy.affine and not strategy.settles(of_its_map(setting), setting, print)
-    assert not asked
+
+    def candidates(one: Setting) -> list[Candidate]:
+        asked.append(one)
+        return []
+
+    for affine in (True, False):
+        strategy = Strategy(candidates, affine=affine)
+        assert not strategy.settles(of_its_map(setting), setting, print)
+        assert bool(asked) is not affine

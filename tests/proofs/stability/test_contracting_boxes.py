@@ -9,14 +9,13 @@ import sympy
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.functions.candidates import Setting
 from juggleproof.proofs.stability.functions.contracting_boxes import (
-    HIGH,
-    LOW,
     box_of,
     contracting_box_candidates,
     ends_at_point,
     ends_for,
     height_of,
 )
+from juggleproof.proofs.stability.maps import HIGH, LOW
 from juggleproof.proofs.stability.terms import expression
 from tests.proofs.stability.maps import at_point, map_of, of_its_map, proved
 

@@ -8,13 +8,10 @@ import numpy as np
 import pytest
 
 from juggleproof.proofs.stability.entering import boxes_of, radius_of, spaces_entered
-from juggleproof.proofs.stability.functions.candidates import Setting
-from juggleproof.proofs.stability.maps import Map, read_file, read_rows
-from juggleproof.proofs.stability.points import fixed_points
-from juggleproof.proofs.stability.samples import with_licences
+from juggleproof.proofs.stability.maps import Map, read_file
 from juggleproof.proofs.stability.search import search_stability
-from juggleproof.proofs.stability.settings import setting_of
 from juggleproof.proofs.stability.terms import holds
+from tests.proofs.stability.maps import at_point, map_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CLIPPED = "max(-1, min(1, a*x + b*y))"
@@ -30,9 +27,7 @@ BOXES = {
 
 
 def planar(images: str, domain: str = "-1 < a and a < 1 and -1 < b and b < 1") -> Map:
-    return read_rows(
-        "planar", [("over", "a b"), ("domain", domain), ("state", "x y"), ("piece", images)]
-    )
+    return map_of(f"over a b\ndomain {domain}\nstate x y\npiece {images}")
 
 
 @pytest.mark.parametrize("images", BOXES)
@@ -64,40 +59,35 @@ def test_rejects_a_filter_beyond_the_triangle() -> None:
     assert outcome.finding.verdict == "refuted"
 
 
-def rational(images: str, state: str, space: str, domain: str) -> Map:
-    rows = [("over", "a"), ("domain", domain), ("state", state), ("space", space)]
-    return with_licences(read_rows("rational", [*rows, ("piece", images)]))
-
-
-def setting_at(system: Map) -> Setting:
-    return setting_of(system, fixed_points(system)[0], system.domain)
+def rational(images: str, space: str, domain: str) -> Map:
+    return map_of(f"over a\ndomain {domain}\nstate x y\nspace {space}\npiece {images}", "rational")
 
 
 def test_a_closed_space_is_left_for_its_inside_variable_by_variable_holds() -> None:
-    system = rational("x/2 + a/(2*(1 + y)), y/2 + x/2", "x y", "x >= 0 and y >= 0", "a > 0")
+    system = rational("x/2 + a/(2*(1 + y)), y/2 + x/2", "x >= 0 and y >= 0", "a > 0")
     inside = ["x > 0 and y >= 0", "y > 0 and x > 0"]
-    assert spaces_entered(setting_at(system), False) == inside
+    assert spaces_entered(at_point(system), False) == inside
 
 
 def test_an_end_that_images_attain_is_not_left_holds() -> None:
-    system = rational("a*x/(1 + y), y/2 + x/2", "x y", "x >= 0 and y >= 0", "0 < a and a < 1")
-    assert spaces_entered(setting_at(system), False) == []
+    system = rational("a*x/(1 + y), y/2 + x/2", "x >= 0 and y >= 0", "0 < a and a < 1")
+    assert spaces_entered(at_point(system), False) == []
 
 
 def test_a_bound_that_all_states_keep_limits_no_radius_holds() -> None:
-    system = rational("a/(1 + y), a/(1 + x)", "x y", "x >= 0 and y >= 0", "a > 0")
-    setting = setting_at(system)
+    system = rational("a/(1 + y), a/(1 + x)", "x >= 0 and y >= 0", "a > 0")
+    setting = at_point(system)
     assert radius_of(setting, "x >= 0 and y >= 0 and x + 1 > 0 and y + 1 > 0") == "1"
     assert "root_1" in radius_of(setting, "x > 0 and y >= 0")
 
 
 def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:
-    system = rational("a + y/x, x", "x y", "x > 0 and y > 0", "a > 1")
-    assert spaces_entered(setting_at(system), True)[-1] == "y > a and x > a and x > 0 and y > 0"
+    system = rational("a + y/x, x", "x > 0 and y > 0", "a > 1")
+    assert spaces_entered(at_point(system), True)[-1] == "y > a and x > a and x > 0 and y > 0"
 
 
 def test_the_part_that_orbits_enter_carries_the_proof_holds() -> None:
     """A. M. Amleh, E. A. Grove, G. Ladas and D. A. Georgiou (1999), in the whole range."""
-    found = search_stability(rational("a + y/x, x", "x y", "x > 0 and y > 0", "a > 1"))
+    found = search_stability(rational("a + y/x, x", "x > 0 and y > 0", "a > 1"))
     assert found.finding.sentence == "(a + 1, a + 1) is stable and attracts every state"
     assert [one.name for one in found.proof.rules][-1] == "rational/attracts"

@@ -15,11 +15,9 @@ from hypothesis import strategies as some
 from juggleproof.certificates.store import STATEMENTS
 from juggleproof.proofs.command.check import check
 from juggleproof.proofs.stability.functions.envelopes import Envelope, candidates_for
-from juggleproof.proofs.stability.maps import read_rows
-from juggleproof.proofs.stability.points import fixed_points
-from juggleproof.proofs.stability.settings import setting_of
 from juggleproof.proofs.stability.terms import value
 from tests.proofs.command import running
+from tests.proofs.stability.maps import at_point, map_of
 
 LOGISTIC = "over a\ndomain 1 < a and a < 4\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)\n"
 PROVED = {  # name: (text, first line, a hypothesis, a weaker one)
@@ -79,10 +77,8 @@ def test_v_is_the_same_at_a_state_and_its_image_under_the_involution_holds(
 @pytest.mark.parametrize(("slope", "fits"), [(1, False), (2, False), (3, True)])
 def test_rejects_an_envelope_of_another_second_derivative(slope: int, fits: bool) -> None:
     """At a = 3 the involution has to have that of the map, so b = 3."""
-    rows = [(line.split()[0], line.partition(" ")[2]) for line in LOGISTIC.splitlines()]
-    system = replace(read_rows("logistic", rows), domain="2 < a and a <= 3 and a > 0")
-    (fixed,) = [one for one in fixed_points(system) if one.point.terms == ("(a - 1)/a",)]
-    setting = replace(setting_of(system, fixed, system.domain), have=())
+    system = replace(map_of(LOGISTIC.rstrip()), domain="2 < a and a <= 3 and a > 0")
+    setting = replace(at_point(system, "(a - 1)/a"), have=())
     upper = f"(1 + {slope})*(a - 1) - {slope}*a*x"
     inner = replace(system, space=f"0 < x and {upper} > 0")
     envelope = Envelope("x", upper, "(a - 1)/a")

@@ -6,15 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from juggleproof.proofs.stability.maps import Map, read_rows
+from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.points_as_parameters import Renamed, by_its_point, has_one_point
 from juggleproof.proofs.stability.search import of_several, search_stability
+from tests.proofs.stability.maps import map_of
 
 
 def relaxed(image: str, domain: str, space: str) -> Map:
     """A map of one variable with the parameter a."""
-    rows = [("over", "a"), ("domain", domain), ("state", "x"), ("space", space)]
-    return read_rows("relaxed", [*rows, ("piece", image)])
+    text = f"over a\ndomain {domain}\nstate x\nspace {space}\npiece {image}"
+    return map_of(text, "relaxed")
 
 
 MAPS = {

@@ -9,37 +9,20 @@ import pytest
 import sympy
 
 from juggleproof.proofs.stability.functions.contracting_boxes import beside
-from juggleproof.proofs.stability.maps import HIGH, Map, read_rows
+from juggleproof.proofs.stability.maps import HIGH
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.points_as_parameters import Renamed
 from juggleproof.proofs.stability.points_by_equation import WithEquation, by_an_equation, has_a_zero
-from juggleproof.proofs.stability.samples import region, with_licences
+from juggleproof.proofs.stability.samples import region
 from juggleproof.proofs.stability.search import search_stability
-from juggleproof.proofs.stability.settings import setting_of
+from tests.proofs.stability.maps import at_point, map_of
 
-Row = tuple[str, str]
-
-
-def made(*rows: Row) -> Map:
-    return read_rows("made", list(rows))
-
-
-HASSELL = made(("state", "x"), ("space", "x > 0"), ("piece", "2*x/(1 + x)^3"))
-PLANE = [("state", "x y"), ("space", "x >= 0 and y >= 0")]
-UNITS = made(*PLANE, ("piece", "x/4 + 1/(2*(1 + y^2)), y/3 + 1/(2*(1 + x))"))
-TOGGLE = made(
-    ("over", "a"),
-    ("domain", "0 < a and a < 1"),
-    *PLANE,
-    ("piece", "x/2 + a/(2*(1 + y^2)), y/2 + a/(2*(1 + x^2))"),
-)
-SUM = made(
-    ("over", "a"),
-    ("domain", "0 < a"),
-    ("state", "x"),
-    ("space", "x > 0"),
-    ("piece", "x + (a^2 - x^3 - a^3*x)/8"),
-)
+HASSELL = map_of("state x\nspace x > 0\npiece 2*x/(1 + x)^3")
+PLANE = "state x y\nspace x >= 0 and y >= 0\npiece "
+UNIT = "over a\ndomain 0 < a and a < 1\n"
+UNITS = map_of(f"{PLANE}x/4 + 1/(2*(1 + y^2)), y/3 + 1/(2*(1 + x))")
+TOGGLE = map_of(f"{UNIT}{PLANE}x/2 + a/(2*(1 + y^2)), y/2 + a/(2*(1 + x^2))")
+SUM = map_of("over a\ndomain 0 < a\nstate x\nspace x > 0\npiece x + (a^2 - x^3 - a^3*x)/8")
 
 
 def test_a_number_is_a_zero_in_an_interval_holds() -> None:
@@ -84,11 +67,10 @@ def test_an_equation_with_parameters_stays_in_the_domain_holds() -> None:
 
 
 def test_the_only_zero_of_an_equation_is_told_by_it_alone_holds() -> None:
-    rows = [("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x")]
-    found = by_an_equation(made(*rows, ("piece", "x - (x^3 + x - a^2)/8")))
-    assert found is not None and found.meaning(made(*rows, ("piece", "x"))).sentence.startswith(
-        "here e is the zero of -a^2 + e^3 + e"
-    )
+    found = by_an_equation(map_of(f"{UNIT}state x\npiece x - (x^3 + x - a^2)/8"))
+    assert found is not None
+    says = found.meaning(map_of(f"{UNIT}state x\npiece x")).sentence
+    assert says.startswith("here e is the zero of -a^2 + e^3 + e")
 
 
 FALSE = {
@@ -119,15 +101,12 @@ def test_what_samples_alone_say_of_the_zero_is_said_to_rest_on_them_holds(
 
 
 def test_no_equation_is_taken_where_two_zeros_are_states() -> None:
-    two = made(("state", "x"), ("piece", "x + (x^3 - 3*x + 1)/8"))
-    assert by_an_equation(two) is None
+    assert by_an_equation(map_of("state x\npiece x + (x^3 - 3*x + 1)/8")) is None
 
 
 def test_ends_of_boxes_that_are_roots_of_numbers_are_left_out_holds() -> None:
     found = by_an_equation(UNITS)
     assert found is not None
-    (fixed,) = fixed_points(found.system)
-    system = with_licences(found.system)
-    setting = setting_of(system, fixed, system.domain)
+    setting = at_point(found.system)
     ends = [sympy.sqrt(34), sympy.Integer(6)]
     assert beside(setting, (1, HIGH), None, ends) == 6

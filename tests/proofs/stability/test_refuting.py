@@ -14,13 +14,11 @@ from juggleproof.certificates import checker
 from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.certifying import EFFORTS, Proof
 from juggleproof.proofs.stability.failing import is_fixed
-from juggleproof.proofs.stability.maps import read_rows
-from juggleproof.proofs.stability.points import as_point, fixed_points
+from juggleproof.proofs.stability.points import as_point
 from juggleproof.proofs.stability.refuting import instability_rules
 from juggleproof.proofs.stability.search import without_empty_pieces
-from juggleproof.proofs.stability.settings import setting_of
 from tests.proofs.command import running
-from tests.proofs.stability.maps import assert_settled, name_of
+from tests.proofs.stability.maps import assert_settled, at_point, map_of, name_of
 
 STABLE = "is stable and attracts every state"
 NO_FIXED_POINT = "no state of the space is a fixed point"
@@ -110,10 +108,8 @@ def test_equal_roots_that_are_written_in_two_ways_have_one_name_holds() -> None:
 
 def test_rejects_a_point_that_is_not_fixed() -> None:
     """Of such a point `escapes` is true as well."""
-    rows = [("over", "a"), ("domain", "1 < a and a < 4"), ("state", "x")]
-    system = read_rows("rows", [*rows, ("space", "0 < x and x < 1"), ("piece", "a*x*(1 - x)")])
-    (fixed,) = fixed_points(system)
-    setting = setting_of(system, fixed, system.domain)
+    text = "over a\ndomain 1 < a and a < 4\nstate x\nspace 0 < x and x < 1\npiece a*x*(1 - x)"
+    setting = at_point(map_of(text))
     assert is_fixed(setting)
     for term in ("1/2", "(a + 1)/(2*a)", "2"):
         assert not is_fixed(replace(setting, point=replace(setting.point, terms=(term,))))
@@ -142,11 +138,9 @@ def test_the_budget_is_named_where_it_ended_the_search_holds() -> None:
 
 def test_growth_is_seen_where_the_rate_begins_at_1_holds() -> None:
     """E. Oja, Journal of Mathematical Biology 15, 1982: for h near 1 only very near the point."""
-    rows = [("over", "h"), ("domain", "1 < h and h < 3/2"), ("state", "w"), ("space", "w > 0")]
-    system = read_rows("oja", [*rows, ("piece", "w + h*w*(1 - w^2)")])
-    (fixed,) = fixed_points(system)
-    setting = setting_of(system, fixed, system.domain)
-    found = {dict(rule.rows)["rate"] for rule in instability_rules(setting, "oja/unstable")}
+    text = "over h\ndomain 1 < h and h < 3/2\nstate w\nspace w > 0\npiece w + h*w*(1 - w^2)"
+    rules = instability_rules(at_point(map_of(text)), "m/unstable")
+    found = {dict(rule.rows)["rate"] for rule in rules}
     assert "1 + (h - 1)" in found
 
 
@@ -164,8 +158,7 @@ def test_what_is_tried_names_the_roots_of_the_point_holds(tmp_path: Path) -> Non
 
 def test_pieces_that_samples_miss_are_kept_holds() -> None:
     guards = ("x <= 10^4", "10^4 < x and x < 10^4 + 1", "x >= 10^4 + 1")
-    pieces = [("piece", f"{guard} -> x/2") for guard in guards]
-    system = read_rows("far", [("state", "x"), *pieces])
+    system = map_of("\n".join(["state x", *(f"piece {guard} -> x/2" for guard in guards)]))
     assert without_empty_pieces(system) == system
 
 
@@ -174,7 +167,5 @@ def test_a_point_without_parameters_in_divisors_needs_no_equations_holds(
     image: str, known: int
 ) -> None:
     """a/3 is put in; of 1/(4 - a) premises have the equation."""
-    rows = [("over", "a"), ("domain", "0 < a and a < 2"), ("state", "x"), ("piece", image)]
-    system = read_rows("affine", rows)
-    (fixed,) = fixed_points(system)
-    assert len(setting_of(system, fixed, system.domain).have) == known
+    setting = at_point(map_of(f"over a\ndomain 0 < a and a < 2\nstate x\npiece {image}"))
+    assert len(setting.have) == known
