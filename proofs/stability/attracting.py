@@ -56,9 +56,9 @@ from juggleproof.proofs.stability.terms import as_factor, atoms, renamed, writte
 class Strategy:
     """A family of functions, with the counted work for a premise of a candidate.
 
-    affine: the family is for maps whose pieces are all affine; best: if it is not 0, so many
-    candidates of least rank are tried; first: so many are tried as they come; licensed: V may
-    divide by what its set alone says to be positive.
+    affine: the family is for maps whose pieces are all affine; best: the number of candidates of
+    least rank that are tried, all in their order if it is 0; first: the number of candidates that
+    are tried in their order; licensed: V may divide by what its set alone says to be positive.
     """
 
     candidates: Callable[[Setting], Iterable[Candidate]]

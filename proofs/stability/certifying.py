@@ -242,7 +242,9 @@ def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
 
 
 def is_certified(lines: Sequence[str], budget: int = limits.PREMISE_WORK) -> bool:
-    """Whether a certificate for the statement of these lines is found, and the checker takes it."""
+    """Return whether a certificate for the statement of these lines is found, and the checker
+    takes it.
+    """
     try:
         statement = checker.read_statements("\n".join(["statement a/a", *lines]))["a/a"]
         found = search_certificate(statement, {}, Budget(budget))

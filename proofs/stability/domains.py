@@ -1,5 +1,5 @@
-"""For which parameters a fixed point can be stable: where it exists, and where its multipliers lie
-inside the unit circle (Jury's conditions for one and two variables).
+"""Conditions on the parameters for a fixed point that can be stable: it exists, and its
+multipliers lie inside the unit circle (Jury's conditions for one and two variables).
 """
 
 from __future__ import annotations

@@ -34,8 +34,8 @@ COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.Not
 
 
 def complement(conditions: str) -> list[str]:
-    """Return formulas of which one holds if the conditions fail: for each condition its boundary
-    and its strict outside.
+    """Return formulas for the parameters at which the conditions fail, one of which holds: the
+    boundary and the strict outside of each condition.
     """
     parts = []
     for condition in conjuncts(conditions):
@@ -155,7 +155,7 @@ WAYS: tuple[Way, ...] = (by_orbit, by_growth, by_short_orbit)
 
 
 def outsides(conditions: str) -> Iterator[tuple[Sequence[str], Sequence[Way]]]:
-    """Return formulas of which one holds if the conditions fail, with the ways to refute them.
+    """Yield formulas for the parameters at which the conditions fail, with the ways to refute them.
     First comes the whole outside with its boundary, on which no rate of growth is above 1; then
     come its parts.
     """

@@ -29,9 +29,9 @@ NO_FIXED_POINT = "no state of the space is a fixed point"
 
 
 class MapVerdict(StrEnum):
-    """What is certified of the question whether some point is stable and attracts every state:
-    PROVED and REFUTED are about the whole domain and space that are given, IN_PART about less,
-    which the sentence says.
+    """What is certified on whether some point is stable and attracts every state.  PROVED and
+    REFUTED are about the whole domain and space that are given; IN_PART is about less, which the
+    sentence says.
     """
 
     PROVED = conclusions.PROVED
@@ -41,7 +41,7 @@ class MapVerdict(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """What a command ends with."""
+        """The exit code of a command."""
         return {MapVerdict.PROVED: 0, MapVerdict.IN_PART: 3}.get(self, 1)
 
 
@@ -83,12 +83,12 @@ class Fact:
 
     @property
     def domain(self) -> str:
-        """For which parameters the statement holds."""
+        """The condition on the parameters under which the statement holds."""
         return self.rule.one("domain")
 
     @cached_property
     def condition(self) -> str:
-        """What the domain asks beyond the domain that is given."""
+        """The conditions of the domain beyond the domain that is given."""
         return beyond(self.given.domain, self.domain, self.given.parameters)
 
     @cached_property
@@ -106,7 +106,9 @@ class Fact:
         return "" if on in (ANYWHERE, self.given.space) or is_certified(lines) else on
 
     def sentence(self) -> str:
-        """That the point attracts the set, with the distances to the point written out."""
+        """Return the sentence that the point attracts the set, with the distances to the point
+        written out.
+        """
         terms = map(self.lines.without_roots, terms_of(self.lines.one("point")))
         ends = dict(zip(self.given.state, map(in_brackets, terms)))
         gaps = {name: name if e == "0" else f"{name} - {e}" for name, e in ends.items()}
@@ -119,15 +121,15 @@ class Fact:
         return f"{begun(self.condition)}{says} {self.lines.without_roots(on)}"
 
     def failure(self) -> str:
-        """How the point fails."""
+        """Return how the point fails."""
         if self.kind == "unstable":
             return f"is not {STABLE}"
         what = "periodic" if " " in self.lines.one("word") else "a fixed point"
         return f"does not {ATTRACT} {named(self.lines, 'start')}, which is {what}"
 
     def is_fixed(self) -> bool:
-        """Whether it is certified, for the whole domain of the statement, that the point is a fixed
-        point of the map: what a rule concludes on a failure holds of other states too.
+        """Return whether it is certified, for the whole domain of the statement, that the point
+        is a fixed point of the map: what a rule concludes on a failure holds of other states too.
         """
         of_map, state = self.lines.of_map(), self.given.state
         head = [
@@ -183,7 +185,9 @@ def finding_of(
 
 
 def is_of(given: Map, lines: Lines) -> bool:
-    """Whether the lines are those of a map with these parameters, this state and this space."""
+    """Return whether the lines are those of a map with these parameters, this state and this
+    space.
+    """
     names = ("over", given.parameters), ("state", given.state)
     same = all(lines.one(keyword).split() == [*each] for keyword, each in names)
     return same and lines.one("space") == given.space
@@ -239,7 +243,7 @@ def of_failure(
 
 
 def asked_beyond(given: Map, domain: str) -> str:
-    """What the domain asks beyond the domain that is given, to be read."""
+    """Return the conditions beyond the domain that is given, as a person reads them."""
     where = beyond(given.domain, domain, given.parameters)
     return readable(where) if where else ""
 
@@ -279,12 +283,12 @@ def moves(images: Sequence[str], state: Sequence[str]) -> str:
 
 
 def numerator(term: str) -> str:
-    """What a quotient has above its line."""
+    """Return the numerator of a quotient."""
     return written(sympy.numer(sympy.together(expression(term))))
 
 
 def moves_everywhere(lines: Lines) -> bool:
-    """Whether each guard of a map says that the image is another state."""
+    """Return whether each guard of a map says that the image is another state."""
     state = lines.one("state").split()
     return all(
         str(formula_of(checker.parse(moves(images, state)))) in conjuncts(guard)
@@ -295,8 +299,8 @@ def moves_everywhere(lines: Lines) -> bool:
 def is_fixed_point(
     head: Sequence[str], space: str, guard: str, images: Sequence[str], state: Sequence[str]
 ) -> bool:
-    """Whether it is certified that the state that these lines name is in the space, that the guard
-    holds there, and that it is its own image.
+    """Return whether it is certified that the state that these lines name is in the space, that
+    the guard holds there, and that it is its own image.
     """
     shown = []
     for name, image in zip(state, images):

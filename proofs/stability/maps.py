@@ -99,7 +99,7 @@ class Map:
 
     @cached_property
     def is_affine(self) -> bool:
-        """Whether every piece is affine in the state."""
+        """Return whether every piece is affine in the state."""
         state = symbols(self.state)
         return all(one.free_symbols.isdisjoint(state) for one in self.derivatives)
 
@@ -109,8 +109,8 @@ class Map:
         return tuple((checker.parse(g), tuple(map(checker.parse, i))) for g, i in self.pieces)
 
     def applying(self, point: Point) -> Iterator[Value]:
-        """For each piece, whether it applies at arrays of states; a comparison that several guards
-        share is made once.
+        """Yield for each piece whether it applies at arrays of states.  A comparison that several
+        guards share is made once.
         """
         known: dict[str, Value] = {}
         shape = np.broadcast_shapes(*(np.shape(value) for value in point.values()))
@@ -162,7 +162,9 @@ def ends_of_space(system: Map, space: str = "", strict: bool = False) -> dict[Si
 
 
 def bounds(system: Map) -> tuple[dict[str, str], dict[str, str]]:
-    """For each state variable its distance to an end, which is > 0: to lower ends, and to upper."""
+    """Return the distances of the state variables to their lower ends, and those to their upper
+    ends; they are > 0.
+    """
     found: dict[int, dict[str, str]] = {LOW: {}, HIGH: {}}
     for (k, side), end in ends_of_space(system, strict=True).items():
         gap = sympy.expand(side * (end - symbols(system.state)[k]))
@@ -362,7 +364,7 @@ def _formula(node: ast.expr) -> str:
 
 
 def _never(guard: str) -> bool:
-    """Whether the guard says something false of numbers alone."""
+    """Return whether the guard says something false of numbers alone."""
     return any(
         not poly.free_symbols and (poly < 0 or strict and poly == 0)
         for poly, strict in atoms(guard)

@@ -34,7 +34,7 @@ class FixedPoint:
     terms: tuple[Expr, ...]  # the same in SymPy, with roots as such
 
     def exists(self, system: Map, parameters: Arrays) -> NDArray[np.bool_]:
-        """For which parameters it is a fixed point of the map."""
+        """Return for which parameters it is a fixed point of the map."""
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
         guard, images = system.pieces[self.piece]
@@ -81,7 +81,7 @@ def _named(system: Map) -> Iterator[FixedPoint]:
 
 
 def is_zero(term: Expr, system: Map) -> bool:
-    """Whether the term is 0 wherever the equation of the domain holds, if it has one."""
+    """Return whether the term is 0 wherever the equation of the domain holds, if it has one."""
     _, fixed = without_equations(system.domain, system.parameters)
     above = sympy.numer(sympy.together(term))
     for name, gap in fixed.items():

@@ -49,7 +49,7 @@ class Renamed:
     term: str
 
     def meaning(self, before: Map) -> Meaning:
-        """What the old parameter is, and whether each of its values has a point."""
+        """Return what the old parameter stands for, and whether each of its values has a point."""
         says, one = f"here {self.parameter} = {self.term}", f"one such {self.name()}"
         if has_one_point(before, self):
             return Meaning(says, certified=True)
@@ -212,7 +212,7 @@ def has_one_point(before: Map, found: Renamed) -> bool:
 
 
 def changes_sign(given: Sequence[str], text: str, name: str, low: str, high: str) -> bool:
-    """Whether it is certified that a term has different signs at the ends of an interval."""
+    """Return whether it is certified that a term has different signs at the ends of an interval."""
     ends = [renamed(text, {name: f"({end})"}) for end in (low, high)]
     return shows(given, f"{low} < {high}") and any(
         shows(given, f"{ends[0]} {left} 0") and shows(given, f"{ends[1]} {right} 0")
@@ -229,7 +229,7 @@ def interval(before: Map, name: str, domain: str) -> tuple[str, str]:
 
 
 def shows(lines: Sequence[str], formula: str) -> bool:
-    """Whether it is certified that the formula follows from the lines."""
+    """Return whether it is certified that the formula follows from the lines."""
     return is_certified([*lines, f"show {formula}"], limits.POINT_WORK)
 
 
@@ -247,8 +247,8 @@ def is_the_point(system: Map, equation: Expr, inside: str, several: bool) -> boo
 def zeros_inside(
     system: Map, polynomial: Expr, name: str, terms: Sequence[Expr], inside: str
 ) -> NDArray[np.int64]:
-    """How many real zeros of a polynomial in this variable make a state of the set, by these terms
-    in it, for each sample of the parameters.
+    """Return, for each sample of the parameters, the number of real zeros of a polynomial that make
+    a state of the set by these terms.
     """
     parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     count = len(next(iter(parameters.values()))) if parameters else 1

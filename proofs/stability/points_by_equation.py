@@ -50,7 +50,7 @@ class WithEquation:
     where: str  # what tells it from the other zeros
 
     def meaning(self, before: Map) -> Meaning:
-        """What the name stands for, and whether there is such a zero for all parameters."""
+        """Return what the name stands for, and whether there is such a zero for all parameters."""
         which = "" if self.where == ANYWHERE else f" with {self.where}"
         says = f"here {self.name} is the zero of {written(self.polynomial)}{which}"
         if has_a_zero(before, self):
@@ -183,8 +183,9 @@ def isolated(
 
 
 def has_a_zero(before: Map, found: WithEquation) -> bool:
-    """Whether it is certified that there is such a zero for all of the parameters: the polynomial
-    has different signs at the ends of an interval, within which the rest of the domain holds.
+    """Return whether it is certified that there is such a zero for all of the parameters: the
+    polynomial has different signs at the ends of an interval, within which the rest of the domain
+    holds.
     """
     low, high = interval(before, found.name, found.system.domain)
     head = [f"forall {' '.join(before.parameters)}"] if before.parameters else []

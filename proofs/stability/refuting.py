@@ -156,8 +156,8 @@ def escape_rules(
 
 
 def divisors_along(system: Map, start: Point, word: Sequence[int]) -> Iterator[Expr]:
-    """What the images along the word divide by, in the parameters; of a start with a root nothing,
-    since a domain knows no roots.
+    """Yield what the images along the word divide by, in the parameters.  For a start with a root
+    there is nothing, since a domain cannot name the root.
     """
     state, here = symbols(system.state), [expression(term) for term in start.terms]
     for k in () if start.roots else word:
@@ -170,7 +170,9 @@ def divisors_along(system: Map, start: Point, word: Sequence[int]) -> Iterator[E
 
 
 def _is_escape(setting: Setting, start: Point, word: Sequence[int]) -> bool:
-    """Whether at all samples of the parameters the orbit is one of the map, and not the point."""
+    """Return whether at all samples of the parameters the orbit is one of the map, and not the
+    point.
+    """
     known = start.with_roots(setting.parameters)
     with np.errstate(all="ignore"):
         return _stays(setting, start.at(setting.parameters), known, word)
@@ -234,7 +236,9 @@ def _radii(setting: Setting, more: str) -> list[str]:
 
 
 def grows(setting: Setting, more: str) -> Callable[[str], bool]:
-    """Whether the square of the distance grows by more than 1 + more at samples, up to a radius."""
+    """Return whether the square of the distance grows by more than 1 + more at samples, up to a
+    radius.
+    """
     system, known = setting.system, setting.constants
     (state,) = system.state
     faster = column(more, known, setting.count)

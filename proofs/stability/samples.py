@@ -71,7 +71,7 @@ def drawn(rng: np.random.Generator, low: float | None, high: float | None, count
 
 def region(formula: str, names: Sequence[str], count: int, given: Arrays | None = None) -> Arrays:
     """Return points in a region, (count,) floats a name or fewer.  `given` has values of other
-    names, one a point, of which the points take as many as they keep.
+    names, one for each of its points, from which the region takes its own.
     """
     rng = np.random.default_rng(SEED)
     formula, fixed = without_equations(formula, names)
@@ -207,7 +207,7 @@ def multiplied_out(formula: str, facts: Mapping[Expr, str]) -> str:
 
 
 def divides(term: str) -> bool:
-    """Whether the term divides by more than numbers."""
+    """Return whether the term divides by more than numbers."""
     return any(
         isinstance(node, ast.BinOp)
         and isinstance(node.op, ast.Div)
@@ -218,7 +218,9 @@ def divides(term: str) -> bool:
 
 @lru_cache(1024)
 def licence(divisor: Expr, facts: str) -> str:
-    """That the divisor is > 0, < 0 or not 0, as it is at samples, where no fact says so."""
+    """Return the fact that the divisor is > 0, < 0 or not 0, as samples have it; an empty text if a
+    fact says so already.
+    """
     for fact, strict in atoms(facts):
         ratio = sympy.cancel(fact / divisor)
         if strict and ratio.is_Rational and ratio != 0:
@@ -231,7 +233,7 @@ def licence(divisor: Expr, facts: str) -> str:
 
 
 def _count(parameters: Mapping[str, Floats]) -> int:
-    """How many samples of the parameters there are: one where there are no parameters."""
+    """Return the number of samples of the parameters: 1 if there are no parameters."""
     return len(next(iter(parameters.values()))) if parameters else 1
 
 
@@ -290,8 +292,8 @@ class Samples:
 
 
 def around(system: Map, point: Point, parameters: Arrays, count: int, within: str = "") -> Samples:
-    """For each of the parameters, some `count` states of the space: half of them at distances of
-    many sizes from the point, half of the whole space, or of the set `within`.
+    """Return some `count` states of the space for each of the parameters.  Half of them are at
+    distances of many sizes from the point, half in the whole space, or in the set `within`.
     """
     rng = np.random.default_rng(SEED + 1)
     space = within or system.space
@@ -336,8 +338,8 @@ def orbit_ends(system: Map, points: Arrays, steps: int) -> Arrays:
 
 
 def strays(system: Map, states: Arrays, least: float) -> Bools:
-    """Whether the distance of each state to the point, relative to 1 + the point's size, is more
-    than this; also where the orbit has left all pieces.
+    """Return whether the distance of each state to the point, relative to 1 + the point's size,
+    is more than this; also where the orbit has left all pieces.
     """
     gaps = [np.abs(states[n + "_gap"]) / (1 + np.abs(states[n + "_point"])) for n in system.state]
     worst: Floats = np.max(gaps, axis=0)

@@ -53,7 +53,7 @@ HEAD = "fixed point "  # of the lines on what was tried for one
 
 @dataclass
 class Outcome:
-    """What was found: the statements with certificates, what they say, and what was tried."""
+    """The statements with certificates, what they say, and what was tried."""
 
     proof: Proof
     finding: Finding
@@ -180,7 +180,7 @@ def of_several(other: Renamed, budget: int, log: Report) -> Outcome | None:
 
 
 def note(lines: list[str], text: str) -> None:
-    """Adds a line on what was tried, once for each fixed point.
+    """Add a line on what was tried, once for each fixed point.
 
     >>> lines: list[str] = []
     >>> for text in ("fixed point 0", "V = x", "V = x", "fixed point 1", "V = x"):
@@ -275,7 +275,7 @@ def settled(
 
 
 def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log: Report) -> bool:
-    """Whether it is certified that the point fails where the condition does not hold."""
+    """Return whether it is certified that the point fails where the condition does not hold."""
     count = len(proof.rules)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
     fails = parts_refuted(proof, system, fixed, complement(where), WAYS, log)
@@ -287,8 +287,8 @@ def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log:
 def search_outside(
     proof: Proof, setting: Setting, fixed: FixedPoint, system: Map, where: str, log: Report
 ) -> None:
-    """Adds how the point fails where these conditions do not hold; and that it is stable and
-    attracts every state nowhere else, if that comes of it.
+    """Add how the point fails if these conditions fail; and, if it follows, that the point is
+    stable and attracts every state nowhere else.
     """
     proof.grant(limits.REFUTATION_WORK)
     count, kinds = len(proof.rules), []

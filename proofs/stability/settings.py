@@ -18,8 +18,8 @@ from juggleproof.proofs.stability.terms import atoms, expression, renamed, symbo
 
 
 def known_of(setting: Setting) -> tuple[str, ...]:
-    """What premises are to know of a point with roots or parameters in divisors: that it is a fixed
-    point, and on which side of the guard and of the bounds of the space it lies.
+    """Return what premises have to know of a point with roots or parameters in divisors: it is a
+    fixed point, and it lies on one side of the guard and of the bounds of the space.
     """
     system, point, piece = setting.system, setting.point, setting.piece
     terms = [expression(term) for term in point.terms]

@@ -54,7 +54,7 @@ def column(term: str, points: Point, count: int) -> NDArray[np.float64]:
 
 
 def holds(text: str, point: Point) -> Value:
-    """Whether a formula holds, for each state of an array."""
+    """Return whether a formula holds, for each state of an array."""
     return formula_holds(checker.parse(text), point, {})
 
 
@@ -93,7 +93,7 @@ def term_value(node: ast.expr, point: Point, number: Callable[[int], Value]) -> 
 
 
 def formula_holds(node: ast.expr, point: Point, known: dict[str, Value]) -> Value:
-    """Whether a formula holds; what its comparisons come to is kept in `known`."""
+    """Return whether a formula holds; what its comparisons come to is kept in `known`."""
     if isinstance(node, ast.Compare):
         text = unparsed(node)
         if text not in known:

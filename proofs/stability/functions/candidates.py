@@ -160,7 +160,7 @@ class Setting:
 
     @cached_property
     def count(self) -> int:
-        """How many samples of the parameters there are."""
+        """The number of samples of the parameters."""
         return len(next(iter(self.parameters.values()))) if self.parameters else 1
 
     @cached_property
@@ -186,7 +186,7 @@ class Setting:
 
     @cached_property
     def tests(self) -> Arrays:
-        """More parameters and states, at which coefficients that fit `states` are tested."""
+        """States at more parameters, at which coefficients that fit `states` are tested."""
         parameters = region(self.domain, self.system.parameters, limits.TEST_PARAMETERS)
         return around(self.system, self.point, parameters, limits.TEST_STATES).points
 
@@ -212,7 +212,9 @@ class Setting:
 
     @cached_property
     def head(self) -> list[str]:
-        """How a statement of the point begins, in which the state's names stand for it."""
+        """The first lines of a statement on the point, in which the state's names stand for the
+        point.
+        """
         names = self.system.parameters
         return [
             *([f"forall {' '.join(names)}"] if names else []),

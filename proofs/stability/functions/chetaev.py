@@ -51,9 +51,9 @@ def chetaev_rules(setting: Setting, name: str) -> Iterator[MapRule]:
 
 
 def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
-    """Of two variables, the area W(g) = g x A g that a distance g spans with its image under the
-    derivative A: W(A g) = det(A) W(g), so that it grows, as of an unstable focus, where det(A) > 1;
-    and det(A) - 1, if the map is affine, else nothing.
+    """Yield for two variables the area W(g) = g x A g that a distance g spans with its image under
+    the derivative A.  W(A g) = det(A) W(g), so that the area grows if det(A) > 1, as at an unstable
+    focus.  With it comes det(A) - 1 if the map is affine, else nothing.
     """
     system = setting.system
     if len(system.state) != 2 or (np.linalg.det(derivatives(setting)) <= 1).any():
@@ -173,7 +173,7 @@ def _along(setting: Setting, direction: Sequence[Fraction], radius: Floats) -> A
 
 
 def _inside(setting: Setting, direction: Sequence[Fraction], radius: Floats) -> NDArray[np.bool_]:
-    """For which parameters the state at the radius in the direction is in the space."""
+    """Return for which parameters the state at the radius in the direction is in the space."""
     points = _along(setting, direction, radius)
     with np.errstate(all="ignore"):
         return np.broadcast_to(holds(setting.system.space, points), (setting.count,))

@@ -237,8 +237,8 @@ def still_at(setting: Setting, ends: Ends, side: Side) -> Expr | None:
 
 
 def limit_of(setting: Setting, found: Ends, side: Side) -> Expr | None:
-    """How far the upper end may be for the other variables to grow at their lower ends; where that
-    does not limit it, to fall at their upper ends.
+    """Return the greatest upper end at which the other variables still grow at their lower ends; if
+    nothing limits it, the greatest at which they still fall at their upper ends.
     """
     one = symbols(setting.system.state)[side[0]]
     end = ends_of_space(setting.system, strict=True).get(side)
@@ -257,8 +257,8 @@ def limit_of(setting: Setting, found: Ends, side: Side) -> Expr | None:
 
 
 def beside(setting: Setting, side: Side, end: Expr | None, every: Iterable[Expr]) -> Expr | None:
-    """Of these terms the first that at all parameters is on this side of the point, and inside of
-    the end.
+    """Return the first of these terms that is on this side of the point, and inside of the end, at
+    all parameters.
     """
     point = setting.constants[f"{setting.system.state[side[0]]}_point"]
     for one in every:
@@ -393,7 +393,7 @@ def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
 
 
 def states_of(setting: Setting, ends: Mapping[Side, Expr | None]) -> Samples:
-    """Return states between the ends, of which many are at an end."""
+    """Return states between the ends; many of them are at an end."""
     known = {side: end for side, end in ends.items() if end is not None}
     ends = {**ends_of_space(setting.system), **known}
     rng = np.random.default_rng(SEED + 3)

@@ -139,8 +139,8 @@ def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[Cand
 
 
 def equation_of(setting: Setting) -> tuple[str, ...]:
-    """What premises are to know of a point with a root: the irreducible equation of it that follows
-    from f(e) = e, and the bounds of the space.
+    """Return what premises have to know of a point with a root: its irreducible equation, which
+    follows from f(e) = e, and the bounds of the space.
     """
     system = setting.system
     (state,) = symbols(system.state)

@@ -51,8 +51,8 @@ def with_ends(setting: Setting) -> Setting:
 
 
 def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
-    """What to put for some of the parameters and of the point's names, in terms of the others; and
-    the setting, whose premises know of the point these equations and its inequalities.
+    """Return the setting and terms for some of the parameters and of the point's names, in the
+    others.  The premises know these equations of the point and its inequalities.
     """
     names, terms = setting.point_names, list(map(expression, setting.point.terms))
     if not setting.have:
@@ -91,12 +91,12 @@ def with_equations(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
 
 
 def _size(term: Expr) -> int:
-    """How many terms a polynomial has."""
+    """Return the number of terms of a polynomial."""
     return len(sympy.Add.make_args(sympy.expand(term)))
 
 
 def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) -> list[Expr]:
-    """What the ratios divide by."""
+    """Return the divisors of the ratios."""
     pairs = zip(symbols(setting.system.state), setting.point_names)
     at = {one: put.get(e, e) for one, e in pairs}
     return [one.subs(at) for one in origin]

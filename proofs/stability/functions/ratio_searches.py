@@ -1,5 +1,5 @@
-"""How the premises of weighted ratios are searched for: by few facts, each times products of what
-is positive, with the squares and the cases of signs that the map suggests.
+"""Searches for the premises of weighted ratios: proofs from few facts, each times products of
+positive terms, with the squares and the cases of signs that the map suggests.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def searches_for(
     weights: Sequence[Expr],
     terms_used: Callable[[int], Sequence[int]],
 ) -> dict[str, Search]:
-    """For some premises, the facts that are used, and squares and signs."""
+    """Return searches for most premises, with the facts that they use, squares and signs."""
     unknowns = [str(one) for one in put] + [root for root, _ in setting.point.roots]
     points, sizes = points_of(setting, put), sizes_of(setting, put, origin)
     sides = [size * weight for size, weight in zip(sizes, weights)]
@@ -104,8 +104,8 @@ def points_of(setting: Setting, put: dict[Expr, Expr]) -> list[Expr]:
 
 
 def _slopes_at_corners(setting: Setting, put: dict[Expr, Expr], sides: Sequence[Expr]) -> list[str]:
-    """Of images that are linear in each variable, what the slope in one of them may have as its
-    sign at the upper corner of a box V <= value with these sides.
+    """Return factors of slopes at the upper corner of a box V <= value with these sides: a slope of
+    an image that is linear in each variable may have their sign.
     """
     state, images = symbols(setting.system.state), setting.system.images[setting.piece]
     (above,) = symbols(["value"])
@@ -134,8 +134,8 @@ def _gaps(setting: Setting) -> list[str]:
 
 
 def _differences(setting: Setting, put: dict[Expr, Expr]) -> list[str]:
-    """Where an image is a sum of terms T, by how much T/T(e) differs from one to another: what the
-    means of numbers differ by has the squares of these as factors.
+    """Return by how much T/T(e) differs between the terms T of an image that is a sum of these.
+    The difference of the means of numbers has the squares of such differences as factors.
     """
     state, names = symbols(setting.system.state), points_of(setting, put)
     gaps = symbols([f"{one}_gap" for one in setting.system.state])

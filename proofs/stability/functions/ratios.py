@@ -71,7 +71,7 @@ def weighted_distance_candidates(setting: Setting) -> Iterator[Candidate]:
 
 
 def has_ratios(setting: Setting) -> bool:
-    """Whether the map has one piece, and two state variables or three."""
+    """Return whether the map has one piece, and two state variables or three."""
     return 1 < len(setting.system.state) <= limits.MOST_STATES and len(setting.system.pieces) == 1
 
 
@@ -100,8 +100,9 @@ def candidates_for(
 
 
 def origins(setting: Setting) -> Iterator[list[Expr]]:
-    """For each state variable what its ratio is of: its distance to the lower bounds; or with a
-    number or a term in the parameters added to it, as divisors of the map have it.
+    """Yield the terms that the ratios are of, one for each state variable: its distance to its
+    lower bound, or the variable plus a number or a term in the parameters, as in divisors of the
+    map.
     """
     system, state = setting.system, symbols(setting.system.state)
     low, _ = bounds(system)
@@ -132,8 +133,8 @@ def origins_on_boundary(setting: Setting, low: dict[str, str]) -> Iterator[list[
 
 
 def is_plain(origin: Sequence[Expr]) -> bool:
-    """Whether there are no ratios: V is the greatest of weighted distances, which ratios of x + c
-    tend to for large c.
+    """Return whether there are no ratios: V is the greatest of weighted distances, which ratios
+    of x + c tend to for large c.
     """
     return all(one.is_number for one in origin)
 
@@ -162,7 +163,7 @@ def in_logarithms(setting: Setting, origin: Sequence[Expr], put: dict[Expr, Expr
 
 @dataclass(frozen=True)
 class Sums:
-    """How the images of the rows are sums of rows and of their opposites.
+    """The images of the rows as sums of rows and of their opposites.
 
     matrix: the coefficients c >= 0; signs: 1 for a row, -1 for its opposite, 0 for c = 0.
     """

@@ -138,7 +138,7 @@ def least_signs(setting: Setting, term: str, steepness: Expr) -> list[str]:
 def falls_signs(
     setting: Setting, term: str, reach: Sequence[bool], drop: Expr
 ) -> dict[str, list[str]]:
-    """How much more than its loss V falls by, for the premise of each piece."""
+    """Return for the premise of each piece how much more V falls by than its loss."""
     system = setting.system
     names = [f"{one}_point" for one in system.state]
     point = symbols(names) if setting.have else list(map(expression, setting.point.terms))

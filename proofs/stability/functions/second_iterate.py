@@ -83,8 +83,8 @@ def _image(setting: Setting) -> Expr:
 
 
 def is_exact(setting: Setting) -> NDArray[np.bool_]:
-    """At which parameters the point is a fixed point up to rounding, close to which the weights of
-    V may be small; at all where these are few.
+    """Return at which parameters the point is a fixed point up to rounding, since weights of V may
+    be small close to it; all parameters if these are few.
     """
     ((state,), known) = setting.system.state, setting.constants
     point = known[f"{state}_point"]
@@ -137,7 +137,7 @@ def candidates_for(setting: Setting, slope: Expr, function: Function) -> Iterato
 
 
 def _searches(setting: Setting, put: dict[Expr, Expr], function: Function) -> dict[str, Search]:
-    """For the premises that V falls."""
+    """Return the searches for the premises that V falls."""
     samples, roots = setting.states, [root for root, _ in setting.point.roots]
     known = samples.points | {"value": function.at(samples.points, len(samples.which))}
     step = 1 + len(samples.which) // limits.MOST_SIGNS

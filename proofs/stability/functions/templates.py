@@ -112,7 +112,7 @@ class Sides:
         return np.stack(found, axis=1)
 
     def every_term(self) -> list[str]:
-        """What stands for the terms; none of them is a square."""
+        """Return a text for each of the terms; none of them is a square."""
         return [""] * (len(self.forms) * len(self.factors) * (1 if self.even else 2))
 
     def function(self, numbers: Sequence[Fraction]) -> Function:

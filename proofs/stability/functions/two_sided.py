@@ -141,8 +141,8 @@ def proof_that_it_falls(
 
 
 def solved(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
-    """What to put for a parameter or the point, from the equation of the point; and the setting,
-    whose premises know this equation, and what the domain says of the parameter then.
+    """Return the setting and a term for a parameter, or for the point, from the equation of the
+    point.  The premises know this equation, and what the domain says of the parameter with it.
     """
     if setting.system.is_affine:
         return setting, {}
@@ -162,7 +162,7 @@ def solved(setting: Setting) -> tuple[Setting, dict[Expr, Expr]]:
 
 
 def is_positive(term: Expr) -> bool:
-    """Whether no coefficient of a polynomial is negative."""
+    """Return whether no coefficient of a polynomial is negative."""
     names = sorted(term.free_symbols, key=str)
     return not names or all(c >= 0 for c in sympy.Poly(term, *names).coeffs())
 
