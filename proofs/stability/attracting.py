@@ -113,8 +113,8 @@ def two_sided_without_searches(setting: Setting) -> Iterator[Candidate]:
 
 BY_SHAPE = (  # functions that the shape of the map suggests, in order
     Strategy(norm_candidates, EFFORTS, affine=True),
-    Strategy(weighted_sum_candidates, budget=limits.SIGNS_WORK, affine=True),
-    Strategy(saturated_candidates, budget=limits.SIGNS_WORK, affine=True),
+    Strategy(weighted_sum_candidates, budget=limits.BOX_WORK, affine=True),
+    Strategy(saturated_candidates, budget=limits.BOX_WORK, affine=True),
     Strategy(energy_candidates, EFFORTS, limits.BOX_WORK, affine=True),
     Strategy(equation_candidates, EFFORTS, affine=True),
     Strategy(part_metric_candidates, budget=limits.BOX_WORK, best=limits.TRIED_OF_FAMILY),
