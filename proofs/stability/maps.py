@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -37,10 +37,8 @@ from juggleproof.proofs.stability.terms import (
     atoms,
     expression,
     formula_holds,
-    holds,
     symbols,
     term_value,
-    value,
     written,
 )
 
@@ -132,19 +130,6 @@ class Map:
                 for values, image in zip(after, images):
                     values[where] = term_value(image, inside, Fraction)
         return tuple(after)
-
-    def exact_next(self, point: Mapping[str, Fraction]) -> tuple[int, dict[str, Fraction]]:
-        """The number of the piece that applies, and the point with the next state, exactly."""
-        for k, (guard, images) in enumerate(self.pieces):
-            if holds(guard, point):
-                after = {s: value(image, point) for s, image in zip(self.state, images)}
-                return k, {**point, **after}
-        raise ClaimError(f"no piece applies at {shown(point)}; let the guards cover the space")
-
-
-def shown(point: Mapping[str, object]) -> str:
-    """Values as a person reads them."""
-    return ", ".join(f"{name} = {value}" for name, value in point.items())
 
 
 def ends_of_space(system: Map, space: str = "", strict: bool = False) -> dict[Side, Expr]:

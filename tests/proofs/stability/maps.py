@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
 from pathlib import Path
 
 from juggleproof.proofs.stability import limits
@@ -13,12 +14,19 @@ from juggleproof.proofs.stability.maps import Map, read_rows
 from juggleproof.proofs.stability.points import fixed_points
 from juggleproof.proofs.stability.samples import region, with_licences
 from juggleproof.proofs.stability.settings import setting_of
+from juggleproof.proofs.stability.terms import holds, value
 from tests.proofs.command import running
 
 
 def map_of(text: str, name: str = "m") -> Map:
     """The map that these lines say."""
     return read_rows(name, [(line.split()[0], line.partition(" ")[2]) for line in text.split("\n")])
+
+
+def exact_next(system: Map, point: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """The point with the next state, exactly, by the one piece that applies."""
+    ((_, images),) = [piece for piece in system.pieces if holds(piece[0], point)]
+    return {**point, **{one: value(image, point) for one, image in zip(system.state, images)}}
 
 
 def at_point(system: Map, *terms: str, inside: bool = False) -> Setting:

@@ -22,7 +22,7 @@ from juggleproof.proofs.stability.maps import Map
 from juggleproof.proofs.stability.search import Outcome, search_stability
 from juggleproof.proofs.stability.terms import holds
 from tests.proofs.command import running
-from tests.proofs.stability.maps import map_of
+from tests.proofs.stability.maps import exact_next, map_of
 
 EVERY = "is stable and attracts every state"
 SAID = re.compile(rf"(?P<point>.+?) {EVERY}(?P<how> (?:at least where|where|if and only if) )?(.*)")
@@ -187,7 +187,7 @@ def assert_tends_to_0(system: Map, parameters: Mapping[str, Fraction]) -> None:
     """An exact orbit comes closer to the point 0 than it began."""
     point = {**parameters, "x": Fraction(1), "y": Fraction(-1)}
     for _ in range(200):
-        _, point = system.exact_next(point)
+        point = exact_next(system, point)
         point |= {name: value.limit_denominator(10**12) for name, value in point.items()}
         if max(abs(point["x"]), abs(point["y"])) < Fraction(9, 10):
             return
