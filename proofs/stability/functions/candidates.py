@@ -285,8 +285,8 @@ class Setting:
     ) -> Candidate:
         """Return the statement `lyapunov` that V falls by the loss on a set, or on the space.
 
-        least: a bound of the loss by the distance; ball: a radius, and `upper` with V <= upper |s -
-        e| for |s - e| <= radius.
+        least: a bound of the loss by the distance; ball: the texts of `radius` and `upper`, with
+        V <= upper |s - e| for all states with |s - e| <= radius.
         """
         radius, upper = ball
         rows = [("loss", loss), ("least", least), ("upper", upper), ("radius", radius)]
