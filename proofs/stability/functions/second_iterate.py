@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import sympy
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates.cases import conjunction
 from juggleproof.proofs.stability import limits
-from juggleproof.proofs.stability.certifying import Candidate, Search
+from juggleproof.proofs.stability.certifying import Candidate
 from juggleproof.proofs.stability.functions.candidates import (
     Setting,
     bounded_below,
@@ -32,9 +31,9 @@ from juggleproof.proofs.stability.functions.candidates import (
 from juggleproof.proofs.stability.functions.equations import at_parameters
 from juggleproof.proofs.stability.functions.templates import Function
 from juggleproof.proofs.stability.functions.two_sided import (
+    falling_searches,
     is_clear,
     products_of_shares,
-    proof_that_it_falls,
     solved,
     states_of,
     with_licences,
@@ -71,7 +70,7 @@ def second_iterate_candidates(setting: Setting) -> Iterator[Candidate]:
     for sign in (1, -1):
         for k, mean in enumerate(limits.MEANS):
             function = function_of(setting, slope, sign, mean)
-            searches = _searches(setting, put, function)
+            searches = falling_searches(setting, put, function)
             for one in candidates_for(setting, slope, function):
                 found.append(replace(one, rank=one.rank + k / 4, searches=searches))
     yield from sorted(found, key=lambda one: one.rank)[: limits.TRIED_OF_FAMILY]
@@ -134,20 +133,3 @@ def candidates_for(setting: Setting, slope: Expr, function: Function) -> Iterato
         ):
             licensed = with_licences(with_licences(setting, constant), far)
             yield licensed.candidate(function, loss, at_least, ball, rank=rank)
-
-
-def _searches(setting: Setting, put: dict[Expr, Expr], function: Function) -> dict[str, Search]:
-    """Return the searches for the premises that V falls."""
-    samples, roots = setting.states, [root for root, _ in setting.point.roots]
-    known = samples.points | {"value": function.at(samples.points, len(samples.which))}
-    step = 1 + len(samples.which) // limits.MOST_SIGNS
-    search = partial(
-        proof_that_it_falls,
-        terms=range(2),
-        unknowns=[*map(str, put), *roots],
-        roots=roots,
-        gap=f"{setting.system.state[0]}_gap",
-        points={name: values[::step] for name, values in known.items()},
-    )
-    pieces = range(len(setting.system.pieces))
-    return {f"falls-{k + 1}-{i + 1}": search for k in pieces for i in range(2)}

@@ -94,33 +94,38 @@ def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
         return
     setting, put = solved(setting)
     setting = replace(setting, states=states_of(setting))
-    gap = f"{setting.system.state[0]}_gap"
-    roots = [root for root, _ in setting.point.roots]
-    unknowns = [*map(str, put), *roots]
+    unknowns = [*map(str, put), *(root for root, _ in setting.point.roots)]
     for each in functions(setting):
-        samples, count = setting.states, len(each.function.terms)
-        known = samples.points | {"value": each.function.at(samples.points, len(samples.which))}
-        step = 1 + len(samples.which) // limits.MOST_SIGNS
-        search = partial(
-            proof_that_it_falls,
-            terms=range(count),
-            unknowns=unknowns,
-            roots=roots,
-            gap=gap,
-            points={name: values[::step] for name, values in known.items()},
-        )
-        searches: dict[str, Search] = {
-            f"falls-{k + 1}-{i + 1}": search
-            for k in range(len(setting.system.pieces))
-            for i in range(count if put else 0)
-        }
+        searches: dict[str, Search] = {}
         if put:
+            terms = range(len(each.function.terms))
+            searches = falling_searches(setting, put, each.function)
             searches["least"] = partial(
-                proof_by_products, terms=range(count), unknowns=unknowns, squares=(), signs=()
+                proof_by_products, terms=terms, unknowns=unknowns, squares=(), signs=()
             )
         best = sorted(candidates_for(setting, each, put), key=lambda one: one.rank)
         for one in best[: limits.TRIED]:
             yield replace(one, rank=one.rank + each.rank, searches=searches)
+
+
+def falling_searches(
+    setting: Setting, put: dict[Expr, Expr], function: Function
+) -> dict[str, Search]:
+    """Return the searches for the premises that V falls."""
+    samples, roots = setting.states, [root for root, _ in setting.point.roots]
+    known = samples.points | {"value": function.at(samples.points, len(samples.which))}
+    step = 1 + len(samples.which) // limits.MOST_SIGNS
+    terms = range(len(function.terms))
+    search = partial(
+        proof_that_it_falls,
+        terms=terms,
+        unknowns=[*map(str, put), *roots],
+        roots=roots,
+        gap=f"{setting.system.state[0]}_gap",
+        points={name: values[::step] for name, values in known.items()},
+    )
+    pieces = range(len(setting.system.pieces))
+    return {f"falls-{k + 1}-{i + 1}": search for k in pieces for i in terms}
 
 
 def proof_that_it_falls(
