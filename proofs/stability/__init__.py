@@ -4,6 +4,7 @@ certifies all that is said.
 
 In reading order, each importing those before it only:
 
+- `limits`: the constants that steer the searches.
 - `terms`: terms and formulas as text, evaluated in floats, rationals and SymPy.
 - `maps`: maps as text, read from a file or a map rule.
 - `premise_searches`: searches for proofs of a premise that a family of functions suggests.

@@ -37,7 +37,7 @@ GROWTH_ROUNDS = (  # efforts and work for one of these
 )
 ROUNDS = (  # efforts and work for a candidate that fits samples, and how many candidates get them
     ((1,), 20_000, 24),  # (cubic: 32,887)
-    ((1, 2), 50_000, 12),  # (sis-epidemic: 31,858, the 25th that is tried)
+    ((1, 2), 50_000, 12),  # (sis-epidemic: 31,858, at the 25th try)
     ((1, 2, SQUARED), 100_000, 6),
     ((1, 2, SQUARED), 400_000, 4),
 )
