@@ -27,9 +27,9 @@ REFUTATION_WORK = 2_000_000  # after that, for refutations, and again for what h
 FAMILY_WORK = 4_000_000  # for the candidates that fit samples
 BOX_WORK = 300_000  # for a premise of most families (goodwin: 119,642)
 TWO_SIDED_WORK = 40_000  # for a premise of two-sided functions (drag-ball-one: 27,162)
-TWO_SIDED_AGAIN_WORK = 600_000  # for the same after two rounds of candidates that fit samples
+TWO_SIDED_AGAIN_WORK = 600_000  # for the same after two rounds below (no map needs it)
 ENVELOPE_WORK = 4_000_000  # for a premise of an envelope or contracting box (hassell: 4,240,112)
-LOCAL_WORK = 200_000  # for a premise of a norm close to the point (coupled-logistic: 41,252)
+LOCAL_WORK = 200_000  # for a premise of a norm close to the point (henon-attractors: 203,933)
 GROWTH_WORK = 2_000_000  # for all functions that grow
 GROWTH_ROUNDS = (  # efforts and work for one of these
     ((1, 2), 50_000),  # (lozi-attractor: 31,229)
@@ -37,8 +37,8 @@ GROWTH_ROUNDS = (  # efforts and work for one of these
 )
 ROUNDS = (  # efforts and work for a candidate that fits samples, and how many candidates get them
     ((1,), 20_000, 24),  # (cubic: 32,887)
-    ((1, 2), 50_000, 12),  # (sis-epidemic: 31,858, at the 25th try)
-    ((1, 2, SQUARED), 100_000, 6),
+    ((1, 2), 50_000, 12),  # (fire: 39,144, at the first of them, as is sis-epidemic)
+    ((1, 2, SQUARED), 100_000, 6),  # (no map needs these)
     ((1, 2, SQUARED), 400_000, 4),
 )
 LEAF_WORK = 500_000  # for a case of signs
