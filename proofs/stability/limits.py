@@ -5,9 +5,9 @@ names the map that comes closest to a limit, with what it takes.  Work is counte
 `certificates.work`; a unit at the effort of squares counts SQUARES_COST times, and a premise may
 end above its limit by that factor.
 
-The limits of work, and of how many are tried, were halved all at once for the first 16 maps of
-`examples` by name.  Two outcomes changed: hassell and hassell-rate lost the end of their domain for
-want of ENVELOPE_WORK.  anti-windup had another norm.
+All limits of work, most of those on how many are tried, and some numbers of samples were halved at
+once for all of these maps.  Five outcomes changed: hassell and hassell-rate lost the end of their
+domain; coupled-logistic, drag-ball-one and sir-endemic came out as unknown.
 """
 
 from __future__ import annotations
