@@ -1,4 +1,4 @@
-"""Exact arithmetic: polynomials, Bernstein coefficients, and the limits on them.
+"""Exact arithmetic: polynomials, formulas over them, Bernstein coefficients, and limits.
 
 This file knows of no statement and no proof.  Numbers are integers and fractions of integers; there
 is no float.  It begins with what all files share: why something is rejected (`Kind`, `Rejected`,
@@ -12,7 +12,7 @@ from enum import Enum
 from fractions import Fraction
 from functools import reduce
 from math import comb, gcd, lcm, prod
-from typing import Any, TypeVar, Union
+from typing import Any, Literal, TypeVar, Union
 
 MAX_DEGREE = 4000
 MAX_VARIABLES = 400
@@ -26,6 +26,7 @@ T = TypeVar("T")
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
 Under = dict[tuple["Poly", bool], int]  # {licence: exponent}
+Monomial = tuple[int, int, int, int]  # packed exponents, upper and lower part of a factor, degree
 
 
 # ------------------------------------------------------------ what is rejected, and why
@@ -193,10 +194,11 @@ class Poly:
     terms: {packed exponents: integer other than 0}; deg, bits: bounds, their degree is at most deg,
     and the sum of their absolute coefficients at most 2^bits; work: the meter of the check; under:
     {licence: exponent}, where a licence is (polynomial other than 0, whether it is > 0).  Only a
-    term that divides has an `under`: facts and cofactors are polynomials.
+    term that divides has an `under`: facts and cofactors are polynomials.  powers: its square, its
+    third power, .., as far as they were asked for.
     """
 
-    __slots__ = ("terms", "den", "deg", "bits", "work", "under")
+    __slots__ = ("terms", "den", "deg", "bits", "work", "under", "powers")
 
     def __init__(
         self, terms: Terms, den: int, deg: int, bits: int, work: Work, under: Under | None = None
@@ -211,6 +213,7 @@ class Poly:
         self.bits = bits
         self.work = work
         self.under = under or {}
+        self.powers: list[Poly] = []
 
     def over(self, under: Under) -> Poly:
         """The same terms, over other polynomials."""
@@ -259,7 +262,9 @@ class Poly:
             ((m, c),) = self.terms.items()
             if c == self.den == 1:  # a product of variables: so nearly every power
                 return Poly({m * exponent: 1}, 1, self.deg * exponent, 0, self.work)
-        return prod([self] * (exponent - 1), start=self)
+        while len(self.powers) < exponent - 1:
+            self.powers.append(self * (self.powers[-1] if self.powers else self))
+        return self.powers[exponent - 2]
 
     def constant(self) -> Fraction | None:
         """The value of a constant; None for anything else."""
@@ -290,15 +295,13 @@ class Poly:
 
 def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work) -> Poly:
     """sum of factor * p * q, for numerators p and q: all arithmetic of polynomials is such a sum,
-    and is counted and limited here.
+    or one of monomials, and is counted and limited in these two.
     """
     den = 1
     for factor, p, q in products:
         below = factor.denominator * p.den * q.den
         if below != 1:
-            work.spend(den.bit_length() * below.bit_length() >> 16)
-            den = lcm(den, below)
-            require(den.bit_length() <= MAX_BITS, Kind.SIZE, "a denominator")
+            den = common(den, below, work)
     terms: Terms = {}
     deg = bits = 0
     for factor, p, q in products:
@@ -315,13 +318,50 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
             c *= scale
             if terms:
                 for n, d in many.items():
-                    terms[m + n] = terms.get(m + n, 0) + c * d
+                    n += m
+                    terms[n] = terms.get(n, 0) + c * d
             else:
                 terms = {m + n: c * d for n, d in many.items()}
-            require(len(terms) <= MAX_TERMS, Kind.SIZE, "too many terms")
+            if len(terms) > MAX_TERMS:
+                raise Rejected(Kind.SIZE, "too many terms")
     if 0 in terms.values():
         terms = {m: c for m, c in terms.items() if c}
     return Poly(terms, den, deg, bits + bits_of(len(products)), work)
+
+
+def sum_of_monomials(monomials: Sequence[Monomial], work: Work) -> Poly:
+    """The sum of monomials, counted and limited as that of their products with 1 would be."""
+    work.spend(len(monomials) * (8 + work.dear))
+    require(len(monomials) <= MAX_TERMS, Kind.SIZE, "too many terms")
+    den = 1
+    for _, _, lower, _ in monomials:
+        if lower != 1:
+            den = common(den, lower, work)
+    terms: Terms = {}
+    deg = bits = 0
+    for m, upper, lower, degree in monomials:
+        if lower != den:
+            upper *= den // lower
+        size = bits_of(upper)
+        if size > 255:
+            work.spend(size * size >> 16)
+        if size > bits:
+            bits = size
+        if degree > deg:
+            deg = degree
+        terms[m] = terms.get(m, 0) + upper
+    if 0 in terms.values():
+        terms = {m: c for m, c in terms.items() if c}
+    # a degree beyond the limit, which may have carried into another exponent, is refused here
+    return Poly(terms, den, deg, bits + bits_of(len(monomials)), work)
+
+
+def common(one: int, other: int, work: Work) -> int:
+    """The common denominator of two."""
+    work.spend(one.bit_length() * other.bit_length() >> 16)
+    den = lcm(one, other)
+    require(den.bit_length() <= MAX_BITS, Kind.SIZE, "a denominator")
+    return den
 
 
 def bits_of(value: int) -> int:
@@ -347,6 +387,63 @@ def variable(place: int, work: Work) -> Poly:
 
 
 ONE = number(1, Work(0))  # a factor of sums of products, which spend from a meter of their own
+
+
+# ------------------------------------------------------------ formulas over polynomials
+
+Op = Literal["and", "or"]
+Atom = tuple[Literal["atom"], Poly, str]
+Join = tuple[Op, list[Union[Atom, "Join"]]]  # constants are folded away
+Formula = Union[bool, Atom, Join]
+
+OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
+
+
+def fold(poly: Poly, relation: str) -> Formula:
+    """The atom poly relation 0; True or False where the polynomial is constant."""
+    if not poly.terms.keys() <= {0}:
+        return ("atom", poly, relation)
+    value = poly.terms.get(0, 0)
+    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
+
+
+def join(op: Op, formulas: Sequence[Formula]) -> Formula:
+    """The conjunction or disjunction, without constants and without joins of the same kind
+    inside.
+    """
+    if any(formula is (op == "or") for formula in formulas):
+        return op == "or"
+    flat: list[Atom | Join] = []
+    for formula in formulas:
+        if not isinstance(formula, bool):
+            flat += formula[1] if formula[0] == op else [formula]
+    if not flat:
+        return op == "and"
+    # equivalences of equivalences double: counted where they are joined
+    work_of(flat[0]).spend(20 * len(flat) + 100)
+    return flat[0] if len(flat) == 1 else (op, flat)
+
+
+def work_of(formula: Atom | Join) -> Work:
+    """The meter of the polynomials in a formula."""
+    while formula[0] != "atom":
+        formula = formula[1][0]
+    return formula[1].work
+
+
+def negate(formula: Formula) -> Formula:
+    """The negation, with `not` driven down to atoms."""
+    if isinstance(formula, bool):
+        return not formula
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        return ("atom", poly if relation in ("=", "!=") else -poly, OPPOSITE[relation])
+    return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
+
+
+def conjuncts(formula: Formula) -> Sequence[Formula]:
+    """The parts of a conjunction; else the formula alone."""
+    return formula[1] if not isinstance(formula, bool) and formula[0] == "and" else [formula]
 
 
 # ------------------------------------------------------------ Bernstein coefficients on a box

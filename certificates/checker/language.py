@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import prod
-from typing import Any, Literal, Union
+from typing import Any
 
 from .algebra import (
     BITS,
@@ -21,23 +21,26 @@ from .algebra import (
     MAX_BITS,
     MAX_VARIABLES,
     ONE,
+    Formula,
     Kind,
+    Monomial,
+    Op,
     Poly,
     Rational,
     Rejected,
     Work,
-    bits_of,
+    conjuncts,
+    fold,
+    join,
+    negate,
     number,
     require,
+    sum_of_monomials,
     sum_of_products,
     variable,
 )
 from .text import WORDS, Definitions, parse, rows, written, written_line
 
-Op = Literal["and", "or"]
-Atom = tuple[Literal["atom"], Poly, str]
-Join = tuple[Op, list[Union[Atom, "Join"]]]  # constants are folded away
-Formula = Union[bool, Atom, Join]
 Licences = dict[frozenset[tuple[int, int]], tuple[Poly, bool]]  # by the primitive polynomial
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
@@ -46,58 +49,10 @@ Said = Any  # what a line says: as `LINES` reads its keyword
 
 PER_FACTOR = 4  # work: of a factor of a term, or a name
 
-OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
 
-# ------------------------------------------------------------ formulas over polynomials
-
-
-def fold(poly: Poly, relation: str) -> Formula:
-    """The atom poly relation 0; True or False where the polynomial is constant."""
-    if not poly.terms.keys() <= {0}:
-        return ("atom", poly, relation)
-    value = poly.terms.get(0, 0)
-    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
-
-
-def join(op: Op, formulas: Sequence[Formula]) -> Formula:
-    """The conjunction or disjunction, without constants and without joins of the same kind
-    inside.
-    """
-    if any(formula is (op == "or") for formula in formulas):
-        return op == "or"
-    flat: list[Atom | Join] = []
-    for formula in formulas:
-        if not isinstance(formula, bool):
-            flat += formula[1] if formula[0] == op else [formula]
-    if not flat:
-        return op == "and"
-    # equivalences of equivalences double: counted where they are joined
-    work_of(flat[0]).spend(20 * len(flat) + 100)
-    return flat[0] if len(flat) == 1 else (op, flat)
-
-
-def work_of(formula: Atom | Join) -> Work:
-    """The meter of the polynomials in a formula."""
-    while formula[0] != "atom":
-        formula = formula[1][0]
-    return formula[1].work
-
-
-def negate(formula: Formula) -> Formula:
-    """The negation, with `not` driven down to atoms."""
-    if isinstance(formula, bool):
-        return not formula
-    if formula[0] == "atom":
-        _, poly, relation = formula
-        return ("atom", poly if relation in ("=", "!=") else -poly, OPPOSITE[relation])
-    return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
-
-
-def conjuncts(formula: Formula) -> Sequence[Formula]:
-    """The parts of a conjunction; else the formula alone."""
-    return formula[1] if not isinstance(formula, bool) and formula[0] == "and" else [formula]
+# ------------------------------------------------------------ what has been declared
 
 
 class Context:
@@ -105,8 +60,9 @@ class Context:
     strict line made nonzero.
 
     index: {key: number of the variable}; integers: the keys of integer variables; values: {name:
-    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; work: the meter of
-    the check, which an inner context shares.
+    polynomial, or quotient of such}; strict, licences: the polynomials of strict lines, and whether
+    they are > 0, as long as nothing divides; then {key of a polynomial: licence}, see `licensed`;
+    work: the meter of the check, which an inner context shares.
     """
 
     def __init__(
@@ -118,10 +74,12 @@ class Context:
         self.work: Work = outer.work if outer else work or Work()
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
-        self.licensed: Licences = dict(outer.licensed) if outer else {}
+        self.strict: list[tuple[Poly, bool]] = list(outer.strict) if outer else []
+        self.licences: Licences = dict(outer.licences) if outer else {}
         if values is None:
             values = outer.values if outer else {}
-        self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
+        # else copies are free
+        self.work.spend(len(self.index) + len(self.strict) + len(self.licences) + len(values))
         self.values: dict[str, Poly] = dict(values)
 
     def number(self, value: Rational) -> Poly:
@@ -156,12 +114,21 @@ class Context:
         for part in conjuncts(formula):
             if isinstance(part, bool) or part[0] != "atom" or part[2] not in (">", "!="):
                 continue
-            content, poly = part[1].primitive()
+            self.strict.append((part[1], part[2] == ">"))
+
+    @property
+    def licensed(self) -> Licences:
+        """{key of a polynomial: licence}, of all strict lines so far: made where something divides,
+        as few lines are asked for.
+        """
+        for line, positive in self.strict:
+            content, poly = line.primitive()
             self.work.spend(len(poly.terms) * self.work.dear)
             key = frozenset(poly.terms.items())
-            positive = part[2] == ">"
-            if key not in self.licensed or positive and not self.licensed[key][1]:
-                self.licensed[key] = (poly if content > 0 else -poly, positive)
+            if key not in self.licences or positive and not self.licences[key][1]:
+                self.licences[key] = (poly if content > 0 else -poly, positive)
+        self.strict = []
+        return self.licences
 
     def reciprocal(self, node: ast.expr) -> Poly:
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of
@@ -184,16 +151,14 @@ class Context:
 
     def value(self, node: ast.expr) -> Poly:
         """The value of a term."""
-        if isinstance(node, ast.BinOp):  # the text has no operator but + - * / ^
-            if isinstance(node.op, (ast.Add, ast.Sub)):
-                return self.sum(node)
-            if isinstance(node.op, ast.Pow):
-                return self.value(node.left) ** exponent(node)
-            return self.product(node)
         if isinstance(node, ast.Name):
             if node.id in self.values:
                 return self.values[node.id]
             raise Rejected(Kind.UNDECLARED, node.id)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            return self.value(node.left) ** exponent(node)
+        if isinstance(node, ast.BinOp):  # the text has no operator but + - * / ^
+            return self.sum(node)
         if isinstance(node, ast.Constant) and type(node.value) is int:
             return self.number(node.value)
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
@@ -201,53 +166,76 @@ class Context:
         raise Rejected(Kind.TERM, ast.unparse(node))
 
     def sum(self, node: ast.expr) -> Poly:
-        """The value of a chain of + and -, which is added up at once."""
+        """The value of a chain of + and -: its monomials are added up at once, then the rest."""
         summands: list[tuple[int, ast.expr]] = []
         while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
             summands.append((1 if isinstance(node.op, ast.Add) else -1, node.right))
             node = node.left
-        total = self.value(node)
-        values = [(sign, self.value(summand), ONE) for sign, summand in reversed(summands)]
-        if not (total.under or any(value.under for _, value, _ in values)):
-            return sum_of_products([(1, total, ONE), *values], self.work)
-        for sign, value, _ in values:
-            total = total.plus(value, sign)
+        summands.append((1, node))
+        monomials: list[Monomial] = []
+        products: list[tuple[Rational, Poly, Poly]] = []
+        for sign, summand in reversed(summands):
+            monomial, others = self.product(summand, sign)
+            if not others:
+                monomials.append(monomial)
+                continue
+            m, upper, lower, degree = monomial
+            if m:
+                others.append(Poly({m: 1}, 1, degree, 0, self.work))
+            last = others.pop()
+            first = prod(others[1:], start=others[0]) if others else ONE
+            products.append((Fraction(upper, lower) if lower != 1 else upper, first, last))
+        if not products:
+            return sum_of_monomials(monomials, self.work)
+        if monomials:
+            products.append((1, ONE, sum_of_monomials(monomials, self.work)))
+        if not any(p.under or q.under for _, p, q in products):
+            return sum_of_products(products, self.work)
+        total = self.number(0)
+        for factor, p, q in products:
+            total = total.plus(q * p, factor)  # not p * q: ONE has no meter
         return total
 
-    def product(self, node: ast.expr) -> Poly:
-        """The value of a chain of * and /: of its numbers and variables at once, then of the
-        rest.
+    def product(self, node: ast.expr, upper: int) -> tuple[Monomial, list[Poly]]:
+        """A chain of * and /, times a number: the product of its numbers and variables, and the
+        values of the rest.
         """
-        upper = lower = 1
+        lower = 1
         monomial = degree = 0
         others: list[Poly] = []
         factors, count = [node], 0
         while factors:
             node = factors.pop()
             count += 1
-            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-                factors += [node.right, node.left]
-                continue
-            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
-                factors.append(node.left)
-                value = self.reciprocal(node.right)
+            if isinstance(node, ast.Constant) and type(node.value) is int:
+                upper *= node.value
+                size = upper.bit_length()
             else:
-                value = self.value(node)
-            if value.under or len(value.terms) != 1:
-                others.append(value)
-                continue
-            ((m, c),) = value.terms.items()
-            monomial += m
-            degree += value.deg
-            if not c == value.den == 1:
+                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+                    factors += [node.right, node.left]
+                    continue
+                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+                    factors.append(node.left)
+                    value = self.reciprocal(node.right)
+                else:
+                    value = self.value(node)
+                if value.under or len(value.terms) != 1:
+                    others.append(value)
+                    continue
+                ((m, c),) = value.terms.items()
+                monomial += m
+                degree += value.deg
+                if c == value.den == 1:
+                    continue
                 upper *= c
                 lower *= value.den
-                # a long product of constants would grow unseen
                 size = max(upper.bit_length(), lower.bit_length())
+            # a long product of constants would grow unseen
+            if size > 255:
+                self.work.spend(size * size >> 16)
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
-        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
-        return prod(others, start=first)
+        return (monomial, upper, lower, degree), others
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
@@ -488,9 +476,11 @@ class Statement:
             self.declared.update(bound)
 
 
-def read_statements(text: str) -> dict[str, Statement]:
-    """The statements of a file in order, by name, with definitions written out."""
-    definitions = Definitions(Work())
+def read_statements(text: str, definitions: Definitions | None = None) -> dict[str, Statement]:
+    """The statements of a file in order, by name, with definitions written out; definitions: those
+    that stand before it.
+    """
+    definitions = definitions or Definitions(Work())
     statements: dict[str, Statement] = {}
     current = None
     for count, keyword, rest in rows(text):

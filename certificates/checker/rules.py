@@ -17,6 +17,9 @@ from typing import Any
 from .algebra import (
     BITS,
     ONE,
+    Atom,
+    Formula,
+    Join,
     Kind,
     Poly,
     Rational,
@@ -25,25 +28,22 @@ from .algebra import (
     at,
     axis_first,
     bernstein,
+    conjuncts,
+    fold,
     halved,
+    join,
+    negate,
     require,
     sign_changes,
     sum_of_products,
     variable,
 )
 from .language import (
-    Atom,
     Context,
-    Formula,
-    Join,
     Known,
     Range,
     Statement,
     Unfolding,
-    conjuncts,
-    fold,
-    join,
-    negate,
     univariate,
     variables_of,
 )
@@ -65,7 +65,8 @@ class State:
     def __init__(self, variables: Context, parent: State | None = None) -> None:
         values = {key: variable(place, variables.work) for key, place in variables.index.items()}
         self.context = Context(variables, values)
-        self.context.licensed = dict(parent.context.licensed) if parent else {}
+        self.context.strict = list(parent.context.strict) if parent else []
+        self.context.licences = dict(parent.context.licences) if parent else {}
         self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
         self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
         # else branches would cost nothing

@@ -112,6 +112,7 @@ class Definitions:
         self.work = work
         self.known: dict[str, tuple[list[str], set[str], ast.expr]] = {}
         # name: (parameters, names it is over, body as a tree, written out)
+        self.trees: dict[str, ast.expr] = {}  # of texts in which no definition is used
         self.bound: set[str] = set()  # every name of a variable or parameter so far
 
     def bind(self, name: str) -> None:
@@ -148,13 +149,17 @@ class Definitions:
         self.known[name] = parameters, set(over), out
 
     def occur_in(self, text: str) -> bool:
-        return not self.known.keys().isdisjoint(names_in(text))
+        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a
         definition may be over.
         """
-        return self.write_out(parse(text), {}, declared) if self.occur_in(text) else parse(text)
+        if self.occur_in(text):
+            return self.write_out(parse(text), {}, declared)
+        if text not in self.trees:
+            self.trees[text] = parse(text)
+        return self.trees[text]
 
     def write_out(
         self, node: ast.expr, values: Mapping[str, ast.expr], declared: set[str]

@@ -6,11 +6,23 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.certificates import checker
+from juggleproof.certificates.checker import Context, Kind, Rejected, State
 from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
-from tests.certificates.checker.harness import CLOSE, Case, judge, lines, proof, refuted, verdict
+from tests.certificates.checker.harness import (
+    CLOSE,
+    Case,
+    judge,
+    lines,
+    proof,
+    refused,
+    refuted,
+    verdict,
+)
 from tests.certificates.checker.rules.sharp import EARLIER, SHARP, VALID, over
 from tests.certificates.drawn import fractions
 
@@ -199,3 +211,121 @@ def test_a_number_is_the_only_root_between_its_ends(
     once = orders == 1 and not any(root in (low, high) for root, _ in roots)
     outcome, _ = judge(Case("", text, VALID, earlier=EARLIER))
     assert outcome == ("certified" if once else "rejected")
+
+
+def of_x_and_y() -> Context:
+    context = Context()
+    context.declare("x")
+    context.declare("y")
+    return context
+
+
+def licensed_by(context: Context, line: str) -> Context:
+    """The context, in which a strict line stands."""
+    context.license(context.formula(checker.parse(line)))
+    return context
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "2*x*3*y - x/4 + x*y/2",
+        "x - x + 0*y",
+        "7 - 2*3",
+        "-2*x*(x + 1)",
+        "3/4*x*(x + 1)*(y + 2)*(x - y)",
+        "5*(x + y)*2/3 - y",
+        "(x + 1)^3 + (x + 1)^2 + (x + 1)^4",
+        "1 - (x - y)^5*(x - y)^2/(3 - 1) - 1/2",
+    ],
+)
+def test_a_sum_has_the_value_of_its_summands_holds(text: str) -> None:
+    value = of_x_and_y().polynomial(text)
+    for x, y in [(0, 0), (1, 2), (-3, 5), (7, -2)]:
+        found = sum(c * x ** (m & 65535) * y ** (m >> 16) for m, c in value.terms.items())
+        point = {"x": Fraction(x), "y": Fraction(y)}
+        assert Fraction(found, value.den) == term_at(text, point)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("1/x + x/2", "1/2*x^2 + 1"),
+        ("3*y/x - 2*(y + 1)/x + 1", "y + x - 2"),
+        ("2 - (x + y)*(x - y)/x*3", "3*y^2 - 3*x^2 + 2*x"),
+        ("(1/x)^3 + (1/x)^2", "x + 1"),
+    ],
+)
+def test_a_sum_with_quotients_has_one_denominator_holds(text: str, expected: str) -> None:
+    context = licensed_by(of_x_and_y(), "x > 0")
+    value = context.value(checker.parse(text))
+    assert context.show(value.over({})) == expected
+    ((divisor, positive),) = value.under
+    assert positive and context.show(divisor) == "x"
+
+
+def test_a_power_is_the_same_whatever_was_asked_for_before_holds() -> None:
+    context = of_x_and_y()
+    base = context.polynomial("x + y - 1")
+    for exponent in (5, 2, 3, 7, 4, 2):
+        alone = context.polynomial("x + y - 1")
+        expected = context.number(1)
+        for _ in range(exponent):
+            expected = expected * alone
+        assert (base**exponent).terms == expected.terms
+
+
+def test_rejects_a_division_licensed_in_another_branch() -> None:
+    """What one branch assumes, and divides by, says nothing in the other, nor before both."""
+    state = State(of_x_and_y())
+    one, other = state.branch(), state.branch()
+    tree = checker.parse("1/x >= 1")
+    one.assume(one.context.formula(checker.parse("x > 0")))
+    one.context.formula(tree)
+    for context in (other.context, state.context, state.branch().context, Context(other.context)):
+        with pytest.raises(Rejected) as info:
+            context.formula(tree)
+        assert refused(info.value, (Kind.DIVISION, "x"))
+    one.branch().context.formula(tree)
+    Context(one.context).formula(tree)
+
+
+def test_rejects_a_division_that_only_the_variables_around_license() -> None:
+    """The facts of a state license, not the lines of the context that it takes variables from."""
+    around = licensed_by(of_x_and_y(), "x > 0")
+    for _ in range(2):  # before and after something divides there
+        with pytest.raises(Rejected) as info:
+            State(around).context.value(checker.parse("1/x"))
+        assert refused(info.value, (Kind.DIVISION, "x"))
+        around.value(checker.parse("1/x"))
+
+
+@pytest.mark.parametrize(
+    "rows, expected",
+    [
+        (["x > 0"], "-x + 1"),
+        (["x != 0"], "-x^2 + x"),
+        (["x != 0", "x > 0"], "-x + 1"),
+        (["x > 0", "x != 0"], "-x + 1"),
+        (["-2*x > 0"], "x - 1"),
+        (["x > 0 or y > 0", "3*x < 0 and y > 0"], "x - 1"),
+    ],
+)
+def test_the_sign_of_a_divisor_is_that_of_its_strict_lines_holds(
+    rows: list[str], expected: str
+) -> None:
+    for divided in (False, True):
+        context = of_x_and_y()
+        for row in rows:
+            licensed_by(context, row)
+            assert not divided or context.licensed is not None
+        formula = Context(context).formula(checker.parse("1/x >= 1"))
+        assert not isinstance(formula, bool) and formula[0] == "atom"
+        assert context.show(formula[1]) == expected
+
+
+@pytest.mark.parametrize("text", ["x*True", "x + None", "1 - False", "True*2/3"])
+def test_rejects_a_constant_that_is_no_integer_in_a_sum(text: str) -> None:
+    with pytest.raises(Rejected) as info:
+        of_x_and_y().polynomial(text)
+    assert refused(info.value, Kind.TERM)

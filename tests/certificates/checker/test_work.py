@@ -13,6 +13,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected, Work, settling
+from juggleproof.certificates.checker.algebra import MAX_TERMS, sum_of_monomials
 from juggleproof.certificates.checker.rules import State, parts_of_box, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
 from tests.certificates.checker.maps import ASKED, read
@@ -104,6 +105,13 @@ def product_of_300(work: Work) -> checker.Poly:
     return checker.Poly({ones: 1, **powers}, 1, 300, 7, work)
 
 
+def licences_of(line: checker.Atom) -> object:
+    """What a strict line licenses."""
+    context = checker.Context(work=line[1].work)
+    context.license(line)
+    return context.licensed
+
+
 def state_of_40(work: Work) -> State:
     """A state with 40 facts."""
     context = checker.Context(work=work)
@@ -145,8 +153,13 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
     "a primitive part of long monomials": (product_of_300, lambda p: p.primitive(), 100 * 7),
     "a licence of long monomials": (
         product_of_300,
-        lambda p: checker.Context(work=p.work).license(("atom", p, ">")),
+        lambda p: licences_of(("atom", p, ">")),
         2 * 100 * 7,
+    ),
+    "a quotient of long numbers": (
+        lambda work: checker.Context(work=work),
+        lambda context: context.product(checker.parse(f"1/{10**3999 + 1}"), 3),
+        13284**2 >> 16,
     ),
     "which variables occur": (product_of_300, lambda p: p.places(), 100 + 299),
     "a product of constants": (
@@ -203,7 +216,7 @@ def test_a_unit_is_a_product_of_short_numbers_holds() -> None:
     assert spent(lambda work: long(work) * long(work)) == 8 + 100 * 100
     before = context.work.left
     context.value(x)
-    assert before - context.work.left == 4 * (200 + 199)  # factors, and signs between them
+    assert before - context.work.left == 4 * (200 + 199) + 8 + 2  # factors, signs, and a sum
     before = (p := product_of_300(Work())).work.left
     assert p.places() == {*range(300)} and before - p.work.left == 100 + 299
     for place, units in ((31, 1), (32, 2), (63, 2), (64, 3), (399, 13)):
@@ -288,3 +301,11 @@ def test_all_statements_of_a_folder_have_one_meter(
         monkeypatch.setattr(settling, "MAX_FOLDER_WORK", enough * least() + least() // 2)
         outcomes = [outcome for _, outcome, _ in checker.check_folder(str(tmp_path))]
         assert outcomes == (["certified"] * enough + ["rejected"] * 3)[:3]
+
+
+def test_rejects_a_sum_of_too_many_monomials() -> None:
+    monomials = [(k, 1, 1, 1) for k in range(1, MAX_TERMS + 2)]
+    assert len(sum_of_monomials(monomials[1:], Work()).terms) == MAX_TERMS
+    with pytest.raises(Rejected) as info:
+        sum_of_monomials(monomials, Work())
+    assert refused(info.value, Kind.SIZE)
