@@ -19,6 +19,7 @@ from .algebra import (
     BITS,
     MASK,
     MAX_BITS,
+    MAX_DEGREE,
     MAX_VARIABLES,
     ONE,
     Formula,
@@ -39,7 +40,7 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import WORDS, Definitions, parse, rows, written, written_line
+from .text import MAX_TEXT, WORDS, Definitions, parse, rows, written, written_line
 
 Licences = dict[frozenset[tuple[int, int]], tuple[Poly, bool]]  # by the primitive polynomial
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
@@ -49,6 +50,11 @@ Said = Any  # what a line says: as `LINES` reads its keyword
 
 PER_FACTOR = 4  # work: of a factor of a term, or a name
 
+# sums of products of a number, which may come first, and powers of names
+PRODUCT = r"(?:(?:0|[1-9]\d{0,60})(?:/[1-9]\d{0,60})?|NAME)(?:\*NAME)*"
+FLAT = re.compile(
+    f"-?{PRODUCT}(?: [+-] {PRODUCT})*".replace("NAME", r"[A-Za-z]\w*(?:\^[1-9]\d{0,3})?"), re.ASCII
+)
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
 
@@ -239,11 +245,45 @@ class Context:
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
+        self.work.spend(20)
+        monomials = self.monomials(text) if isinstance(text, str) else []
+        if monomials:
+            return sum_of_monomials(monomials, self.work)
         tree = parse(text)
-        self.work.spend(20 + len(text))
+        self.work.spend(len(text))
         value = self.value(tree)
         require(not value.under, Kind.POLYNOMIAL, text)
         return value
+
+    def monomials(self, text: str) -> list[Monomial]:
+        """The monomials of a text like 3/4*x^2*y - x + 1 whose names are variables, as `parse` and
+        `product` read them, without a tree; none for any other text, which is left to these.
+        """
+        if len(text) > MAX_TEXT or not FLAT.fullmatch(text):
+            return []
+        self.work.spend(PER_FACTOR * len(text))
+        monomials: list[Monomial] = []
+        for summand in text.replace(" - ", " + -").split(" + "):
+            unsigned = summand.removeprefix("-")
+            m = degree = 0
+            upper, lower = "1", "1"
+            for factor in unsigned.split("*"):
+                if factor[0].isdigit():  # the first alone, in such a text
+                    upper, _, lower = factor.partition("/")
+                    continue
+                name, _, power = factor.partition("^")
+                value = self.values.get(name)
+                if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
+                    return []
+                (one,) = value.terms
+                many = int(power or 1)
+                if many * value.deg > MAX_DEGREE:
+                    return []
+                m += one * many
+                degree += value.deg * many
+            whole = int(upper)
+            monomials.append((m, whole if unsigned == summand else -whole, int(lower or 1), degree))
+        return monomials
 
     def atom(self, left: Poly, relation: str, right: Poly) -> Formula:
         """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is

@@ -22,6 +22,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from keyword import kwlist
 from typing import Any
 
 from .algebra import Kind, Rational, Rejected, Work, require
@@ -30,7 +31,7 @@ MAX_TEXT = 1 << 18  # letters of a term or formula: its syntax tree takes some 5
 
 # --------------------------------- text: Python's expression syntax, with ^ and = as in mathematics
 
-WORDS = {"and", "or", "not", "implies", "iff"}  # never names: `names_in` does not count them
+WORDS = {*kwlist, "implies", "iff"}  # never names: `names_in` does not count them
 RESERVED = WORDS | {"sqrt", "root"}
 
 
