@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from enum import Enum
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 from math import comb, gcd, lcm, prod
 from typing import Any, Literal, TypeVar, Union
 
@@ -19,13 +19,16 @@ MAX_VARIABLES = 400
 MAX_TERMS = 10**5
 MAX_BITS = 40000
 MAX_WORK = 2 * 10**7
+MAX_KEPT = 4 * 10**6  # units of what is kept, each some 100 bytes
+LEAST_KEPT = 50  # units of each
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 MASK = (1 << BITS) - 1
 T = TypeVar("T")
 
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
-Under = dict[tuple["Poly", bool], int]  # {licence: exponent}
+Licence = tuple["Poly", bool]  # a polynomial other than 0, and whether it is > 0
+Under = dict[Licence, int]  # {licence: exponent}
 Monomial = tuple[int, int, int, int]  # packed exponents, upper and lower part of a factor, degree
 
 
@@ -169,11 +172,21 @@ class Work:
 
     dear: the units of one product of short coefficients.  A packed monomial of many variables is a
     long number: one of 400 takes seven times as long to add and to look up as one of three.
+
+    kept: {key: (what was worked out, its cost)}, see `once`; room: the units still free for it.
     """
 
-    __slots__ = ("left", "dear")
+    __slots__ = ("left", "dear", "room", "kept")
 
     def __init__(self, limit: int = MAX_WORK) -> None:
+        self.kept: dict[object, tuple[Any, int]] = {}
+        self.room = MAX_KEPT
+        self.refill(limit)
+
+    def refill(self, limit: int) -> None:
+        """Begins another check, which finds what the checks before it have kept."""
+        if self.room < MAX_KEPT // 2:
+            self.kept, self.room = {}, MAX_KEPT
         self.left = limit
         self.dear = 1
 
@@ -182,6 +195,27 @@ class Work:
         self.left -= amount
         if self.left < 0:
             raise Rejected(Kind.WORK)
+
+    def once(self, key: object, make: Callable[[], T]) -> T:
+        """What `make` returns, which depends on the key alone.  To find it again is counted as to
+        make it: so a check may do as much, whatever was checked before it.
+
+        A key holds trees and polynomials, each equal to itself alone: nothing else can take its
+        place while it is kept.  Within a check nothing is dropped: so what is kept, and what it was
+        made from, were made once.
+        """
+        if key in self.kept:
+            found: T
+            found, cost = self.kept[key]
+            self.spend(cost)
+            return found
+        before = self.left
+        value = make()
+        if self.room > 0:
+            cost = before - self.left
+            self.room -= cost + LEAST_KEPT  # a result has fewer terms than it took work
+            self.kept[key] = value, cost
+        return value
 
 
 # ------------------------------------ polynomials: {packed exponents: integer} over one denominator
@@ -194,11 +228,10 @@ class Poly:
     terms: {packed exponents: integer other than 0}; deg, bits: bounds, their degree is at most deg,
     and the sum of their absolute coefficients at most 2^bits; work: the meter of the check; under:
     {licence: exponent}, where a licence is (polynomial other than 0, whether it is > 0).  Only a
-    term that divides has an `under`: facts and cofactors are polynomials.  powers: its square, its
-    third power, .., as far as they were asked for.
+    term that divides has an `under`: facts and cofactors are polynomials.
     """
 
-    __slots__ = ("terms", "den", "deg", "bits", "work", "under", "powers")
+    __slots__ = ("terms", "den", "deg", "bits", "work", "under")
 
     def __init__(
         self, terms: Terms, den: int, deg: int, bits: int, work: Work, under: Under | None = None
@@ -213,7 +246,6 @@ class Poly:
         self.bits = bits
         self.work = work
         self.under = under or {}
-        self.powers: list[Poly] = []
 
     def over(self, under: Under) -> Poly:
         """The same terms, over other polynomials."""
@@ -262,9 +294,10 @@ class Poly:
             ((m, c),) = self.terms.items()
             if c == self.den == 1:  # a product of variables: so nearly every power
                 return Poly({m * exponent: 1}, 1, self.deg * exponent, 0, self.work)
-        while len(self.powers) < exponent - 1:
-            self.powers.append(self * (self.powers[-1] if self.powers else self))
-        return self.powers[exponent - 2]
+        power = self
+        for e in range(2, exponent + 1):
+            power = self.work.once((self, e), partial(power.__mul__, self))
+        return power
 
     def constant(self) -> Fraction | None:
         """The value of a constant; None for anything else."""
@@ -340,15 +373,11 @@ def sum_of_monomials(monomials: Sequence[Monomial], work: Work) -> Poly:
     terms: Terms = {}
     deg = bits = 0
     for m, upper, lower, degree in monomials:
-        if lower != den:
-            upper *= den // lower
+        upper *= den // lower
         size = bits_of(upper)
-        if size > 255:
-            work.spend(size * size >> 16)
-        if size > bits:
-            bits = size
-        if degree > deg:
-            deg = degree
+        work.spend(size * size >> 16)
+        deg = max(deg, degree)
+        bits = max(bits, size)
         terms[m] = terms.get(m, 0) + upper
     if 0 in terms.values():
         terms = {m: c for m, c in terms.items() if c}
@@ -374,6 +403,13 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
+def licence_of(poly: Poly, positive: bool) -> tuple[frozenset[tuple[int, int]], Licence]:
+    """The licence of a strict line: the primitive polynomial as a key, and the licence."""
+    content, poly = poly.primitive()
+    poly.work.spend(len(poly.terms) * poly.work.dear)
+    return frozenset(poly.terms.items()), (poly if content > 0 else -poly, positive)
+
+
 def number(value: Rational, work: Work) -> Poly:
     """A rational number as a polynomial."""
     upper = value.numerator
@@ -383,7 +419,7 @@ def number(value: Rational, work: Work) -> Poly:
 def variable(place: int, work: Work) -> Poly:
     """The variable of this number as a polynomial."""
     work.dear = max(work.dear, 1 + place // 32)
-    return Poly({1 << (BITS * place): 1}, 1, 1, 0, work)
+    return work.once(place, lambda: Poly({1 << (BITS * place): 1}, 1, 1, 0, work))
 
 
 ONE = number(1, Work(0))  # a factor of sums of products, which spend from a meter of their own

@@ -12,8 +12,9 @@ import ast
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from math import prod
-from typing import Any
+from typing import Any, TypeVar
 
 from .algebra import (
     BITS,
@@ -24,15 +25,18 @@ from .algebra import (
     ONE,
     Formula,
     Kind,
+    Licence,
     Monomial,
     Op,
     Poly,
     Rational,
     Rejected,
     Work,
+    bits_of,
     conjuncts,
     fold,
     join,
+    licence_of,
     negate,
     number,
     require,
@@ -40,21 +44,27 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import MAX_TEXT, WORDS, Definitions, parse, rows, written, written_line
+from .text import (
+    WORDS,
+    Definitions,
+    exponent,
+    names_of,
+    parse,
+    rows,
+    summands,
+    written,
+    written_line,
+)
 
-Licences = dict[frozenset[tuple[int, int]], tuple[Poly, bool]]  # by the primitive polynomial
+Licences = dict[frozenset[tuple[int, int]], Licence]  # by the primitive polynomial
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
+T = TypeVar("T")
 Said = Any  # what a line says: as `LINES` reads its keyword
 
 PER_FACTOR = 4  # work: of a factor of a term, or a name
 
-# sums of products of a number, which may come first, and powers of names
-PRODUCT = r"(?:(?:0|[1-9]\d{0,60})(?:/[1-9]\d{0,60})?|NAME)(?:\*NAME)*"
-FLAT = re.compile(
-    f"-?{PRODUCT}(?: [+-] {PRODUCT})*".replace("NAME", r"[A-Za-z]\w*(?:\^[1-9]\d{0,3})?"), re.ASCII
-)
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
 
@@ -66,9 +76,8 @@ class Context:
     strict line made nonzero.
 
     index: {key: number of the variable}; integers: the keys of integer variables; values: {name:
-    polynomial, or quotient of such}; strict, licences: the polynomials of strict lines, and whether
-    they are > 0, as long as nothing divides; then {key of a polynomial: licence}, see `licensed`;
-    work: the meter of the check, which an inner context shares.
+    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; work: the meter of
+    the check, which an inner context shares.
     """
 
     def __init__(
@@ -80,12 +89,10 @@ class Context:
         self.work: Work = outer.work if outer else work or Work()
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
-        self.strict: list[tuple[Poly, bool]] = list(outer.strict) if outer else []
-        self.licences: Licences = dict(outer.licences) if outer else {}
+        self.licensed: Licences = dict(outer.licensed) if outer else {}
         if values is None:
             values = outer.values if outer else {}
-        # else copies are free
-        self.work.spend(len(self.index) + len(self.strict) + len(self.licences) + len(values))
+        self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
         self.values: dict[str, Poly] = dict(values)
 
     def number(self, value: Rational) -> Poly:
@@ -120,21 +127,10 @@ class Context:
         for part in conjuncts(formula):
             if isinstance(part, bool) or part[0] != "atom" or part[2] not in (">", "!="):
                 continue
-            self.strict.append((part[1], part[2] == ">"))
-
-    @property
-    def licensed(self) -> Licences:
-        """{key of a polynomial: licence}, of all strict lines so far: made where something divides,
-        as few lines are asked for.
-        """
-        for line, positive in self.strict:
-            content, poly = line.primitive()
-            self.work.spend(len(poly.terms) * self.work.dear)
-            key = frozenset(poly.terms.items())
-            if key not in self.licences or positive and not self.licences[key][1]:
-                self.licences[key] = (poly if content > 0 else -poly, positive)
-        self.strict = []
-        return self.licences
+            line = part[1], part[2] == ">"
+            key, licence = self.work.once(("licence", *line), partial(licence_of, *line))
+            if key not in self.licensed or licence[1] and not self.licensed[key][1]:
+                self.licensed[key] = licence
 
     def reciprocal(self, node: ast.expr) -> Poly:
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of
@@ -157,14 +153,16 @@ class Context:
 
     def value(self, node: ast.expr) -> Poly:
         """The value of a term."""
+        if isinstance(node, ast.BinOp):  # the text has no operator but + - * / ^
+            if isinstance(node.op, (ast.Add, ast.Sub)):
+                return self.sum(node)
+            if isinstance(node.op, ast.Pow):
+                return self.value(node.left) ** exponent(node)
+            return self.product(node)
         if isinstance(node, ast.Name):
             if node.id in self.values:
                 return self.values[node.id]
             raise Rejected(Kind.UNDECLARED, node.id)
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-            return self.value(node.left) ** exponent(node)
-        if isinstance(node, ast.BinOp):  # the text has no operator but + - * / ^
-            return self.sum(node)
         if isinstance(node, ast.Constant) and type(node.value) is int:
             return self.number(node.value)
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
@@ -172,76 +170,52 @@ class Context:
         raise Rejected(Kind.TERM, ast.unparse(node))
 
     def sum(self, node: ast.expr) -> Poly:
-        """The value of a chain of + and -: its monomials are added up at once, then the rest."""
+        """The value of a chain of + and -, which is added up at once."""
         summands: list[tuple[int, ast.expr]] = []
         while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
             summands.append((1 if isinstance(node.op, ast.Add) else -1, node.right))
             node = node.left
-        summands.append((1, node))
-        monomials: list[Monomial] = []
-        products: list[tuple[Rational, Poly, Poly]] = []
-        for sign, summand in reversed(summands):
-            monomial, others = self.product(summand, sign)
-            if not others:
-                monomials.append(monomial)
-                continue
-            m, upper, lower, degree = monomial
-            if m:
-                others.append(Poly({m: 1}, 1, degree, 0, self.work))
-            last = others.pop()
-            first = prod(others[1:], start=others[0]) if others else ONE
-            products.append((Fraction(upper, lower) if lower != 1 else upper, first, last))
-        if not products:
-            return sum_of_monomials(monomials, self.work)
-        if monomials:
-            products.append((1, ONE, sum_of_monomials(monomials, self.work)))
-        if not any(p.under or q.under for _, p, q in products):
-            return sum_of_products(products, self.work)
-        total = self.number(0)
-        for factor, p, q in products:
-            total = total.plus(q * p, factor)  # not p * q: ONE has no meter
+        total = self.value(node)
+        values = [(sign, self.value(summand), ONE) for sign, summand in reversed(summands)]
+        if not (total.under or any(value.under for _, value, _ in values)):
+            return sum_of_products([(1, total, ONE), *values], self.work)
+        for sign, value, _ in values:
+            total = total.plus(value, sign)
         return total
 
-    def product(self, node: ast.expr, upper: int) -> tuple[Monomial, list[Poly]]:
-        """A chain of * and /, times a number: the product of its numbers and variables, and the
-        values of the rest.
-        """
-        lower = 1
+    def product(self, node: ast.expr) -> Poly:
+        """The value of a chain of * and /: of numbers and variables at once, then of the rest."""
+        upper = lower = 1
         monomial = degree = 0
         others: list[Poly] = []
         factors, count = [node], 0
         while factors:
             node = factors.pop()
             count += 1
-            if isinstance(node, ast.Constant) and type(node.value) is int:
-                upper *= node.value
-                size = upper.bit_length()
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+                factors += [node.right, node.left]
+                continue
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+                factors.append(node.left)
+                value = self.reciprocal(node.right)
             else:
-                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-                    factors += [node.right, node.left]
-                    continue
-                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
-                    factors.append(node.left)
-                    value = self.reciprocal(node.right)
-                else:
-                    value = self.value(node)
-                if value.under or len(value.terms) != 1:
-                    others.append(value)
-                    continue
-                ((m, c),) = value.terms.items()
-                monomial += m
-                degree += value.deg
-                if c == value.den == 1:
-                    continue
+                value = self.value(node)
+            if value.under or len(value.terms) != 1:
+                others.append(value)
+                continue
+            ((m, c),) = value.terms.items()
+            monomial += m
+            degree += value.deg
+            if not c == value.den == 1:
                 upper *= c
                 lower *= value.den
+                # a long product of constants would grow unseen
                 size = max(upper.bit_length(), lower.bit_length())
-            # a long product of constants would grow unseen
-            if size > 255:
                 self.work.spend(size * size >> 16)
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
-        return (monomial, upper, lower, degree), others
+        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
+        return prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
@@ -255,34 +229,34 @@ class Context:
         require(not value.under, Kind.POLYNOMIAL, text)
         return value
 
-    def monomials(self, text: str) -> list[Monomial]:
-        """The monomials of a text like 3/4*x^2*y - x + 1 whose names are variables, as `parse` and
-        `product` read them, without a tree; none for any other text, which is left to these.
+    def once(self, read: Callable[[Context, ast.expr], T], node: ast.expr) -> T:
+        """What a tree says here.  That depends on the values of its names and, where it divides, on
+        what is licensed.
         """
-        if len(text) > MAX_TEXT or not FLAT.fullmatch(text):
-            return []
-        self.work.spend(PER_FACTOR * len(text))
+        names, divides = self.work.once(node, partial(names_of, node))
+        licences = self.licensed.values() if divides else ()
+        self.work.spend(len(names) + len(licences))
+        key = (read, node, *map(self.values.get, names), *licences)
+        return self.work.once(key, partial(read, self, node))
+
+    def monomials(self, text: str) -> list[Monomial]:
+        """The monomials of a text that `summands` reads, as `product` reads them; none where a name
+        is no variable: such a text is left to `value`.
+        """
         monomials: list[Monomial] = []
-        for summand in text.replace(" - ", " + -").split(" + "):
-            unsigned = summand.removeprefix("-")
+        for upper, lower, powers in summands(text):
             m = degree = 0
-            upper, lower = "1", "1"
-            for factor in unsigned.split("*"):
-                if factor[0].isdigit():  # the first alone, in such a text
-                    upper, _, lower = factor.partition("/")
-                    continue
-                name, _, power = factor.partition("^")
+            for name, power in powers:
                 value = self.values.get(name)
                 if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
                     return []
                 (one,) = value.terms
-                many = int(power or 1)
-                if many * value.deg > MAX_DEGREE:
+                if power * value.deg > MAX_DEGREE:
                     return []
-                m += one * many
-                degree += value.deg * many
-            whole = int(upper)
-            monomials.append((m, whole if unsigned == summand else -whole, int(lower or 1), degree))
+                m += one * power
+                degree += value.deg * power
+            monomials.append((m, upper, lower, degree))
+        self.work.spend(PER_FACTOR * len(text))
         return monomials
 
     def atom(self, left: Poly, relation: str, right: Poly) -> Formula:
@@ -336,13 +310,6 @@ class Context:
                     factors.append(name if exponent == 1 else f"{name}^{exponent}")
             parts.append("*".join(factors))
         return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
-
-
-def exponent(node: ast.BinOp) -> int:
-    """The exponent of a power: an integer as it stands."""
-    if isinstance(node.right, ast.Constant) and type(node.right.value) is int:
-        return node.right.value
-    raise Rejected(Kind.TERM, ast.unparse(node))
 
 
 def variables_of(context: Context, poly: Poly) -> set[str]:
@@ -595,14 +562,16 @@ class Unfolding:
         elif keyword == "given" or keyword == "range" and sharp is None:
             self.assume(said, self.premises)
         elif keyword == "have":
-            self.obligations.append((len(self.premises), negate(context.formula(said))))
+            self.obligations.append(
+                (len(self.premises), negate(context.once(Context.formula, said)))
+            )
             self.assume(said, self.premises)
         elif keyword == "let":
             name, term = said
-            context.define(name, context.value(term))
+            context.define(name, context.once(Context.value, term))
         elif keyword == "root":
             name, (term,) = said
-            value, zero = context.value(term), context.number(0)
+            value, zero = context.once(Context.value, term), context.number(0)
             self.obligations.append((len(self.premises), context.atom(value, "<", zero)))
             self.variable(name, True)
             own = context.values[name]
@@ -621,7 +590,7 @@ class Unfolding:
             self.context.declare(name, name in self.integers)
 
     def assume(self, node: ast.expr, formulas: list[Formula]) -> None:
-        formulas.append(self.context.formula(node))
+        formulas.append(self.context.once(Context.formula, node))
         self.context.license(formulas[-1])
 
     def goal(self, truth: bool) -> Formula:

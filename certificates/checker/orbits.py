@@ -545,8 +545,9 @@ def premises_of(
     statement}.
     """
     premises = {}
-    none = Definitions(Work())  # of a line that stands in many premises there is one tree
-    for name, rows in ORBIT_RULES[statement.kind](statement, known, work or Work()).items():
+    work = work or Work()
+    none = Definitions(work)
+    for name, rows in ORBIT_RULES[statement.kind](statement, known, work).items():
         full = f"{statement.name}.{name}"
         premises[name] = read_statements("\n".join([f"statement {full}", *rows]), none)[full]
     return premises

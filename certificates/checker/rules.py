@@ -65,8 +65,7 @@ class State:
     def __init__(self, variables: Context, parent: State | None = None) -> None:
         values = {key: variable(place, variables.work) for key, place in variables.index.items()}
         self.context = Context(variables, values)
-        self.context.strict = list(parent.context.strict) if parent else []
-        self.context.licences = dict(parent.context.licences) if parent else {}
+        self.context.licensed = dict(parent.context.licensed) if parent else {}
         self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
         self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
         # else branches would cost nothing
