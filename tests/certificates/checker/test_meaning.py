@@ -5,6 +5,7 @@ directions.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -491,6 +492,22 @@ def test_a_name_of_a_sum_of_products_may_stand_for_any_value_holds() -> None:
     for text in ("a*y^2", "b^2 - x", "c*c", "d^2*x", "e^2 - d", "f*x - f^2", "3*d*e"):
         flat, tree = context.polynomial(text), context.value(checker.parse(text))
         assert (flat.terms, flat.den) == (tree.terms, tree.den)
+
+
+@pytest.mark.parametrize("text", ["a", "a*y", "2*a^2 - x"])
+def test_rejects_a_sum_of_products_with_a_name_for_a_quotient(text: str) -> None:
+    context = licensed_by(of_x_and_y(), "x > 0")
+    context.define("a", context.value(checker.parse("1/x")))
+    with pytest.raises(Rejected) as info:
+        context.polynomial(text)
+    assert refused(info.value, (Kind.POLYNOMIAL, text))
+
+
+@pytest.mark.parametrize("text", [5, None, ["x"], {}])
+def test_rejects_a_polynomial_that_is_no_text(text: Any) -> None:
+    with pytest.raises(Rejected) as info:
+        of_x_and_y().polynomial(text)
+    assert refused(info.value, Kind.TEXT)
 
 
 @pytest.mark.parametrize("name", ["lambda", "None", "if", "and", "iff"])

@@ -397,3 +397,24 @@ def test_what_is_read_once_is_counted_by_its_names_and_licences() -> None:
             way(context, Context.value, tree)
             costs.append(before - context.work.left)
         assert costs[0] == costs[1] == costs[2] + names
+
+
+def test_the_room_for_what_is_kept_has_its_ends_holds() -> None:
+    work = Work()
+    for room, kept in ((0, False), (1, True)):
+        work.room = room
+        work.once(room, str)
+        assert (room in work.kept) is kept
+    for room, kept in ((MAX_KEPT // 2, True), (MAX_KEPT // 2 - 1, False)):
+        work.room = room
+        work.refill(10)
+        assert (1 in work.kept) is kept
+    assert work.room == MAX_KEPT
+
+
+def test_a_sum_of_products_is_counted_by_its_letters_and_summands_holds() -> None:
+    context = Context(work=Work(10**6))
+    context.declare("x")
+    before = context.work.left
+    context.polynomial("2*x - 1")
+    assert before - context.work.left == 20 + 4 * 7 + 2 * 9
