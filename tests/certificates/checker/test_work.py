@@ -419,5 +419,5 @@ def test_a_sum_of_products_is_counted_by_its_letters_and_summands_holds() -> Non
     context.polynomial("2*x - 1")
     assert before - context.work.left == 20 + 4 * 7 + 2 * 9
     before = context.work.left
-    context.polynomial("(x)")  # by its tree
-    assert before - context.work.left == 20 + 3
+    context.polynomial("(x)")  # and by its tree
+    assert before - context.work.left == 20 + 4 * 3 + 3
