@@ -24,9 +24,8 @@ from juggleproof.certificates.sine.checker import (
 )
 from juggleproof.certificates.sine.cover import Covered, cover, first_boxes, halves, kept
 from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import STATEMENT, STORE, boxes_in
+from juggleproof.certificates.sine.stored import STATEMENT, STORE, WIDE, boxes_in
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.command.sine import WIDE
 
 WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
 
@@ -245,7 +244,7 @@ def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
 ) -> None:
     ends = ("[1/20, 1/20] and Gamma in [31/10, 31/10]", "[1/10, 1/10] and g in [11/50, 11/50]")
     (tmp_path / "statements.txt").write_text("".join(f"{WORDS} {one}\n" for one in ends))
-    monkeypatch.setattr("juggleproof.proofs.command.sine.WIDE", tmp_path)
+    monkeypatch.setattr("juggleproof.certificates.sine.stored.WIDE", tmp_path)
     assert run(["certify", "sine", "--jobs", "1", "--store", str(tmp_path / "found")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[::2][:2] == [f"certified: {WORDS} {one}" for one in ends]
