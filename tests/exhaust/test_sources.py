@@ -173,7 +173,8 @@ def test_a_comment_asks_for_nothing_holds(copied: Path, stages: Stages) -> None:
 
 def test_a_module_without_prose_has_what_is_run_and_what_decorators_read_holds() -> None:
     text = (
-        '"""Of the module."""\n# why\nimport a  # here\n\n\n@claim("c")\ndef c():\n    """Read."""\n'
+        '"""Of the module."""\n# why\nimport a  # here\n\n\n'
+        '@claim("c")\ndef c():\n    """Read."""\n'
         '    return """#\n\n    x"""\n\n\nclass D:\n    """Of\n    a class."""\n    E = "#"\n'
         '\ndef f(): "Of one line."; return 1\n'
     )
