@@ -6,11 +6,12 @@ In reading order, each importing those before it only:
 - `reading`: a print's LaTeX becomes values and formulas.
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
 - `encoding`: SymPy expressions as terms.
-- `correcting`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
+- `correcting`: prints that may mend a refuted one.
 - `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
-- `conclusions`, `orbit_rules`: what a certified rule for orbits says; why a premise has no proof.
-- `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
-  range.
+- `conclusions`, `orbit_rules`: what a certified rule for orbits says; rules as a claim writes them.
+- `searches`: certificates, votes and sharp ranges are searched, which loads when first asked.
+- `judgement`, `follows_from_rules`, `judging`: one claim, stated, settled by the checker,
+  corrected, with its sharp range; what rests on rules.
 - `register`: the verdicts that stand.
 - `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
 - `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries

@@ -432,11 +432,6 @@ def same_set(
 # What the hypotheses of a statement say: the domain of a parameter, or a part of it.
 
 
-def read(text: str, name: str) -> checker.Statement:
-    """The statement as the checker reads it."""
-    return checker.read_statements(text)[name]
-
-
 def domains_of(
     statements: Sequence[Statement], named: Sequence[str] | None = None
 ) -> dict[str, tuple[Formula, ...]]:

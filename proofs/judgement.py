@@ -12,7 +12,7 @@ from typing import TypedDict
 from juggleproof.certificates.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
-from juggleproof.certificates.votes.vote import ANSWERS, Budget, Vote
+from juggleproof.certificates.vote import ANSWERS, Budget, Vote
 from juggleproof.proofs.claims import Claim, Verdict, as_body, assertions
 
 ROUTES = ("exact", "z3", "boxes")

@@ -40,6 +40,7 @@ from juggleproof.proofs.claims import (
     claims_of,
     stated_texts,
 )
+from juggleproof.proofs.follows_from_rules import settle_by_rules
 from juggleproof.proofs.judgement import (
     DEFAULT_BUDGET,
     ROUTES,
@@ -49,7 +50,7 @@ from juggleproof.proofs.judgement import (
     Resources,
     is_finding,
 )
-from juggleproof.proofs.judging import judge, settle_by_rules
+from juggleproof.proofs.judging import judge
 
 FINDINGS = "findings"
 WIDTH = 96  # of a comment in the statement file

@@ -15,12 +15,12 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.vote import Vote
 from juggleproof.proofs import paper
 from juggleproof.proofs.checked import outcomes_of
 from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.follows_from_rules import settle_by_rules
 from juggleproof.proofs.judgement import Correction, Judgement, statements_of
-from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.register import (
     PATH,
     Change,
