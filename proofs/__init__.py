@@ -10,8 +10,9 @@ In reading order, each importing those before it only:
 - `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
 - `conclusions`, `orbit_rules`: what a certified rule for orbits says; rules as a claim writes them.
 - `searches`: certificates, votes and sharp ranges are searched, which loads when first asked.
-- `judgement`, `follows_from_rules`, `judging`: one claim, stated, settled by the checker,
-  corrected, with its sharp range; what rests on rules.
+- `rule_ranges`: the parameters for which the conclusion of a rule is proved.
+- `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
+  range.
 - `register`: the verdicts that stand.
 - `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
 - `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib.metadata import version
+from importlib import import_module
 from typing import TypedDict
 
 from juggleproof.certificates.language import NO_ROLES, AnyStatement, Roles
@@ -87,6 +87,7 @@ def _values(data: object) -> list[object]:
 
 @cache
 def _tools() -> str:
+    version = import_module("importlib.metadata").version  # some hundredths of a second
     return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
 
 

@@ -42,13 +42,6 @@ from juggleproof.proofs.claims import (
     verdict_of,
 )
 from juggleproof.proofs.correcting import Candidate, candidates
-from juggleproof.proofs.follows_from_rules import (
-    NOT_FOUND,
-    range_of_rule,
-    rule_domain,
-    stated_roles,
-    whole_text,
-)
 from juggleproof.proofs.forms import has_whole_range, speaks_of_range
 from juggleproof.proofs.judgement import (
     Finding,
@@ -60,7 +53,9 @@ from juggleproof.proofs.judgement import (
     digest_of_question,
 )
 from juggleproof.proofs.orbit_rules import read_rule
+from juggleproof.proofs.rule_ranges import range_of_rule, rule_domain, whole_text
 
+NOT_FOUND = "not found"
 TRIAL = 10  # a candidate correction gets this part of the budget
 
 
@@ -193,11 +188,12 @@ class Judge:
         """The outcome of one statement, by a stored certificate that is still valid or by a
         search; what was unknown is searched again, by this budget and from what is known now.
         """
-        rests: list[str] = []
+        rule, rests = None, list[str]()
         self.where = self.claim.where
         if isinstance(statement, MapRule):
             self.where = self.place_of(statement)
-            rests = rests_on(read_rule(statement))
+            rule = read_rule(statement)
+            rests = rests_on(rule)
         name, text = statement.name, statement.text()
         store = self.resources.store
         certificate: Certificate | None = store.certificate(name, text) if store else None
@@ -205,7 +201,7 @@ class Judge:
             certificate = None
         outcome = self.stored_outcome(name, text, certificate)
         if certificate is None or outcome in ("rejected", "unknown"):
-            parsed = read(text, name)
+            parsed = rule or read(text, name)
             for confirm in (False, True):
                 certificate = self.search.certificate(statement, parsed, confirm, self.where)
                 outcome = self.check(parsed, certificate)
@@ -216,9 +212,9 @@ class Judge:
         self.record(name, text, certificate, outcome)
         if isinstance(statement, Statement):
             self.judgement.votes[name] = self.votes(name, text, outcome)
-        if isinstance(statement, MapRule) and outcome == "certified":
-            self.known[name] = read(text, name)
-            premises = self.premises.get(name) or checker.premises_of(self.known[name], self.known)
+        if rule and outcome == "certified":
+            self.known[name] = rule
+            premises = self.premises.get(name) or checker.premises_of(rule, self.known)
             for premise in premises.values():
                 self.judgement.votes[premise.name] = self.votes(
                     premise.name, premise.text(), outcome
@@ -251,8 +247,11 @@ class Judge:
         contradicts the outcome, or else cast now.
         """
         routes, budget = [route for route in self.resources.routes if route != "exact"], Budget()
+        recorded = self.resources.votes.get(self.claim.id)
+        if not routes and not recorded:
+            return ()
         on = digest_of_question(text, budget)
-        earlier = self.resources.votes.get(self.claim.id, {}).get(on)
+        earlier = recorded and recorded.get(on)
         if earlier:
             quoted = _as_votes(earlier, routes)
             if {vote.route for vote in quoted} == {*routes} and agree(name, outcome, quoted):
@@ -443,12 +442,13 @@ class Judge:
         for one in rested_on:
             if one not in texts:  # of a claim that this one does not name among what it uses
                 return None
-            rested_on += rests_on(read(texts[one], one))
+            rows = (row.partition(" ") for row in texts[one].splitlines())
+            rested_on += [rest for keyword, _, rest in rows if keyword in checker.NAMED]
         domain = rule_domain(name, texts)[0]
         others = {part.name for part in parts if isinstance(part, MapRule)} - {*rested_on}
         if not all(self.contains(rule_domain(one, texts)[0], domain) for one in sorted(others)):
             return None
-        text = range_of_rule(name, texts, stated_roles(self.judgement.roles, self.claim))
+        text = range_of_rule(name, texts, self.claim.stated(self.judgement.roles))
         return Sharp(text, (name,)) if text else None
 
     def contains(self, outer: str, inner: str) -> bool:

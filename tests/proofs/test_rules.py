@@ -11,11 +11,11 @@ import pytest
 
 from juggleproof.certificates.language import MapRule, Roles, Statement, real
 from juggleproof.proofs.claims import Assertion, Claim
-from juggleproof.proofs.follows_from_rules import range_of_rule
 from juggleproof.proofs.forms import always
 from juggleproof.proofs.judgement import Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.rule_ranges import range_of_rule
 from tests.proofs.command.running import Done, run
 from tests.proofs.conftest import Loaded
 

@@ -1,11 +1,11 @@
-"""What follows from map rules, once it is known which are certified: the verdicts and the ranges of
-the claims that rest on them.
+"""The range of parameters for which the conclusion of a certified map rule is proved, and the whole
+range, as a person reads them.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -15,91 +15,8 @@ from juggleproof.certificates.language import (
     bounds_of,
     conjunction,
     interval_text,
-    rests_on,
 )
-from juggleproof.certificates.work import read
 from juggleproof.proofs import searches
-from juggleproof.proofs.claims import REMARK, Claim, awaited, outcome_of, stated_texts, verdict_of
-from juggleproof.proofs.judgement import Judgement, Sharp
-
-NOT_FOUND = "not found"
-
-
-def settle_by_rules(
-    judgements: Sequence[Judgement],
-    outcomes: Mapping[str, str],
-    texts: Mapping[str, str],
-    claims: Mapping[str, Claim],
-) -> None:
-    """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
-    the outcomes of all statements are known, with their texts; the claims state what these should
-    be.
-    """
-    stated = dict[str, str]()
-    above = list[str]()
-
-    def stands(name: str) -> bool:
-        """Whether the claim holds by the outcomes of its statements as stated, and by what it
-        awaits, which is not itself.
-        """
-        claim = claims.get(name)
-        if claim is None or name in above:
-            return False
-        above.append(name)
-        settled = {
-            one: outcomes.get(one, "unknown")
-            for one, text in stated_texts(claim).items()
-            if texts.get(one) == text
-        }
-        body, beside = claim.body(), claim.shown_beside()
-        settled.update((one, "certified") for one in awaited(body) if holds(one))
-        above.pop()
-        if beside and outcome_of(name, REMARK, beside, settled) != "certified":
-            return False
-        return verdict_of(name, body, settled).word == "holds"
-
-    def holds(name: str) -> bool:
-        """Whether the claim stands, or the rule is certified, and it and all that it rests on are
-        rules, and as stated.
-        """
-        if "/" not in name:
-            return stands(name)
-        names = [name] if outcomes.get(name) == "certified" else []
-        for one in names:
-            claim = claims.get(one.split("/")[0])
-            if one not in stated and claim is not None:
-                stated.update(stated_texts(claim))
-            if one not in stated or texts.get(one) != stated[one]:
-                return False
-            rule = read(stated[one], one)
-            if rule.kind not in checker.orbit_rules():
-                return False
-            names += [each for each in rests_on(rule) if each not in names]
-        return bool(names)
-
-    for one in judgements:
-        if one.awaits and all(map(holds, one.awaits)):
-            one.verdict = one.by_rules
-        if one.follows:
-            held = one.verdict.word == "holds"
-            text = (
-                range_of_rule(
-                    one.rests_on[-1],
-                    texts,
-                    stated_roles(one.roles, claims[one.id]),
-                    one.is_conclusion,
-                )
-                if held
-                else NOT_FOUND
-            )
-            one.sharp[""] = Sharp(text, one.rests_on)
-
-
-def stated_roles(roles: Roles, claim: Claim) -> Roles:
-    """The roles where the vocabulary of the claim states them; what its statements say of a domain
-    says nothing of a map's.
-    """
-    return roles if claim.vocabulary.domains else NO_ROLES
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
