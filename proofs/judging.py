@@ -57,6 +57,7 @@ from juggleproof.proofs.rule_ranges import range_of_rule, rule_domain, whole_tex
 
 NOT_FOUND = "not found"
 TRIAL = 10  # a candidate correction gets this part of the budget
+SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
 def judge(claim: Claim, resources: Resources) -> Judgement:
@@ -485,7 +486,9 @@ class Judge:
         certificate = store.certificate(name, text)
         if certificate is None or self.sharp_outcome(name, text, certificate, parts) != "certified":
             return None
-        shown = self.search.text_of_range(text, parts, over)
+        shown = searches.text_of_range(
+            text, parts, over, self.judgement.roles, self.resources.budget
+        )
         if shown is None:
             return None
         self.record(name, text, certificate, "certified")
@@ -501,7 +504,8 @@ class Judge:
         tried = digest(f"{self.resources.budget}\n" + "\n".join(part.text() for part in parts))
         if self.finding.get("not found", {}).get(prefix) == tried:
             return Sharp(NOT_FOUND, tried=tried)
-        result = self.search.sharp_range(name, parts, over)
+        roles, budget = self.judgement.roles, self.resources.budget
+        result = searches.search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
         sharp, proof = result
@@ -510,7 +514,7 @@ class Judge:
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier
         )
-        shown = self.search.text_of_range(sharp.text(), parts, over)
+        shown = searches.text_of_range(sharp.text(), parts, over, roles, budget)
         if outcome != "certified" or shown is None:
             return Sharp(f"{NOT_FOUND} ({reason or 'not on the whole domain'})")
         self.record(name, sharp.text(), certificate, outcome)

@@ -14,13 +14,11 @@ from juggleproof.certificates.language import (
     Iterates,
     MapRule,
     Roles,
-    SharpRange,
     Statement,
     Term,
     disjunction,
 )
 from juggleproof.certificates.nodes import Certificate, Counterexample
-from juggleproof.certificates.nodes import Sharp as SharpProof
 from juggleproof.certificates.search.certificate import search_certificate, search_premises
 from juggleproof.certificates.search.closing import Hints, search_closing
 from juggleproof.certificates.search.points import search_values
@@ -32,12 +30,10 @@ from juggleproof.certificates.votes.z3 import Model, vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, read, unfolded
 from juggleproof.proofs.evaluating import at_simple_values, is_simple
 from juggleproof.proofs.orbit_rules import premises_of
-from juggleproof.proofs.searches.range_search import search_sharp_range, text_of_range
 from juggleproof.proofs.searches.unproved_premises import why
 
 QUICK_BUDGET = 150_000
-TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
-SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
+TRIAL = 10  # a look for a contradiction or for simple values gets this part of the budget
 
 
 @dataclass
@@ -188,19 +184,6 @@ class ClaimSearch:
             return search_certificate(parsed, {}, Budget(QUICK_BUDGET))
         except Exhausted:
             return {"unknown": "a quick search found none"}
-
-    def sharp_range(
-        self, name: str, parts: Sequence[Statement], over: Sequence[str]
-    ) -> tuple[SharpRange, SharpProof] | None:
-        """The sharp range of these statements and its certificate, if the search finds one."""
-        budget = SHARP * self.budget
-        return search_sharp_range(name, parts, over, self.known, budget, self.roles)
-
-    def text_of_range(
-        self, text: str, parts: Sequence[Statement], over: Sequence[str]
-    ) -> str | None:
-        """A certified sharp range in words; None where it is not on the whole domain."""
-        return text_of_range(text, parts, over, self.roles, self.budget)
 
     def votes(
         self, name: str, text: str, outcome: str, routes: Sequence[str], budget: Asking
