@@ -66,6 +66,11 @@ _kept: dict[
 ] = {}
 
 
+def read(text: str, name: str) -> checker.Statement:
+    """The statement as the checker reads it."""
+    return checker.read_statements(text)[name]
+
+
 def unfolded(
     statement: checker.Statement, sharp: Sequence[ast.expr] | None = None
 ) -> checker.Unfolding:

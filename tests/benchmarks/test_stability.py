@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.benchmarks import stability
-from juggleproof.proofs import judging
+from juggleproof.proofs.searches import claim_search
 from juggleproof.proofs.stability.findings import MapVerdict
 from tests.proofs.command import running
 from tests.proofs.coq.development import coqc
@@ -72,7 +72,7 @@ def test_an_example_is_settled_as_the_page_says_holds(
     def search(*_: object, **__: object) -> None:
         raise AssertionError("`certify` searches for what is stored")
 
-    monkeypatch.setattr(judging, "search_premises", search)
+    monkeypatch.setattr(claim_search, "search_premises", search)
     certified = running.run("certify", str(claims), "--routes", "exact")
     assert certified.returncode == 0, certified.stderr
     assert "1 claim: 1 holds" in certified.stdout

@@ -15,14 +15,14 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.vote import Vote
 from juggleproof.certificates.votes.z3 import vote_and_model
-from juggleproof.proofs import judging
 from juggleproof.proofs.claims import place_in_file
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.conclusions import RULES, conclusion, meaning
 from juggleproof.proofs.evaluating import is_true_at, value_at
-from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.searches import claim_search
+from juggleproof.proofs.searches.unproved_premises import why
 from tests.certificates.checker.maps import (
     ASKED,
     COUNT,
@@ -472,14 +472,14 @@ def test_reasons_are_the_same_from_run_to_run_holds(tmp_path: Path) -> None:
 def test_a_rule_whose_proofs_the_checker_rejects_is_searched_again_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked, search = list[bool](), judging.search_premises
+    asked, search = list[bool](), claim_search.search_premises
 
     def first_in_vain(*rest: Any) -> Any:
         asked.append(rest[-1])
         for name, proof in search(*rest):
             yield name, proof if rest[-1] else ("proof", [], ("close",))
 
-    monkeypatch.setattr(judging, "search_premises", first_in_vain)
+    monkeypatch.setattr(claim_search, "search_premises", first_in_vain)
     assert certify(file_of(tmp_path)) == 0
     assert asked == [False, True, False, True]  # the map, and what is claimed of it
 

@@ -19,11 +19,12 @@ from juggleproof.certificates.language import (
     reals,
 )
 from juggleproof.certificates.search.ranges import Line
+from juggleproof.certificates.work import read
 from juggleproof.proofs.claims import Assertion, Claim
-from juggleproof.proofs.forms import always, read, speaks_of_range
+from juggleproof.proofs.forms import always, speaks_of_range
 from juggleproof.proofs.judgement import Resources, Sharp
 from juggleproof.proofs.judging import Judge, judge
-from juggleproof.proofs.ranges import line_text, search_sharp_range, text_of_range
+from juggleproof.proofs.searches.range_search import line_text, search_sharp_range, text_of_range
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))

@@ -13,8 +13,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import term
 from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.work import Budget
-from juggleproof.proofs.forms import read
+from juggleproof.certificates.work import Budget, read
 from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before

@@ -15,7 +15,7 @@ from juggleproof.proofs.forms import always
 from juggleproof.proofs.judgement import Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.ranges import range_of_rule
+from juggleproof.proofs.rule_ranges import range_of_rule
 from tests.proofs.command.running import Done, run
 from tests.proofs.conftest import Loaded
 

@@ -18,9 +18,8 @@ from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.sine import stored
 from juggleproof.certificates.sine.stored import STATEMENT, STORE, stored_outcomes
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, read
 from juggleproof.proofs.claims import CheckedApart, claims_in
-from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement, Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.reports.results import results_of_run

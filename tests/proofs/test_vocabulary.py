@@ -35,6 +35,7 @@ SINE = ROOT / "certificates" / "sine"  # of one theorem, whose parameters it nam
 ENGINE = [
     *(path for path in sorted((ROOT / "certificates").rglob("*.py")) if path.parent != SINE),
     *sorted((ROOT / "proofs").glob("*.py")),
+    *sorted((ROOT / "proofs" / "searches").glob("*.py")),
     *sorted((ROOT / "proofs" / "smtlib").glob("*.py")),
 ]
 a, alpha, q, r, g, v = reals("a alpha q r g v")

@@ -7,9 +7,9 @@ from functools import cache
 
 import pytest
 
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes import box_search, boxes
 from juggleproof.certificates.votes.questions import Atom, questions, read_statement
-from juggleproof.certificates.votes.vote import Budget, Vote
 from tests.certificates.votes.corpus import FALSE, STATEMENTS, TRUE
 from tests.certificates.votes.independent import fails_at
 

@@ -6,10 +6,10 @@ import pickle
 
 import pytest
 
+from juggleproof.certificates.vote import Budget, Disagreement, Vote, compare
 from juggleproof.certificates.votes import boxes, z3
 from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote, compare
 from tests.certificates.votes.corpus import STATEMENTS
 
 HOLDS = Vote("z3", "holds", "unsat")

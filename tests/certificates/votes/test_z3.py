@@ -11,9 +11,9 @@ from multiprocessing import get_context
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes import z3
 from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.vote import Budget, Vote
 from tests.certificates.votes.corpus import FALSE, ITERATES, SHARP, STATEMENTS, TRUE
 from tests.certificates.votes.independent import fails_at
 
@@ -148,7 +148,7 @@ def _vote_on(text: str) -> Vote:
 
 def test_solvers_are_loaded_only_when_they_are_asked() -> None:
     code = (
-        "import sys, juggleproof.certificates.votes.vote, juggleproof.certificates.votes.z3,"
+        "import sys, juggleproof.certificates.vote, juggleproof.certificates.votes.z3,"
         " juggleproof.certificates.votes.boxes\n"
         "print([name for name in ('z3', 'mpmath', 'sympy') if"
         " name in sys.modules])"
