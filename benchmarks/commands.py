@@ -98,10 +98,12 @@ def measure(arguments: Sequence[str], kept: str = "off") -> tuple[float, float]:
 
     Raises RuntimeError where it cannot be carried out.
     """
+    environment = {**os.environ, "JUGGLEPROOF_CACHE": kept}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
     process = subprocess.Popen(
         arguments,
         cwd=ROOT,
-        env={**os.environ, "JUGGLEPROOF_CACHE": kept},
+        env=environment,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )

@@ -40,11 +40,7 @@ def committed(root: Path) -> list[str]:
         check=True,
     )
     paths = (root / name for name in told.stdout.split("\0") if name)
-    return sorted(
-        path.relative_to(root).as_posix()
-        for path in paths
-        if path.is_file() and not path.is_symlink()
-    )
+    return sorted(path.relative_to(root).as_posix() for path in paths if path.is_file())
 
 
 class Facts(NamedTuple):
