@@ -26,7 +26,7 @@ from juggleproof.proofs.reports.contents import (
     results_of,
 )
 from juggleproof.proofs.reports.results import Results
-from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
+from tests.proofs.reports.runs import FALSE, OPEN, contents, made_of, own, paper
 
 Document = dict[str, Any]  # as JSON has it
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
@@ -122,7 +122,7 @@ def test_report_writes_what_a_run_would_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     assert report.report([wanted], tmp_path / "new") == 0
     assert [path.name for path in (tmp_path / "new").iterdir()] == [name] and (
         tmp_path / "new" / name

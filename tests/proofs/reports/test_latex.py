@@ -16,7 +16,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command import formats, report
+from juggleproof.proofs.command import formats
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.reading.meaning import read
@@ -28,7 +28,7 @@ from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
 from juggleproof.proofs.run import judge_some
 from tests.proofs.reports.comparison import differences, read_latex
-from tests.proofs.reports.runs import contents
+from tests.proofs.reports.runs import contents, made_of
 
 # -------------------------------------------------------------------------------------------------
 # Formulas.
@@ -387,7 +387,7 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     monkeypatch.setattr(formats, "saved", lambda contents, form: ())
     monkeypatch.setattr(shutil, "which", lambda name: None)
     assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
