@@ -343,7 +343,7 @@ def _rules(
 ) -> tuple[Rule, ...]:
     if THEOREM not in store.texts:
         return ()
-    rules, nodes = tree.rules_of(store), list[Rule]()
+    rules, nodes = tree.rules_of(store, [THEOREM]), list[Rule]()
     for name in tree.with_all_below(THEOREM, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
