@@ -96,10 +96,6 @@ def test_sharp_ranges_stand_by_reading_holds() -> None:
         ) == one.sharp.replace("no alpha", ""), one.id
 
 
-def test_report_and_run_write_the_same_document_holds() -> None:
-    assert as_json(contents()) == as_json(paper())
-
-
 @pytest.mark.exhaust
 def test_report_gathers_what_a_run_comes_to_holds() -> None:
     """As the command gathers it, in processes of its own."""
