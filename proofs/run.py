@@ -183,14 +183,16 @@ def judge_stored(
     progress: Progress = no_progress,
     executor: Executor | None = None,
     is_checked_after: bool = False,
+    checked: Checked | None = None,
 ) -> Run:
     """The same without writing anything: `checked` is the checker's reading of the store as it is,
-    and what waits for other claims is not settled; lemmas are used that the checker accepted in the
-    store, or all where it reads what comes of them.
+    which is read here unless it was just now, and what waits for other claims is not settled;
+    lemmas are used that the checker accepted in the store, or all where it reads what comes of
+    them.
     """
     refuse_duplicates(claims)
     chosen, jobs = _selected(claims, options.only), options.processes
-    with Reading(options.store, jobs, nothing=options.fresh) as reading:
+    with Reading(options.store, jobs, options.fresh or checked is not None) as reading:
         resources = Resources(
             options.routes,
             options.budget,
@@ -199,11 +201,16 @@ def judge_stored(
             votes={} if options.revote else votes_on_record(options.store, claims),
             lemmas=lemmas(by_id(claims), chosen),
         )
-        resources = replace(resources, checked=reading.outcomes())
+        outcomes = reading.outcomes()
+        if checked is None:
+            checked = reading.results
+        else:
+            outcomes = {name: outcome for name, outcome, _ in checked}
+        resources = replace(resources, checked=outcomes)
         if not is_checked_after:
             resources = replace(resources, lemmas=accepted(resources))
     judgements, seconds = judge_all(chosen, resources, jobs, progress, executor)
-    return Run(chosen, judgements, seconds, reading.results, options.store)
+    return Run(chosen, judgements, seconds, checked, options.store)
 
 
 def judge_some(

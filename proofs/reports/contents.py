@@ -6,6 +6,7 @@ import sys
 import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -17,7 +18,7 @@ from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.vote import Vote
 from juggleproof.proofs import paper
-from juggleproof.proofs.checked import outcomes_of
+from juggleproof.proofs.checked import Checked, outcomes_of
 from juggleproof.proofs.claims import VERDICTS, Claim, awaited
 from juggleproof.proofs.judgement import Correction, Judgement, statements_of
 from juggleproof.proofs.register import (
@@ -162,13 +163,18 @@ class Contents:
         return next(one for one in self.entries if one.claim.id == claim_id)
 
 
-def gather(register: Path = PATH) -> Contents:
-    """The contents of a report on the stored claims.
+def gather(register: Path = PATH, checked: Checked | None = None) -> Contents:
+    """The contents of a report on the stored claims, by what the checker says of the store, or has
+    just said.
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
     before = load_register(register)
-    done = judge_stored(paper.paper_claims(), Options(DEFAULT))
+    claims = paper.paper_claims()
+    for claim in claims:
+        with suppress(ClaimError, checker.Rejected):  # which judging raises, and says where
+            claim.body()  # stated once, before there are other processes
+    done = judge_stored(claims, Options(DEFAULT), checked=checked)
     settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, by_id(done.claims))
     return contents_of(done, before)
 
@@ -352,7 +358,7 @@ def _rules(
 ) -> tuple[Rule, ...]:
     if THEOREM not in store.texts:
         return ()
-    rules, nodes = tree.rules_of(store), list[Rule]()
+    rules, nodes = tree.rules_of(store, [THEOREM]), list[Rule]()
     for name in tree.with_all_below(THEOREM, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
