@@ -11,7 +11,7 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -154,11 +154,8 @@ COMMANDS = [(page, one) for one, page in FIRST.items()]
 
 
 @pytest.fixture(scope="module", autouse=True)
-def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """A folder for the records of these runs: what one has derived, the next need not."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("JUGGLEPROOF_CACHE", str(tmp_path_factory.mktemp("records")))
-        yield
+def _kept(kept_records: None) -> None:
+    """With the records that other tests keep."""
 
 
 Run = Callable[[str, Path], Done]

@@ -14,6 +14,7 @@ import pytest
 from sympy import ImmutableMatrix, sqrt
 
 import juggleproof.symbolic as s
+from tests.rows import each_row
 
 MODULES = sorted(
     path.stem for path in Path(s.__file__).parent.glob("*.py") if path.stem != "__init__"
@@ -45,7 +46,7 @@ def test_unknown_name_is_refused_holds() -> None:
         s.no_such_name  # noqa: B018
 
 
-@pytest.mark.parametrize("module", ["", *(f".{name}" for name in MODULES)])
+@each_row("module", ["", *(f".{name}" for name in MODULES)])
 def test_examples_in_docstrings_hold(module: str) -> None:
     assert doctest.testmod(import_module(f"juggleproof.symbolic{module}")).failed == 0
 

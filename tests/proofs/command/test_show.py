@@ -21,6 +21,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.tables import draw
 from tests.proofs.command import running
+from tests.rows import each_row
 
 
 def heads(text: str) -> list[str]:
@@ -98,7 +99,7 @@ def test_claims_of_a_section_and_a_verdict_are_listed_holds(
     assert [line.split()[0] for line in lines] == [one["id"] for one in listed]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("section", "verdict", "reason"),
     [("9", "", "--section 9: no claim is of it"), ("", "wrong", "choose from holds, misprint")],
 )

@@ -1,7 +1,7 @@
 """Theorems on the orbits of one's own maps, and statements of one's own stores, as files that coqc
-accepts by themselves; what is forged or changed it refuses.  `make test` compiles a theorem of each
-kind and tries a share of its changes; with JUGGLEPROOF_MUTANTS=many (make exhaust) it
-compiles all theorems and tries a larger share.
+accepts by themselves; what is forged or changed it refuses.  `make test` reads what they say,
+and compiles the statements; `make exhaust` compiles a theorem of each kind and tries a share of its
+changes, and with JUGGLEPROOF_MUTANTS=many all theorems and a larger share.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import REALS, Answer, Coq, axioms, compiled
 from tests.proofs.coq.maps import WORDS
+from tests.rows import each_row
 from tests.share import MANY, share
 
 SHARE = share(4, 2)
@@ -36,7 +37,7 @@ TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
 PARTED, NEARER, RETURNED = "parted/ends", "nearer/ends", "returned/orbits"
-ALONE = SHARP  # compiled as it is written, in each run of the tests
+ALONE = SHARP  # compiled as it is written
 
 
 def settles(point: str, of: str = "a", what: str = "", words: str = "Map.space {} Map.f") -> str:
@@ -168,6 +169,7 @@ def test_a_theorem_says_what_is_proved_and_admits_nothing_holds(name: str, files
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b(?!')", text)
 
 
+@pytest.mark.exhaust
 def test_coqc_accepts_a_theorem_as_it_is_written_holds(files: Path, tmp_path: Path) -> None:
     answer = alone(tmp_path, (files / f"S_{ALONE.replace('/', '_')}.v").read_text())
     assert answer.accepted and answer.output.startswith("Axioms:\n"), answer.output
@@ -360,20 +362,21 @@ def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
         export_coq([str(tmp_path / "none.certificates")], None)
 
 
-@pytest.mark.parametrize(
+@each_row(
     "names, says",
     [
-        (
-            [str(MAPS)],
-            "several theorems, scaled/exactly, mixed/all,",
-        ),
+        (["two.py"], "two.py: several theorems, scaled/exactly, mixed/all; give -o"),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
         (["none.smt2"], "none.smt2: no such file"),
         (["a.smt2", "b.smt2"], "b.smt2: a second store; export them one after the other"),
     ],
 )
-def test_rejects_what_is_no_question(names: list[str], says: str) -> None:
+def test_rejects_what_is_no_question(
+    names: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "two.py").write_text(first_two())
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq(names, None)
 
