@@ -89,6 +89,7 @@ ELSEWHERE = {
         "tests/scenes/table/test_attractors.py",
         '"--picture", "attractors"',
     ),
+    "juggleproof errata": ("tests/proofs/command/test_show.py", 'running.run("errata")'),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof certify --only eq-37": (
