@@ -129,6 +129,7 @@ ELSEWHERE = {
         "tests/benchmarks/test_engines.py",
         "engines.main([])",
     ),
+    "python -m juggleproof.benchmarks.sine": ("tests/benchmarks/test_sine.py", "sine.main()"),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
     "python -m juggleproof.benchmarks.peers": (
         "tests/benchmarks/test_peers.py",
