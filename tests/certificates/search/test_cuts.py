@@ -9,6 +9,7 @@ from juggleproof.certificates.search.boxes.cuts import close_by_cuts
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
+from tests.rows import each_row
 
 UNIT = "x >= 0 and x <= 1 and y >= 0 and y <= 1"
 CLOSED = {
@@ -28,7 +29,7 @@ def state(text: str) -> State:
     return State(context).assume(context.formula(checker.parse(text)))
 
 
-@pytest.mark.parametrize("name", CLOSED)
+@each_row("name", CLOSED)
 def test_constraints_without_a_common_point_are_closed_holds(name: str) -> None:
     one = state(CLOSED[name])
     node = close_by_cuts(one, Budget(10**6))

@@ -16,13 +16,14 @@ from juggleproof.certificates.votes import z3
 from juggleproof.certificates.votes.questions import read_statement
 from tests.certificates.votes.corpus import FALSE, ITERATES, SHARP, STATEMENTS, TRUE
 from tests.certificates.votes.independent import fails_at
+from tests.rows import each_row
 
 
 def vote(*rows: str, budget: Budget | None = None) -> Vote:
     return z3.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_every_statement_of_the_corpus_is_decided_as_it_is_known_to_be(name: str) -> None:
     statement, expected = STATEMENTS[name]
     cast = z3.vote(statement)
