@@ -62,6 +62,8 @@ BY_MONOMIALS = 25_000  # the same, for products along monomials
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
+MOST_KEPT = 1000  # facts
+_no_forms: dict[tuple[object, ...], int] = {}  # facts without such a node -> the work that it takes
 
 
 @dataclass(frozen=True)
@@ -282,10 +284,22 @@ class Closing:
     def forms(self, state: State, coupled: bool) -> Node | None:
         """Quadratic forms with parameters in a box, with little work where not `coupled`."""
         part = self.budget.part(FORMS_LAST if coupled else FORMS_FIRST)
-        try:
-            return search_forms(state, self.problem(state).ring, part, coupled)
-        except Exhausted:
+        facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
+        key = (*state.context.index, *facts, coupled, part.left)
+        problem = self.problem(state)
+        if key in _no_forms:  # the same facts come back at greater effort
+            self.budget.spend(_no_forms[key])
             return None
+        before, node = part.left, None
+        try:
+            node = search_forms(state, problem.ring, part, coupled)
+        except Exhausted:
+            pass
+        if node is None:
+            if len(_no_forms) >= MOST_KEPT:
+                _no_forms.clear()
+            _no_forms[key] = before - part.left
+        return node
 
     def by_factors(
         self, state: State, factors: Sequence[str], depth: int, level: int = 0
