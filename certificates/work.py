@@ -80,7 +80,9 @@ class Unfolded(checker.Unfolding):
     ) -> None:
         self.statement, self.sharp = statement, [*(sharp or [])]
         # what was unfolded after each line, of which the first ones are those of the other
-        self.after: list[dict[str, Any]] = [] if before is None else before.after[: self._shared(before)]
+        self.after: list[dict[str, Any]] = (
+            [] if before is None else before.after[: self._shared(before)]
+        )
         self.lines_to_skip = len(self.after)
         super().__init__(statement, checker.Context(), sharp)
 
@@ -99,8 +101,9 @@ class Unfolded(checker.Unfolding):
             super().line(*said)
             self.after.append(_copied(self.__dict__))
         elif not self.lines_to_skip:
-            self.__dict__.update(_copied(self.after[-1]))
-            self.context.work.left = checker.MAX_WORK  # what the other one has spent is not its own
+            last = self.after[-1]
+            last["context"].work.left = checker.MAX_WORK  # what others have spent is not its own
+            self.__dict__.update(_copied(last))
 
 
 ADDED = ("premises", "obligations", "goals", "variables", "universal")
