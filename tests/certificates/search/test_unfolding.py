@@ -44,7 +44,7 @@ def shown(unfolding: checker.Unfolding) -> tuple[object, ...]:
         (unfolding.variables, unfolding.universal, context.index, context.integers),
         context.values.keys(),
         written(context.formula(checker.parse("x + 1/x > y or x = 3")))
-        if "x" in unfolding.variables
+        if {"x", "y"} <= unfolding.variables
         else None,
     )
 
@@ -62,7 +62,7 @@ def test_what_goes_on_from_another_statement_is_as_alone_holds(name: str) -> Non
 def test_a_line_goes_on_fails_without_the_same_meaning() -> None:
     """The same text, of which a definition makes something else."""
     lines = "forall x\ngiven f(x) > 0\nshow x > 0"
-    one, other = (read(lines, f"define f(v) = {body}\n\n") for body in ("v + 1", "v - 1"))
+    one, other = (read(lines, f"define f(v) := {body}\n\n") for body in ("v + 1", "v - 1"))
     assert one.texts == other.texts
     assert shown(unfolded(one))[0] == [("x + 1", ">")]
     assert shown(unfolded(other))[0] == [("x - 1", ">")]
