@@ -10,7 +10,6 @@ from math import prod
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Node, Sign
-from juggleproof.certificates.search.boxes.cuts import close_by_cuts
 from juggleproof.certificates.search.boxes.over_box import close_over_box
 from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
@@ -257,7 +256,6 @@ class Closing:
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
                 or (None if depth or self.effort == 1 else self.by_monomials(problem))
-                or (None if depth or self.effort == 1 else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
