@@ -28,7 +28,7 @@ from juggleproof.certificates.search.psatz.lifting import (
     shortest_divisor,
     without_common_facts,
 )
-from juggleproof.certificates.search.psatz.linear_program import Program, presolve, solve
+from juggleproof.certificates.search.psatz.linear_program import Matrix, Program, presolve, solve
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
@@ -262,7 +262,8 @@ def test_rejects_resultants_whose_work_no_count_bounds() -> None:
 
 
 def test_columns_that_fall_one_after_another_are_counted_work_holds() -> None:
-    chain = np.eye(100) - np.eye(100, k=-1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    turned = np.eye(100) - np.eye(100, k=1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    chain = Matrix.of(turned)
     strict, budget = np.arange(100) == 99, Budget(2000)
     assert presolve(chain, 100, strict, budget) is None and budget.left == 1000
     with pytest.raises(Exhausted):
