@@ -22,10 +22,16 @@ test: $(VENV)/tools
 exhaust: $(VENV)/tools
 	$(BIN)/python -m tests.exhaust $(STAGE)
 
-lint: $(VENV)/tools
+lint: $(VENV)/tools build/imports
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	@! git grep -nE '^(<{7}|>{7})( |$$)' || { echo "a conflict of a merge is left unsettled"; exit 1; }
+
+# The one import name as folders, for tools that read imports and do not ask Python: mypy, and editors.
+build/imports:
+	mkdir -p build/imports/juggleproof
+	for one in juggleproof/__init__.py juggleproof/py.typed benchmarks certificates proofs scenes symbolic; do \
+	  ln -s ../../../$$one build/imports/juggleproof; done
 
 # The Coq development, all of it and in order, compiled on copies so that nothing is left beside the sources.
 coq:
@@ -72,4 +78,4 @@ $(VENV)/tools: $(VENV)/installed requirements-report.lock requirements-test.lock
 	touch $@
 
 clean:
-	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info
+	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info

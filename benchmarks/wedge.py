@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.certificates.sine.checker import Box
-from juggleproof.certificates.sine.stored import boxes_in
-from juggleproof.proofs.command.sine import WIDE
+from juggleproof.certificates.sine.stored import WIDE, boxes_in
 from juggleproof.scenes.table.curves import doubling, gamma_of, grazing
 
 TABLE = Generated(DOCS / "sine.md", "wedge")

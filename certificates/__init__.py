@@ -14,7 +14,7 @@ In reading order:
 - `processes`: the same work on many items, over processes;
 - `states`: what a search assumes on one branch, and the branches below it;
 - `search`: finds certificates;
-- `votes`: other ways to decide a statement, recorded beside the certificate;
+- `vote`, `votes`: other ways to decide a statement, recorded beside the certificate;
 - `store`: statements and certificates as files;
 - `coq`: the stored statements as Coq lemmas.
 """

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import copy
+from itertools import takewhile
+from typing import Any
 
 from juggleproof.certificates import checker
 
@@ -61,9 +64,73 @@ class Budget:
 
 MOST = 32
 # by ids; the statement and the trees are kept with it, so that their ids stay theirs
-_kept: dict[
-    tuple[int, ...], tuple[checker.Unfolding, checker.Statement, Sequence[ast.expr] | None]
-] = {}
+_kept: dict[tuple[int, ...], Unfolded] = {}
+
+
+class Unfolded(checker.Unfolding):
+    """An unfolding that goes on from one before it where both statements begin with the same lines,
+    as premises of one map rule do.
+    """
+
+    def __init__(
+        self,
+        statement: checker.Statement,
+        sharp: Sequence[ast.expr] | None = None,
+        before: Unfolded | None = None,
+    ) -> None:
+        self.statement, self.sharp = statement, [*(sharp or [])]
+        # what was unfolded after each line, of which the first ones are those of the other
+        self.after: list[dict[str, Any]] = (
+            [] if before is None else before.after[: self._shared(before)]
+        )
+        self.lines_to_skip = len(self.after)
+        super().__init__(statement, checker.Context(), sharp)
+
+    def _shared(self, before: Unfolded) -> int:
+        """How many lines at the beginning are those of the other statement."""
+        one, other = self.statement, before.statement
+        if before.sharp != self.sharp or one.get("integer") != other.get("integer"):
+            return 0
+        pairs = zip(zip(one.texts, one.lines), zip(other.texts, other.lines))
+        return len([*takewhile(lambda pair: same(*pair), pairs)])
+
+    def line(self, *said: Any) -> None:
+        """What one line adds; those that the other one has are taken over at the last of them."""
+        self.lines_to_skip -= 1
+        if self.lines_to_skip < 0:
+            super().line(*said)
+            self.after.append(_copied(self.__dict__))
+        elif not self.lines_to_skip:
+            last = self.after[-1]
+            last["context"].work.left = checker.MAX_WORK  # what others have spent is not its own
+            self.__dict__.update(_copied(last))
+
+
+ADDED = ("premises", "obligations", "goals", "variables", "universal")
+
+
+def _copied(parts: Mapping[str, Any]) -> dict[str, Any]:
+    """What lines have added to an unfolding, apart from what later ones add."""
+    return {"context": checker.Context(parts["context"]), **{n: copy(parts[n]) for n in ADDED}}
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two lines, or two trees, say the same."""
+    if one is other:
+        return True
+    if isinstance(one, ast.AST):
+        names = one._fields
+        return type(one) is type(other) and all(
+            same(getattr(one, name), getattr(other, name)) for name in names
+        )
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return len(one) == len(other) and all(map(same, one, other))
+    return one == other
+
+
+def read(text: str, name: str) -> checker.Statement:
+    """The statement as the checker reads it."""
+    return checker.read_statements(text)[name]
 
 
 def unfolded(
@@ -79,8 +146,9 @@ def unfolded(
     """
     key = (id(statement), *map(id, sharp or ()))
     if key not in _kept:
+        before = next(reversed(_kept.values()), None)
+        unfolding = Unfolded(statement, sharp, before)
         while len(_kept) >= MOST:
             del _kept[next(iter(_kept))]
-        unfolding = checker.Unfolding(statement, checker.Context(), sharp)
-        _kept[key] = unfolding, statement, sharp and list(sharp)
-    return _kept[key][0]
+        _kept[key] = unfolding
+    return _kept[key]

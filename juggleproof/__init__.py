@@ -2,7 +2,7 @@
 
 `symbolic` derives what the paper defines, `proofs` states what it says, `certificates` finds and
 checks certificates, `scenes` iterates the maps, `benchmarks` measures.  The folders stand beside
-this one in the checkout and are linked here, so that one import name holds all of them.
+this one in the checkout; setup.py maps them to one import name.
 
 What users need can be imported from here; a name loads its file when first used (PEP 562), so that
 neither `import juggleproof` nor the checker loads any of it.

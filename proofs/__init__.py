@@ -6,9 +6,11 @@ In reading order, each importing those before it only:
 - `reading`: a print's LaTeX becomes values and formulas.
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
 - `encoding`: SymPy expressions as terms.
-- `correcting`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
+- `correcting`: prints that may mend a refuted one.
 - `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
-- `conclusions`, `orbit_rules`: what a certified rule for orbits says; why a premise has no proof.
+- `conclusions`, `orbit_rules`: what a certified rule for orbits says; rules as a claim writes them.
+- `searches`: certificates, votes and sharp ranges are searched, which loads when first asked.
+- `rule_ranges`: the parameters for which the conclusion of a rule is proved.
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
 - `register`: the verdicts that stand.

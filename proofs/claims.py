@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, TypedDict, TypeVar, Union, get_args
 
 from juggleproof.certificates.cases import with_cases
 from juggleproof.certificates.language import (
+    NO_ROLES,
     AnyStatement,
     ClaimError,
     Formula,
@@ -223,6 +224,12 @@ class Claim:
         """
         domains = self.vocabulary.domains or domains_of(statements, self.parameters)
         return Roles(domains, self.vocabulary.scales)
+
+    def stated(self, roles: Roles) -> Roles:
+        """The roles where its vocabulary states them; what its statements say of a domain says
+        nothing of a map's.
+        """
+        return roles if self.vocabulary.domains else NO_ROLES
 
     def over(self, roles: Roles) -> tuple[str, ...]:
         """The parameters that its sharp ranges are over: those that it names, else the first of its

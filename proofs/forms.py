@@ -84,6 +84,7 @@ class _Writer:
         self.vocabulary, self.known = vocabulary, set[str]()
         self.context = checker.Context()
         self.later: list[Callable[[checker.Context], None]] = []
+        self.nonzero = set[Term]()  # what the lines so far are known to keep from 0
         self.lines: list[Line] = []
         self.sample = dict(vocabulary.sample)
         self.alone: dict[str, list[Formula]] = {}  # the lines about one variable only
@@ -121,6 +122,10 @@ class _Writer:
         )
 
     def _license(self, formula: Formula) -> None:
+        if formula.op in (">", "!=") and str(formula.sides[1]) == "0":
+            side = formula.sides[0]
+            if side.op == "var" and side.name not in self.vocabulary.abbreviations:
+                self.nonzero.add(side)
         self.later.append(
             lambda context: context.license(context.formula(checker.parse(str(formula))))
         )
@@ -155,8 +160,9 @@ class _Writer:
         """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor,
         which the certificate must prove.
         """
-        if below.op == "num":
+        if below.op == "num" or below in self.nonzero:
             return
+        self.nonzero.add(below)  # by what is known now, or by the lines that this adds
         context = self.by_now()
         try:
             context.reciprocal(checker.parse(str(below)))
@@ -430,11 +436,6 @@ def same_set(
 
 # -------------------------------------------------------------------------------------------------
 # What the hypotheses of a statement say: the domain of a parameter, or a part of it.
-
-
-def read(text: str, name: str) -> checker.Statement:
-    """The statement as the checker reads it."""
-    return checker.read_statements(text)[name]
 
 
 def domains_of(

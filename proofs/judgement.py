@@ -6,13 +6,13 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib.metadata import version
+from importlib import import_module
 from typing import TypedDict
 
 from juggleproof.certificates.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
-from juggleproof.certificates.votes.vote import ANSWERS, Budget, Vote
+from juggleproof.certificates.vote import ANSWERS, Budget, Vote
 from juggleproof.proofs.claims import Claim, Verdict, as_body, assertions
 
 ROUTES = ("exact", "z3", "boxes")
@@ -87,6 +87,7 @@ def _values(data: object) -> list[object]:
 
 @cache
 def _tools() -> str:
+    version = import_module("importlib.metadata").version  # some hundredths of a second
     return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
 
 

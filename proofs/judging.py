@@ -4,36 +4,26 @@ what is refuted, finds sharp ranges.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import formula_of
 from juggleproof.certificates.language import (
-    NO_ROLES,
     AnyStatement,
     ClaimError,
-    Formula,
-    Iterates,
     MapRule,
-    Roles,
     SharpRange,
     Statement,
     conjunction,
-    disjunction,
     names_in,
     rests_on,
 )
-from juggleproof.certificates.nodes import Certificate, Counterexample
-from juggleproof.certificates.search.certificate import search_certificate, search_premises
-from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.points import search_values
-from juggleproof.certificates.states import State, state_of
-from juggleproof.certificates.votes.casting import cast_votes
-from juggleproof.certificates.votes.vote import Budget as Asking
-from juggleproof.certificates.votes.vote import Vote, agree
-from juggleproof.certificates.votes.z3 import Model, vote_and_model
-from juggleproof.certificates.work import Budget, Exhausted, unfolded
+from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.vote import Budget, Vote, agree
+from juggleproof.certificates.work import read
+from juggleproof.proofs import searches
 from juggleproof.proofs.claims import (
     REMARK,
     Argument,
@@ -49,16 +39,10 @@ from juggleproof.proofs.claims import (
     named_statements,
     outcome_of,
     place_in_file,
-    stated_texts,
     verdict_of,
 )
 from juggleproof.proofs.correcting import Candidate, candidates
-from juggleproof.proofs.evaluating import at_simple_values, is_simple
-from juggleproof.proofs.forms import (
-    has_whole_range,
-    read,
-    speaks_of_range,
-)
+from juggleproof.proofs.forms import has_whole_range, speaks_of_range
 from juggleproof.proofs.judgement import (
     Finding,
     Judgement,
@@ -68,18 +52,11 @@ from juggleproof.proofs.judgement import (
     digest,
     digest_of_question,
 )
-from juggleproof.proofs.orbit_rules import premises_of, read_rule, why
-from juggleproof.proofs.ranges import (
-    range_of_rule,
-    rule_domain,
-    search_sharp_range,
-    text_of_range,
-    whole_text,
-)
+from juggleproof.proofs.orbit_rules import read_rule
+from juggleproof.proofs.rule_ranges import range_of_rule, rule_domain, whole_text
 
-QUICK_BUDGET = 150_000
-TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
 NOT_FOUND = "not found"
+TRIAL = 10  # a candidate correction gets this part of the budget
 SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
@@ -99,123 +76,6 @@ def judge(claim: Claim, resources: Resources) -> Judgement:
         ) from None
 
 
-def settle_by_rules(
-    judgements: Sequence[Judgement],
-    outcomes: Mapping[str, str],
-    texts: Mapping[str, str],
-    claims: Mapping[str, Claim],
-) -> None:
-    """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
-    the outcomes of all statements are known, with their texts; the claims state what these should
-    be.
-    """
-    stated = dict[str, str]()
-    above = list[str]()
-
-    def stands(name: str) -> bool:
-        """Whether the claim holds by the outcomes of its statements as stated, and by what it
-        awaits, which is not itself.
-        """
-        claim = claims.get(name)
-        if claim is None or name in above:
-            return False
-        above.append(name)
-        settled = {
-            one: outcomes.get(one, "unknown")
-            for one, text in stated_texts(claim).items()
-            if texts.get(one) == text
-        }
-        body, beside = claim.body(), claim.shown_beside()
-        settled.update((one, "certified") for one in awaited(body) if holds(one))
-        above.pop()
-        if beside and outcome_of(name, REMARK, beside, settled) != "certified":
-            return False
-        return verdict_of(name, body, settled).word == "holds"
-
-    def holds(name: str) -> bool:
-        """Whether the claim stands, or the rule is certified, and it and all that it rests on are
-        rules, and as stated.
-        """
-        if "/" not in name:
-            return stands(name)
-        names = [name] if outcomes.get(name) == "certified" else []
-        for one in names:
-            claim = claims.get(one.split("/")[0])
-            if one not in stated and claim is not None:
-                stated.update(stated_texts(claim))
-            if one not in stated or texts.get(one) != stated[one]:
-                return False
-            rule = read(stated[one], one)
-            if rule.kind not in checker.orbit_rules():
-                return False
-            names += [each for each in rests_on(rule) if each not in names]
-        return bool(names)
-
-    for one in judgements:
-        if one.awaits and all(map(holds, one.awaits)):
-            one.verdict = one.by_rules
-        if one.follows:
-            held = one.verdict.word == "holds"
-            text = (
-                range_of_rule(
-                    one.rests_on[-1], texts, _stated(one.roles, claims[one.id]), one.is_conclusion
-                )
-                if held
-                else NOT_FOUND
-            )
-            one.sharp[""] = Sharp(text, one.rests_on)
-
-
-def refuse_vacuous(
-    statement: Statement,
-    outcome: str,
-    known: dict[str, checker.Statement],
-    budget: int,
-    roles: Roles = NO_ROLES,
-) -> None:
-    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
-    a denominator from vanishing.
-    """
-
-    def is_refuted(part: Statement) -> bool:
-        try:
-            return "refuted" in search_certificate(
-                read(part.text(), part.name), known, Budget(budget), roles=roles
-            )
-        except Exhausted:
-            return False
-
-    for index, (keyword, formula) in enumerate(statement.lines):
-        if keyword == "have" and isinstance(formula, Formula):
-            before = Statement(
-                statement.name,
-                statement.forall,
-                statement.lines[:index],
-                formula,
-                statement.integer,
-            )
-            if is_refuted(before):
-                raise ClaimError(
-                    f"{statement.name}: division by what may vanish ({formula} does not follow); "
-                    "add a given that keeps it from 0"
-                )
-    if outcome == "refuted":
-        return
-    impossible = Statement(
-        statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
-    )
-    unfolding = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
-    try:
-        impossible_for_all = search_closing(state_of(unfolding), known, Budget(budget)) is not None
-    except Exhausted:
-        impossible_for_all = False
-    if impossible_for_all:
-        raise ClaimError(
-            f"{statement.name}: its hypotheses contradict one another, so it would say nothing;"
-            " drop or mend a given"
-        )
-
-
 class Judge:
     """One claim on its way to a judgement."""
 
@@ -225,6 +85,21 @@ class Judge:
         self.premises: dict[str, dict[str, checker.Statement]] = {}  # of rules that were searched
         self.is_trial = self.lacks_lemmas = False
         self.where = claim.where  # file and line of what is settled
+
+    @cached_property
+    def search(self) -> searches.ClaimSearch:
+        """The searches for the claim, which are loaded when one of them is first asked."""
+        return searches.ClaimSearch(
+            self.resources.budget,
+            self.claim.hints.get("search"),
+            self.claim.vocabulary.roots.values(),
+            self.judgement.roles,
+            self.known,
+            self.judgement.outcomes,
+            self.premises,
+            self.judgement.unproved,
+            self.is_trial,
+        )
 
     @property
     def finding(self) -> Finding:
@@ -314,11 +189,12 @@ class Judge:
         """The outcome of one statement, by a stored certificate that is still valid or by a
         search; what was unknown is searched again, by this budget and from what is known now.
         """
-        rests: list[str] = []
+        rule, rests = None, list[str]()
         self.where = self.claim.where
         if isinstance(statement, MapRule):
             self.where = self.place_of(statement)
-            rests = rests_on(read_rule(statement))
+            rule = read_rule(statement)
+            rests = rests_on(rule)
         name, text = statement.name, statement.text()
         store = self.resources.store
         certificate: Certificate | None = store.certificate(name, text) if store else None
@@ -326,20 +202,20 @@ class Judge:
             certificate = None
         outcome = self.stored_outcome(name, text, certificate)
         if certificate is None or outcome in ("rejected", "unknown"):
-            parsed = read(text, name)
-            certificate = self.search(statement, parsed, confirm=False)
-            outcome = self.check(parsed, certificate)
-            if outcome == "rejected":
-                certificate = self.search(statement, parsed, confirm=True)
+            parsed = rule or read(text, name)
+            for confirm in (False, True):
+                certificate = self.search.certificate(statement, parsed, confirm, self.where)
                 outcome = self.check(parsed, certificate)
-            if outcome == "rejected":
+                if outcome != "rejected":
+                    break
+            else:
                 certificate, outcome = {"unknown": "the search found no certificate"}, "unknown"
         self.record(name, text, certificate, outcome)
         if isinstance(statement, Statement):
             self.judgement.votes[name] = self.votes(name, text, outcome)
-        if isinstance(statement, MapRule) and outcome == "certified":
-            self.known[name] = read(text, name)
-            premises = self.premises.get(name) or checker.premises_of(self.known[name], self.known)
+        if rule and outcome == "certified":
+            self.known[name] = rule
+            premises = self.premises.get(name) or checker.premises_of(rule, self.known)
             for premise in premises.values():
                 self.judgement.votes[premise.name] = self.votes(
                     premise.name, premise.text(), outcome
@@ -353,50 +229,6 @@ class Judge:
         place = place_in_file(*rule.place) if rule.place else ""
         own = self.claim.where.rpartition(":")[0]
         return place if place.rpartition(":")[0] == own else self.claim.where
-
-    def search_rule(
-        self, rule: checker.Statement, lemmas: Mapping[str, Sequence[str]], confirm: bool
-    ) -> Certificate:
-        """A proof of each premise of a map rule, or why some have none; with `confirm` the checker
-        confirms each before the search goes on.
-
-        Raises ClaimError where the premises cannot be written, and for a lemma that is for none of
-        them, or cannot be read.
-        """
-        stated = {**self.judgement.outcomes, **self.known}
-        premises = premises_of(rule, self.known, stated)
-        if isinstance(premises, str):
-            return {"unknown": premises}
-        self.premises[rule.name] = premises
-        for name in lemmas:
-            if name not in premises or premises[name].get("exists"):
-                raise ClaimError(
-                    f"{rule.name}: the line `lemma {name}: ..` names no premise; name one"
-                    f" of {', '.join(one for one in premises if one != 'possible')}"
-                )
-        answers: dict[str, tuple[Vote, Model | None]] = {}
-
-        def is_false(name: str) -> bool:
-            answers[name] = vote_and_model(premises[name])
-            return answers[name][1] is not None
-
-        budget = self.resources.budget
-        try:
-            found = dict(search_premises(premises, self.known, budget, lemmas, is_false, confirm))
-        except checker.Rejected as reason:
-            raise ClaimError(f"{rule.name}: {reason}") from None
-        proofs = {name: proof for name, proof in found.items() if proof is not None}
-        if proofs.keys() == found.keys():
-            return {"certified": proofs}
-        reasons = {
-            name: why(rule.kind, name, premises[name], answers[name], budget)
-            for name in found
-            if name not in proofs
-        }
-        self.judgement.unproved[rule.name] = [premises[name].text() for name in reasons]
-        count = f"{len(reasons)} of the {len(premises)} premises of `{rule.kind}` at {self.where}:"
-        between = "\n  " if len(reasons) > 1 else " "
-        return {"unknown": between.join([count, *reasons.values()])}
 
     def stored_outcome(self, name: str, text: str, certificate: Certificate | None) -> str:
         """The checker's outcome of the stored certificate when it read the store; it is asked again
@@ -415,9 +247,12 @@ class Judge:
         """One vote a route: as it is on record, where the very same was asked and no vote
         contradicts the outcome, or else cast now.
         """
-        routes, budget = [route for route in self.resources.routes if route != "exact"], Asking()
+        routes, budget = [route for route in self.resources.routes if route != "exact"], Budget()
+        recorded = self.resources.votes.get(self.claim.id)
+        if not routes and not recorded:
+            return ()
         on = digest_of_question(text, budget)
-        earlier = self.resources.votes.get(self.claim.id, {}).get(on)
+        earlier = recorded and recorded.get(on)
         if earlier:
             quoted = _as_votes(earlier, routes)
             if {vote.route for vote in quoted} == {*routes} and agree(name, outcome, quoted):
@@ -429,68 +264,11 @@ class Judge:
             "on": on,
             "votes": [
                 {"route": vote.route, "answer": vote.answer, "detail": str(vote)}
-                for vote in cast_votes(read(text, name), outcome, routes, budget)
+                for vote in self.search.votes(name, text, outcome, routes, budget)
             ],
         }
         self.judgement.recorded[name] = votes
         return _as_votes(votes, routes)
-
-    def search(
-        self, statement: AnyStatement, parsed: checker.Statement, confirm: bool
-    ) -> Certificate:
-        """A certificate by a search, or the reason why there is none; with `confirm` the checker
-        confirms each node before the search goes on.
-
-        Raises ClaimError where the hypotheses contradict one another, or do not keep a denominator
-        from vanishing.
-        """
-        hints, budget = self.claim.hints, self.resources.budget
-        if isinstance(statement, (Iterates, MapRule)):
-            return self.search_rule(parsed, getattr(statement, "lemmas", {}), confirm)
-        certificate: Certificate
-        try:
-            certificate = search_certificate(
-                parsed,
-                self.known,
-                Budget(budget),
-                hints.get("search"),
-                confirm,
-                roles=self.judgement.roles,
-            )
-        except Exhausted:
-            certificate = {"unknown": f"the budget of {budget} units ran out"}
-        if isinstance(statement, Statement) and not self.is_trial:
-            certificate = self.in_simple_values(statement, certificate)
-        if "certified" not in certificate and isinstance(statement, Statement):
-            if not self.is_trial:
-                outcome = "refuted" if "refuted" in certificate else "unknown"
-                refuse_vacuous(
-                    statement, outcome, self.known, budget // TRIAL, self.judgement.roles
-                )
-        return certificate
-
-    def in_simple_values(self, statement: Statement, certificate: Certificate) -> Certificate:
-        """The counterexample of a refutation in simple rationals, where a search with the parameter
-        at a simple value finds one that the checker accepts; else the refutation as it is.
-        """
-        found, parameter = certificate.get("refuted"), self.judgement.roles.parameter
-        if not isinstance(found, Counterexample) or is_simple(found):
-            return certificate
-        if parameter not in found.terms:
-            return certificate
-        for one in at_simple_values(statement, parameter, self.claim.vocabulary.roots.values()):
-            budget = Budget(self.resources.budget // TRIAL)
-            try:
-                there = search_certificate(
-                    read(one.text(), one.name), self.known, budget, roles=self.judgement.roles
-                ).get("refuted")
-            except Exhausted:
-                continue
-            if isinstance(there, Counterexample) and is_simple(there):
-                simple: Certificate = {"refuted": there._replace(node=("close",))}
-                if self.check(read(statement.text(), statement.name), simple) == "refuted":
-                    return simple
-        return certificate
 
     def check(self, statement: checker.Statement, certificate: Certificate) -> str:
         """The checker's outcome: certified, refuted, unknown or rejected."""
@@ -571,7 +349,8 @@ class Judge:
             if not statements:
                 return False
             if not all(map(self.is_stored_certified, statements)) and any(
-                self.is_refuted_by_sampling(read(part.text(), part.name)) for part in statements
+                self.search.is_refuted_by_sampling(read(part.text(), part.name))
+                for part in statements
             ):
                 return False
         except (ClaimError, checker.Rejected):
@@ -604,24 +383,6 @@ class Judge:
         trial = Judge(self.claim, replace(self.resources, routes=("exact",), budget=budget))
         trial.known, trial.is_trial, trial.judgement.roles = self.known, True, self.judgement.roles
         return trial
-
-    def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
-        """Whether a quick search at sample points meets a counterexample; it proves nothing."""
-        if parsed.kind != "universal":
-            return False
-        unfolded(parsed)
-        start = State(checker.Context())
-        values = search_values(
-            parsed,
-            start,
-            "counterexample",
-            {},
-            self.known,
-            Budget(QUICK_BUDGET),
-            effort=0,
-            roles=self.judgement.roles,
-        )
-        return values is not None
 
     # -------------------------------------------------------------- sharp ranges
 
@@ -682,12 +443,13 @@ class Judge:
         for one in rested_on:
             if one not in texts:  # of a claim that this one does not name among what it uses
                 return None
-            rested_on += rests_on(read(texts[one], one))
+            rows = (row.partition(" ") for row in texts[one].splitlines())
+            rested_on += [rest for keyword, _, rest in rows if keyword in checker.NAMED]
         domain = rule_domain(name, texts)[0]
         others = {part.name for part in parts if isinstance(part, MapRule)} - {*rested_on}
         if not all(self.contains(rule_domain(one, texts)[0], domain) for one in sorted(others)):
             return None
-        text = range_of_rule(name, texts, _stated(self.judgement.roles, self.claim))
+        text = range_of_rule(name, texts, self.claim.stated(self.judgement.roles))
         return Sharp(text, (name,)) if text else None
 
     def contains(self, outer: str, inner: str) -> bool:
@@ -704,8 +466,8 @@ class Judge:
         name = f"{self.claim.id}/contained"
         try:
             parsed = read(f"statement {name}\n{text}", name)
-            found = search_certificate(parsed, {}, Budget(QUICK_BUDGET))
-        except (checker.Rejected, Exhausted):
+            found = self.search.certificate_of_inclusion(parsed)
+        except checker.Rejected:
             return False
         return "certified" in found and self.check(parsed, found) == "certified"
 
@@ -724,7 +486,9 @@ class Judge:
         certificate = store.certificate(name, text)
         if certificate is None or self.sharp_outcome(name, text, certificate, parts) != "certified":
             return None
-        shown = text_of_range(text, parts, over, self.judgement.roles, self.resources.budget)
+        shown = searches.text_of_range(
+            text, parts, over, self.judgement.roles, self.resources.budget
+        )
         if shown is None:
             return None
         self.record(name, text, certificate, "certified")
@@ -736,12 +500,12 @@ class Judge:
         """The sharp range of these statements by a search, unless the same one failed in an earlier
         run.
         """
-        name, budget = f"{self.claim.id}/{prefix}sharp", self.resources.budget
-        roles = self.judgement.roles
-        tried = digest(f"{budget}\n" + "\n".join(part.text() for part in parts))
+        name = f"{self.claim.id}/{prefix}sharp"
+        tried = digest(f"{self.resources.budget}\n" + "\n".join(part.text() for part in parts))
         if self.finding.get("not found", {}).get(prefix) == tried:
             return Sharp(NOT_FOUND, tried=tried)
-        result = search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
+        roles, budget = self.judgement.roles, self.resources.budget
+        result = searches.search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
         sharp, proof = result
@@ -750,7 +514,7 @@ class Judge:
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier
         )
-        shown = text_of_range(sharp.text(), parts, over, roles, budget)
+        shown = searches.text_of_range(sharp.text(), parts, over, roles, budget)
         if outcome != "certified" or shown is None:
             return Sharp(f"{NOT_FOUND} ({reason or 'not on the whole domain'})")
         self.record(name, sharp.text(), certificate, outcome)
@@ -769,13 +533,6 @@ class Judge:
             return "certified"
         earlier = {one.name: read(one.text(), one.name) for one in ranged}
         return checker.check_one(read(stored, name), certificate, self.known, earlier)[0]
-
-
-def _stated(roles: Roles, claim: Claim) -> Roles:
-    """The roles where the vocabulary of the claim states them; what its statements say of a domain
-    says nothing of a map's.
-    """
-    return roles if claim.vocabulary.domains else NO_ROLES
 
 
 def _as_votes(recorded: RecordedVotes, routes: Sequence[str]) -> tuple[Vote, ...]:

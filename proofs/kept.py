@@ -1,5 +1,5 @@
-"""Figures and tables that reports have drawn, kept between runs in a file outside the tree; every
-fault of it only costs time, and nothing is concluded from it.
+"""Reports and what they have drawn, kept between runs in files outside the tree; every fault of
+these only costs time, and nothing is concluded from them.
 
 JUGGLEPROOF_CACHE names another folder, or is `off`.
 """
@@ -42,14 +42,16 @@ def folder() -> Path | None:
         return None
 
 
-def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES) -> str:
-    """A digest of the packages' sources, the versions of Python and of the libraries, and the
-    settings.
+def key(
+    *settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES, files: str = "*.py"
+) -> str:
+    """A digest of the packages' files of such names, the versions of Python and of the libraries,
+    and the settings.
     """
     digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
-    for path in _sources(root, packages):
+    for path in _sources(root, packages, files):
         content = path.read_bytes()
         digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
         digest.update(content)
@@ -64,9 +66,11 @@ def version_of(tool: str) -> str:
         return "absent"
 
 
-def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
+def _sources(root: Path, packages: Sequence[str] = SOURCES, files: str = "*.py") -> Iterator[Path]:
     for package in packages:
-        yield from sorted((root / package).rglob("*.py"))
+        for path in sorted((root / package).rglob(files)):
+            if path.parent.name != "__pycache__" and path.is_file():
+                yield path
 
 
 def load(key: str) -> list[Record]:

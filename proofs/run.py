@@ -12,12 +12,13 @@ import traceback
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
-from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.language import ClaimError, rests_on
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.processes import alone, own_pool, spread
 from juggleproof.certificates.store import (
@@ -29,8 +30,10 @@ from juggleproof.certificates.store import (
     write_file,
     write_store,
 )
+from juggleproof.certificates.work import read
 from juggleproof.proofs.checked import Checked, Reading, outcomes_of
 from juggleproof.proofs.claims import (
+    REMARK,
     Claim,
     FixedBody,
     Verdict,
@@ -38,7 +41,9 @@ from juggleproof.proofs.claims import (
     claim_named,
     claims_in,
     claims_of,
+    outcome_of,
     stated_texts,
+    verdict_of,
 )
 from juggleproof.proofs.judgement import (
     DEFAULT_BUDGET,
@@ -47,9 +52,11 @@ from juggleproof.proofs.judgement import (
     Judgement,
     RecordedVotes,
     Resources,
+    Sharp,
     is_finding,
 )
-from juggleproof.proofs.judging import judge, settle_by_rules
+from juggleproof.proofs.judging import NOT_FOUND, judge
+from juggleproof.proofs.rule_ranges import range_of_rule
 
 FINDINGS = "findings"
 WIDTH = 96  # of a comment in the statement file
@@ -109,7 +116,7 @@ class Run:
     store: Path
     restated: tuple[str, ...] = ()
 
-    @property
+    @cached_property
     def outcomes(self) -> dict[str, str]:
         """The checker's outcome of every stored statement, by name."""
         return {name: outcome for name, outcome, _ in self.checked}
@@ -176,14 +183,16 @@ def judge_stored(
     progress: Progress = no_progress,
     executor: Executor | None = None,
     is_checked_after: bool = False,
+    checked: Checked | None = None,
 ) -> Run:
     """The same without writing anything: `checked` is the checker's reading of the store as it is,
-    and what waits for other claims is not settled; lemmas are used that the checker accepted in the
-    store, or all where it reads what comes of them.
+    which is read here unless it was just now, and what waits for other claims is not settled;
+    lemmas are used that the checker accepted in the store, or all where it reads what comes of
+    them.
     """
     refuse_duplicates(claims)
     chosen, jobs = _selected(claims, options.only), options.processes
-    with Reading(options.store, jobs, nothing=options.fresh) as reading:
+    with Reading(options.store, jobs, options.fresh or checked is not None) as reading:
         resources = Resources(
             options.routes,
             options.budget,
@@ -192,11 +201,16 @@ def judge_stored(
             votes={} if options.revote else votes_on_record(options.store, claims),
             lemmas=lemmas(by_id(claims), chosen),
         )
-        resources = replace(resources, checked=reading.outcomes())
+        outcomes = reading.outcomes()
+        if checked is None:
+            checked = reading.results
+        else:
+            outcomes = {name: outcome for name, outcome, _ in checked}
+        resources = replace(resources, checked=outcomes)
         if not is_checked_after:
             resources = replace(resources, lemmas=accepted(resources))
     judgements, seconds = judge_all(chosen, resources, jobs, progress, executor)
-    return Run(chosen, judgements, seconds, reading.results, options.store)
+    return Run(chosen, judgements, seconds, checked, options.store)
 
 
 def judge_some(
@@ -231,15 +245,91 @@ def judge_some(
         )
     resources = replace(resources, lemmas=certified)
     judgements = [judge(claim, resources) for claim in chosen]
-    names = [name for one in judgements for name in one.awaits]
-    for name in names:
-        if name in claims:
-            below = (*stated_texts(claims[name]), *awaited(claims[name].body()))
-            names += [one for one in below if one not in names]
+    names = with_below((name for one in judgements for name in one.awaits), claims)
     if outcomes is None:
         outcomes = outcomes_of(folder, names) if store.texts and names else {}
     settle_by_rules(judgements, outcomes, store.texts, claims)
     return judgements
+
+
+def with_below(names: Iterable[str], claims: Mapping[str, Claim]) -> list[str]:
+    """The names of rules and claims, and of all that these claims state and await."""
+    found = [*names]
+    for name in found:
+        if name in claims:
+            below = (*stated_texts(claims[name]), *awaited(claims[name].body()))
+            found += [one for one in below if one not in found]
+    return found
+
+
+def settle_by_rules(
+    judgements: Sequence[Judgement],
+    outcomes: Mapping[str, str],
+    texts: Mapping[str, str],
+    claims: Mapping[str, Claim],
+) -> None:
+    """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
+    the outcomes of all statements are known, with their texts; the claims state what these should
+    be.
+    """
+    stated = dict[str, str]()
+    above = list[str]()
+
+    def stands(name: str) -> bool:
+        """Whether the claim holds by the outcomes of its statements as stated, and by what it
+        awaits, which is not itself.
+        """
+        claim = claims.get(name)
+        if claim is None or name in above:
+            return False
+        above.append(name)
+        settled = {
+            one: outcomes.get(one, "unknown")
+            for one, text in stated_texts(claim).items()
+            if texts.get(one) == text
+        }
+        body, beside = claim.body(), claim.shown_beside()
+        settled.update((one, "certified") for one in awaited(body) if holds(one))
+        above.pop()
+        if beside and outcome_of(name, REMARK, beside, settled) != "certified":
+            return False
+        return verdict_of(name, body, settled).word == "holds"
+
+    def holds(name: str) -> bool:
+        """Whether the claim stands, or the rule is certified, and it and all that it rests on are
+        rules, and as stated.
+        """
+        if "/" not in name:
+            return stands(name)
+        names = [name] if outcomes.get(name) == "certified" else []
+        for one in names:
+            claim = claims.get(one.split("/")[0])
+            if one not in stated and claim is not None:
+                stated.update(stated_texts(claim))
+            if one not in stated or texts.get(one) != stated[one]:
+                return False
+            rule = read(stated[one], one)
+            if rule.kind not in checker.orbit_rules():
+                return False
+            names += [each for each in rests_on(rule) if each not in names]
+        return bool(names)
+
+    for one in judgements:
+        if one.awaits and all(map(holds, one.awaits)):
+            one.verdict = one.by_rules
+        if one.follows:
+            held = one.verdict.word == "holds"
+            text = (
+                range_of_rule(
+                    one.rests_on[-1],
+                    texts,
+                    claims[one.id].stated(one.roles),
+                    one.is_conclusion,
+                )
+                if held
+                else NOT_FOUND
+            )
+            one.sharp[""] = Sharp(text, one.rests_on)
 
 
 def accepted(resources: Resources) -> dict[str, str]:

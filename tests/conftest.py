@@ -10,6 +10,7 @@ import gc
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,19 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 settings.register_profile("suite", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("suite")
 pytest_plugins = ["pytester"]
+
+
+@pytest.fixture(scope="module")
+def kept_records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """A folder of kept records for the tests that ask for one, in all workers, as the runs of one
+    user have: what one has derived, the next need not.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        base = tmp_path_factory.getbasetemp()
+        folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "kept"
+        folder.mkdir(exist_ok=True)
+        patch.setenv("JUGGLEPROOF_CACHE", str(folder))
+        yield
 
 
 # What takes longest comes first, so that no process is left with it at the end.

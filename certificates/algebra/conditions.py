@@ -86,10 +86,11 @@ class Condition:
     numbers.
     """
 
-    __slots__ = ("ring", "polys", "tree")
+    __slots__ = ("ring", "polys", "tree", "_used")
 
     def __init__(self, ring: fmpq_mpoly_ctx, polys: Sequence[fmpq_mpoly], tree: Tree) -> None:
         self.ring, self.polys, self.tree = ring, list(polys), tree
+        self._used: list[int] | None = None
 
     @staticmethod
     def of(
@@ -183,7 +184,9 @@ class Condition:
 
     def used(self) -> list[int]:
         """The numbers of the polynomials that still occur in the tree, sorted."""
-        return sorted(set(_indices(self.tree)))
+        if self._used is None:
+            self._used = sorted(set(_indices(self.tree)))
+        return self._used
 
     def variables(self) -> set[str]:
         """The variables that still occur."""

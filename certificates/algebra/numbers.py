@@ -136,9 +136,11 @@ class AlgebraicNumber:
             self.refine()
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, (int, Fraction)):
+        if not isinstance(other, AlgebraicNumber):  # asked first: that is quick
+            if not isinstance(other, (int, Fraction)):
+                return False
             other = AlgebraicNumber.rational(other)
-        if not isinstance(other, AlgebraicNumber) or self.poly != other.poly:
+        if self.poly != other.poly:
             return False
         low, high = max(self._low, other._low), min(self._high, other._high)
         if low > high:

@@ -4,7 +4,7 @@ that meet its equations exactly, and taken apart into squares.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -60,37 +60,42 @@ def feasible(
     rows, sizes = len(right), [block.shape[1] for block in blocks]
     if not rows or not sizes:
         return None
-    flat = [block.reshape(rows, -1) for block in blocks]
+    # most programs have many small matrices: those of one size are worked on at once
+    places = [[k for k, n in enumerate(sizes) if n == size] for size in sorted(set(sizes))]
+    stacks = [np.array([blocks[k] for k in own]) for own in places]
+    flat = [stack.swapaxes(0, 1).reshape(rows, -1) for stack in stacks]
     cost = sum(rows * n**3 + rows * rows * n * n for n in sizes) + rows**3
-    total = sum(sizes)
-    primal, dual, y = (
-        [10 * np.eye(n) for n in sizes],
-        [10 * np.eye(n) for n in sizes],
-        np.zeros(rows),
+    total, y = sum(sizes), np.zeros(rows)
+    primal, dual = (
+        [10 * np.tile(np.eye(stack.shape[-1]), (len(stack), 1, 1)) for stack in stacks]
+        for _ in range(2)
     )
     best: list[Floats] | None = None
     for _ in range(DUAL_STEPS):
         budget.spend(50 + cost // 4000)
-        mu = sum(float((x * z).sum()) for x, z in zip(primal, dual)) / total
+        mu = _product(primal, dual) / total
         missing = right - sum((a @ x.ravel() for a, x in zip(flat, primal)), np.zeros(rows))
         if np.abs(missing).max() < ENOUGH * (1 + np.abs(right).max()):
             best = primal
         if mu < last:
-            return best
+            break
         try:
             with np.errstate(all="ignore"):
-                moved = _step(blocks, flat, primal, dual, y, missing, mu, trace)
+                moved = _step(stacks, flat, primal, dual, y, missing, mu, trace)
         except np.linalg.LinAlgError:
-            return best
+            break
         if moved is None:
-            return best
+            break
         primal, dual, y = moved
         # by weak duality, `trace` times the trace of every solution is no less than right y
         if float(right @ y) > LARGE * max(trace, HARDLY):
-            return best
+            break
         if max(float(np.abs(x).max()) for x in primal) > LARGE:
-            return best
-    return best
+            break
+    if best is None:
+        return None
+    found = dict(pair for own, stack in zip(places, best) for pair in zip(own, stack))
+    return [found[k] for k in range(len(sizes))]
 
 
 def _independent(
@@ -110,7 +115,7 @@ def _independent(
 
 
 def _step(
-    blocks: list[Floats],
+    stacks: list[Floats],
     flat: list[Floats],
     primal: list[Floats],
     dual: list[Floats],
@@ -121,45 +126,44 @@ def _step(
 ) -> tuple[list[Floats], list[Floats], Floats] | None:
     """One step with a predictor and a corrector; None where it makes no way.
 
-    Shapes: A_k as `blocks` (rows, n_k, n_k) and `flat` (rows, n_k^2), `primal` and `dual` (n_k,
-    n_k), `y` and `missing`, which is what the equations miss, (rows,).  Source: Mehrotra, SIAM J.
-    Optimization 2 (1992).
+    Shapes, for each size n with m matrices: their A_k as `stacks` (m, rows, n, n) and `flat` (rows,
+    m n^2), `primal` and `dual` (m, n, n); `y` and `missing`, which is what the equations miss,
+    (rows,).  Source: Mehrotra, SIAM J. Optimization 2 (1992).
     """
     rows = len(y)
-    inverse = _at_once(np.linalg.inv, dual)
+    inverse = list(map(np.linalg.inv, dual))
     system, base, slack = np.zeros((rows, rows)), missing.copy(), []
     centre = np.zeros(rows)
-    for block, a, x, z, back in zip(blocks, flat, primal, dual, inverse):
-        image = x @ block @ back if len(x) > 1 else x * block * back
-        system += image.reshape(rows, -1) @ a.T
-        rest = trace * np.eye(len(x)) - (a.T @ y).reshape(x.shape) - z
+    for stack, a, x, z, back in zip(stacks, flat, primal, dual, inverse):
+        size = x.shape[-1]
+        left, right = x[:, None], back[:, None]
+        image = left @ stack @ right if size > 1 else left * stack * right
+        system += image.swapaxes(0, 1).reshape(rows, -1) @ a.T
+        rest = trace * np.eye(size) - (a.T @ y).reshape(x.shape) - z
         slack.append(rest)
         base += a @ (x + x @ rest @ back).ravel()
         centre += a @ back.ravel()
     system = (system + system.T) / 2
     system += 1e-13 * np.trace(system) / rows * np.eye(rows)
 
-    def direction(
-        target: float, second: list[Floats] | None
-    ) -> tuple[list[Floats], list[Floats], Floats]:
+    def direction(target: float, second: list[Floats]) -> tuple[list[Floats], list[Floats], Floats]:
         right = base - target * centre
-        if second is not None:
-            right = right + sum((a @ s.ravel() for a, s in zip(flat, second)), np.zeros(rows))
+        right = right + sum((a @ s.ravel() for a, s in zip(flat, second)), np.zeros(rows))
         dy: Floats = np.asarray(np.linalg.solve(system, right), dtype=np.float64)
         dz: list[Floats] = [rest - (a.T @ dy).reshape(rest.shape) for rest, a in zip(slack, flat)]
-        dx = _at_once(lambda x, back, d: -x + target * back - x @ d @ back, primal, inverse, dz)
-        if second is not None:
-            dx = [d - s for d, s in zip(dx, second)]
-        return [(d + d.T) / 2 for d in dx], dz, dy
+        dx = [
+            -x + target * back - x @ d @ back - s
+            for x, back, d, s in zip(primal, inverse, dz, second)
+        ]
+        return [(d + d.swapaxes(1, 2)) / 2 for d in dx], dz, dy
 
-    dx, dz, _ = direction(0.0, None)
+    dx, dz, _ = direction(0.0, [0 * x for x in primal])
     ahead, behind = min(1.0, _room(primal, dx)), min(1.0, _room(dual, dz))
-    there = sum(
-        float(((x + ahead * a) * (z + behind * b)).sum())
-        for x, a, z, b in zip(primal, dx, dual, dz)
-    ) / sum(map(len, primal))
+    there = _product(
+        [x + ahead * a for x, a in zip(primal, dx)], [z + behind * b for z, b in zip(dual, dz)]
+    ) / sum(x[..., 0].size for x in primal)
     target = mu * min(1.0, max(0.05, (max(there, 0.0) / mu) ** 2))
-    dx, dz, dy = direction(target, _at_once(lambda a, b, back: a @ b @ back, dx, dz, inverse))
+    dx, dz, dy = direction(target, [a @ b @ back for a, b, back in zip(dx, dz, inverse)])
     ahead, behind = min(1.0, 0.95 * _room(primal, dx)), min(1.0, 0.95 * _room(dual, dz))
     if not np.isfinite(dy).all() or max(ahead, behind) < 1e-6:
         return None
@@ -168,32 +172,23 @@ def _step(
     return [x + ahead * d for x, d in zip(primal, dx)], slacks, after
 
 
+def _product(one: list[Floats], other: list[Floats]) -> float:
+    """The sum of the traces of the products of symmetric matrices."""
+    return sum(float((x * z).sum()) for x, z in zip(one, other))
+
+
 def _room(points: list[Floats], directions: list[Floats]) -> float:
     """How far one can go from positive definite X along D and stay positive semidefinite.
 
     Formula: -1 / (least eigenvalue of L^-1 D L^-T), X = L L^T, over all pairs (X, D) of the shape
     (n, n).  Raises LinAlgError where an X is not positive definite.
     """
-
-    def eigenvalues(x: Floats, d: Floats) -> Floats:
+    least = 0.0
+    for x, d in zip(points, directions):
         lower = np.linalg.inv(np.linalg.cholesky(x))
-        return np.asarray(np.linalg.eigvalsh(lower @ d @ lower.swapaxes(1, 2)), dtype=np.float64)
-
-    least = min(0.0, *(float(found[0]) for found in _at_once(eigenvalues, points, directions)))
+        found = np.linalg.eigvalsh(lower @ d @ lower.swapaxes(1, 2))
+        least = min(least, *found[:, 0].tolist())
     return -1.0 / least if least < -1e-12 else 1e9
-
-
-def _at_once(function: Callable[..., Floats], *lists: list[Floats]) -> list[Floats]:
-    """What a function of stacks of square matrices gives for each place in the lists: it is called
-    once for all matrices of one size, as most programs have many small ones.
-    """
-    places: dict[int, list[int]] = {}
-    for place, matrix in enumerate(lists[0]):
-        places.setdefault(len(matrix), []).append(place)
-    found: dict[int, Floats] = {}
-    for own in places.values():
-        found |= zip(own, function(*(np.array([one[place] for place in own]) for one in lists)))
-    return [found[place] for place in range(len(lists[0]))]
 
 
 # -------------------------------------------------------------------------------------------------

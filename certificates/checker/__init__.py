@@ -10,9 +10,9 @@ statement: ["ID/part", {"certified": ..}], sorted by name.  Exit 0: every statem
 refuted; 1: one is unknown, or a certificate rejected or missing; 2: unusable input.  The files, in
 reading order, each resting on those before it:
 
-    algebra.py   polynomials, Bernstein coefficients; knows of no proof
+    algebra.py   polynomials, formulas over them, Bernstein coefficients; knows of no proof
     text.py      terms and formulas as syntax trees; definitions, written out where they are used
-    language.py  what a file of statements means: formulas, statements, unfolding
+    language.py  what a file of statements means: values, statements, unfolding
     rules.py     states, the rules that close them, proofs, witnesses and counterexamples
     maps.py      a map, with what is said of it, as premises about its orbits are written
     orbits.py    the rules for orbits of maps, each with the premises that it rests on
@@ -26,13 +26,12 @@ imports its own files relatively, and only these.  `__all__` is all that others 
 # fmt: off
 # isort: off
 from .algebra import (
-    BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, number,
-    variable,
+    BITS, MAX_VARIABLES, MAX_WORK, Atom, Formula, Join, Kind, Poly, Rejected, Work, bernstein,
+    conjuncts, fold, join, negate, number, variable,
 )
 from .text import Definitions, names_in, parse, put, rational, rows
 from .language import (
-    NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
-    read_statements, univariate, variables_of,
+    NAMED, Context, Statement, Unfolding, read_statements, univariate, variables_of,
 )
 from .rules import State, close, find, prove
 from .orbits import closed_circle, orbit_rules, premises_of, require_no_other, ways_on

@@ -13,6 +13,7 @@ import functools  # noqa: F401
 import gc
 import hashlib
 import json  # noqa: F401
+import keyword  # noqa: F401
 import math  # noqa: F401
 import os
 import re  # noqa: F401

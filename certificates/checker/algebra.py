@@ -1,4 +1,4 @@
-"""Exact arithmetic: polynomials, Bernstein coefficients, and the limits on them.
+"""Exact arithmetic: polynomials, formulas over them, Bernstein coefficients, and limits.
 
 This file knows of no statement and no proof.  Numbers are integers and fractions of integers; there
 is no float.  It begins with what all files share: why something is rejected (`Kind`, `Rejected`,
@@ -10,22 +10,26 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from enum import Enum
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 from math import comb, gcd, lcm, prod
-from typing import Any, TypeVar, Union
+from typing import Any, Literal, TypeVar, Union
 
 MAX_DEGREE = 4000
 MAX_VARIABLES = 400
 MAX_TERMS = 10**5
 MAX_BITS = 40000
 MAX_WORK = 2 * 10**7
+MAX_KEPT = 4 * 10**6  # units of what is kept, each some 100 bytes
+LEAST_KEPT = 50  # units of each
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 MASK = (1 << BITS) - 1
 T = TypeVar("T")
 
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
-Under = dict[tuple["Poly", bool], int]  # {licence: exponent}
+Licence = tuple["Poly", bool]  # a polynomial other than 0, and whether it is > 0
+Under = dict[Licence, int]  # {licence: exponent}
+Monomial = tuple[int, int, int, int]  # packed exponents, upper and lower part of a factor, degree
 
 
 # ------------------------------------------------------------ what is rejected, and why
@@ -168,11 +172,21 @@ class Work:
 
     dear: the units of one product of short coefficients.  A packed monomial of many variables is a
     long number: one of 400 takes seven times as long to add and to look up as one of three.
+
+    kept: {key: (what was worked out, its cost)}, see `once`; room: the units still free for it.
     """
 
-    __slots__ = ("left", "dear")
+    __slots__ = ("left", "dear", "room", "kept")
 
     def __init__(self, limit: int = MAX_WORK) -> None:
+        self.kept: dict[object, tuple[Any, int]] = {}
+        self.room = MAX_KEPT
+        self.refill(limit)
+
+    def refill(self, limit: int) -> None:
+        """Begins another check, which finds what the checks before it have kept."""
+        if self.room < MAX_KEPT // 2:
+            self.kept, self.room = {}, MAX_KEPT
         self.left = limit
         self.dear = 1
 
@@ -181,6 +195,27 @@ class Work:
         self.left -= amount
         if self.left < 0:
             raise Rejected(Kind.WORK)
+
+    def once(self, key: object, make: Callable[[], T]) -> T:
+        """What `make` returns, which depends on the key alone.  To find it again is counted as to
+        make it: so a check may do as much, whatever was checked before it.
+
+        A key holds trees and polynomials, each equal to itself alone: nothing else can take its
+        place while it is kept.  Within a check nothing is dropped: so what is kept, and what it was
+        made from, were made once.
+        """
+        if key in self.kept:
+            found: T
+            found, cost = self.kept[key]
+            self.spend(cost)
+            return found
+        before = self.left
+        value = make()
+        if self.room > 0:
+            cost = before - self.left
+            self.room -= cost + LEAST_KEPT  # a result has fewer terms than it took work
+            self.kept[key] = value, cost
+        return value
 
 
 # ------------------------------------ polynomials: {packed exponents: integer} over one denominator
@@ -259,7 +294,10 @@ class Poly:
             ((m, c),) = self.terms.items()
             if c == self.den == 1:  # a product of variables: so nearly every power
                 return Poly({m * exponent: 1}, 1, self.deg * exponent, 0, self.work)
-        return prod([self] * (exponent - 1), start=self)
+        power = self
+        for e in range(2, exponent + 1):
+            power = self.work.once((self, e), partial(power.__mul__, self))
+        return power
 
     def constant(self) -> Fraction | None:
         """The value of a constant; None for anything else."""
@@ -290,15 +328,13 @@ class Poly:
 
 def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work) -> Poly:
     """sum of factor * p * q, for numerators p and q: all arithmetic of polynomials is such a sum,
-    and is counted and limited here.
+    or one of monomials, and is counted and limited in these two.
     """
     den = 1
     for factor, p, q in products:
         below = factor.denominator * p.den * q.den
         if below != 1:
-            work.spend(den.bit_length() * below.bit_length() >> 16)
-            den = lcm(den, below)
-            require(den.bit_length() <= MAX_BITS, Kind.SIZE, "a denominator")
+            den = common(den, below, work)
     terms: Terms = {}
     deg = bits = 0
     for factor, p, q in products:
@@ -315,13 +351,46 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
             c *= scale
             if terms:
                 for n, d in many.items():
-                    terms[m + n] = terms.get(m + n, 0) + c * d
+                    n += m
+                    terms[n] = terms.get(n, 0) + c * d
             else:
                 terms = {m + n: c * d for n, d in many.items()}
-            require(len(terms) <= MAX_TERMS, Kind.SIZE, "too many terms")
+            if len(terms) > MAX_TERMS:
+                raise Rejected(Kind.SIZE, "too many terms")
     if 0 in terms.values():
         terms = {m: c for m, c in terms.items() if c}
     return Poly(terms, den, deg, bits + bits_of(len(products)), work)
+
+
+def sum_of_monomials(monomials: Sequence[Monomial], work: Work) -> Poly:
+    """The sum of monomials, counted and limited as that of their products with 1 would be."""
+    work.spend(len(monomials) * (8 + work.dear))
+    require(len(monomials) <= MAX_TERMS, Kind.SIZE, "too many terms")
+    den = 1
+    for _, _, lower, _ in monomials:
+        if lower != 1:
+            den = common(den, lower, work)
+    terms: Terms = {}
+    deg = bits = 0
+    for m, upper, lower, degree in monomials:
+        upper *= den // lower
+        size = bits_of(upper)
+        work.spend(size * size >> 16)
+        deg = max(deg, degree)
+        bits = max(bits, size)
+        terms[m] = terms.get(m, 0) + upper
+    if 0 in terms.values():
+        terms = {m: c for m, c in terms.items() if c}
+    # a degree beyond the limit, which may have carried into another exponent, is refused here
+    return Poly(terms, den, deg, bits + bits_of(len(monomials)), work)
+
+
+def common(one: int, other: int, work: Work) -> int:
+    """The common denominator of two."""
+    work.spend(one.bit_length() * other.bit_length() >> 16)
+    den = lcm(one, other)
+    require(den.bit_length() <= MAX_BITS, Kind.SIZE, "a denominator")
+    return den
 
 
 def bits_of(value: int) -> int:
@@ -334,6 +403,13 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
+def licence_of(poly: Poly, positive: bool) -> tuple[frozenset[tuple[int, int]], Licence]:
+    """The licence of a strict line: the primitive polynomial as a key, and the licence."""
+    content, poly = poly.primitive()
+    poly.work.spend(len(poly.terms) * poly.work.dear)
+    return frozenset(poly.terms.items()), (poly if content > 0 else -poly, positive)
+
+
 def number(value: Rational, work: Work) -> Poly:
     """A rational number as a polynomial."""
     upper = value.numerator
@@ -343,10 +419,67 @@ def number(value: Rational, work: Work) -> Poly:
 def variable(place: int, work: Work) -> Poly:
     """The variable of this number as a polynomial."""
     work.dear = max(work.dear, 1 + place // 32)
-    return Poly({1 << (BITS * place): 1}, 1, 1, 0, work)
+    return work.once(place, lambda: Poly({1 << (BITS * place): 1}, 1, 1, 0, work))
 
 
 ONE = number(1, Work(0))  # a factor of sums of products, which spend from a meter of their own
+
+
+# ------------------------------------------------------------ formulas over polynomials
+
+Op = Literal["and", "or"]
+Atom = tuple[Literal["atom"], Poly, str]
+Join = tuple[Op, list[Union[Atom, "Join"]]]  # constants are folded away
+Formula = Union[bool, Atom, Join]
+
+OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
+
+
+def fold(poly: Poly, relation: str) -> Formula:
+    """The atom poly relation 0; True or False where the polynomial is constant."""
+    if not poly.terms.keys() <= {0}:
+        return ("atom", poly, relation)
+    value = poly.terms.get(0, 0)
+    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
+
+
+def join(op: Op, formulas: Sequence[Formula]) -> Formula:
+    """The conjunction or disjunction, without constants and without joins of the same kind
+    inside.
+    """
+    if any(formula is (op == "or") for formula in formulas):
+        return op == "or"
+    flat: list[Atom | Join] = []
+    for formula in formulas:
+        if not isinstance(formula, bool):
+            flat += formula[1] if formula[0] == op else [formula]
+    if not flat:
+        return op == "and"
+    # equivalences of equivalences double: counted where they are joined
+    work_of(flat[0]).spend(20 * len(flat) + 100)
+    return flat[0] if len(flat) == 1 else (op, flat)
+
+
+def work_of(formula: Atom | Join) -> Work:
+    """The meter of the polynomials in a formula."""
+    while formula[0] != "atom":
+        formula = formula[1][0]
+    return formula[1].work
+
+
+def negate(formula: Formula) -> Formula:
+    """The negation, with `not` driven down to atoms."""
+    if isinstance(formula, bool):
+        return not formula
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        return ("atom", poly if relation in ("=", "!=") else -poly, OPPOSITE[relation])
+    return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
+
+
+def conjuncts(formula: Formula) -> Sequence[Formula]:
+    """The parts of a conjunction; else the formula alone."""
+    return formula[1] if not isinstance(formula, bool) and formula[0] == "and" else [formula]
 
 
 # ------------------------------------------------------------ Bernstein coefficients on a box

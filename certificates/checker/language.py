@@ -12,92 +12,63 @@ import ast
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from math import prod
-from typing import Any, Literal, Union
+from typing import Any, TypeVar
 
 from .algebra import (
     BITS,
     MASK,
     MAX_BITS,
+    MAX_DEGREE,
     MAX_VARIABLES,
     ONE,
+    Formula,
     Kind,
+    Licence,
+    Monomial,
+    Op,
     Poly,
     Rational,
     Rejected,
     Work,
     bits_of,
+    conjuncts,
+    fold,
+    join,
+    licence_of,
+    negate,
     number,
     require,
+    sum_of_monomials,
     sum_of_products,
     variable,
 )
-from .text import WORDS, Definitions, parse, rows, written, written_line
+from .text import (
+    WORDS,
+    Definitions,
+    exponent,
+    names_of,
+    parse,
+    rows,
+    summands,
+    written,
+    written_line,
+)
 
-Op = Literal["and", "or"]
-Atom = tuple[Literal["atom"], Poly, str]
-Join = tuple[Op, list[Union[Atom, "Join"]]]  # constants are folded away
-Formula = Union[bool, Atom, Join]
-Licences = dict[frozenset[tuple[int, int]], tuple[Poly, bool]]  # by the primitive polynomial
+Licences = dict[frozenset[tuple[int, int]], Licence]  # by the primitive polynomial
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
+T = TypeVar("T")
 Said = Any  # what a line says: as `LINES` reads its keyword
 
 PER_FACTOR = 4  # work: of a factor of a term, or a name
 
-OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
 
-# ------------------------------------------------------------ formulas over polynomials
-
-
-def fold(poly: Poly, relation: str) -> Formula:
-    """The atom poly relation 0; True or False where the polynomial is constant."""
-    if not poly.terms.keys() <= {0}:
-        return ("atom", poly, relation)
-    value = poly.terms.get(0, 0)
-    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
-
-
-def join(op: Op, formulas: Sequence[Formula]) -> Formula:
-    """The conjunction or disjunction, without constants and without joins of the same kind
-    inside.
-    """
-    if any(formula is (op == "or") for formula in formulas):
-        return op == "or"
-    flat: list[Atom | Join] = []
-    for formula in formulas:
-        if not isinstance(formula, bool):
-            flat += formula[1] if formula[0] == op else [formula]
-    if not flat:
-        return op == "and"
-    # equivalences of equivalences double: counted where they are joined
-    work_of(flat[0]).spend(20 * len(flat) + 100)
-    return flat[0] if len(flat) == 1 else (op, flat)
-
-
-def work_of(formula: Atom | Join) -> Work:
-    """The meter of the polynomials in a formula."""
-    while formula[0] != "atom":
-        formula = formula[1][0]
-    return formula[1].work
-
-
-def negate(formula: Formula) -> Formula:
-    """The negation, with `not` driven down to atoms."""
-    if isinstance(formula, bool):
-        return not formula
-    if formula[0] == "atom":
-        _, poly, relation = formula
-        return ("atom", poly if relation in ("=", "!=") else -poly, OPPOSITE[relation])
-    return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
-
-
-def conjuncts(formula: Formula) -> Sequence[Formula]:
-    """The parts of a conjunction; else the formula alone."""
-    return formula[1] if not isinstance(formula, bool) and formula[0] == "and" else [formula]
+# ------------------------------------------------------------ what has been declared
 
 
 class Context:
@@ -156,12 +127,10 @@ class Context:
         for part in conjuncts(formula):
             if isinstance(part, bool) or part[0] != "atom" or part[2] not in (">", "!="):
                 continue
-            content, poly = part[1].primitive()
-            self.work.spend(len(poly.terms) * self.work.dear)
-            key = frozenset(poly.terms.items())
-            positive = part[2] == ">"
-            if key not in self.licensed or positive and not self.licensed[key][1]:
-                self.licensed[key] = (poly if content > 0 else -poly, positive)
+            line = part[1], part[2] == ">"
+            key, licence = self.work.once(("licence", *line), partial(licence_of, *line))
+            if key not in self.licensed or licence[1] and not self.licensed[key][1]:
+                self.licensed[key] = licence
 
     def reciprocal(self, node: ast.expr) -> Poly:
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of
@@ -215,9 +184,7 @@ class Context:
         return total
 
     def product(self, node: ast.expr) -> Poly:
-        """The value of a chain of * and /: of its numbers and variables at once, then of the
-        rest.
-        """
+        """The value of a chain of * and /: of numbers and variables at once, then of the rest."""
         upper = lower = 1
         monomial = degree = 0
         others: list[Poly] = []
@@ -244,6 +211,7 @@ class Context:
                 lower *= value.den
                 # a long product of constants would grow unseen
                 size = max(upper.bit_length(), lower.bit_length())
+                self.work.spend(size * size >> 16)
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
         first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
@@ -251,11 +219,45 @@ class Context:
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
+        self.work.spend(20)
+        monomials = self.monomials(text) if isinstance(text, str) else []
+        if monomials:
+            return sum_of_monomials(monomials, self.work)
         tree = parse(text)
-        self.work.spend(20 + len(text))
+        self.work.spend(len(text))
         value = self.value(tree)
         require(not value.under, Kind.POLYNOMIAL, text)
         return value
+
+    def once(self, read: Callable[[Context, ast.expr], T], node: ast.expr) -> T:
+        """What a tree says here.  That depends on the values of its names and, where it divides, on
+        what is licensed.
+        """
+        names, divides = self.work.once(node, partial(names_of, node))
+        licences = self.licensed.values() if divides else ()
+        self.work.spend(len(names) + len(licences))
+        key = (read, node, *map(self.values.get, names), *licences)
+        return self.work.once(key, partial(read, self, node))
+
+    def monomials(self, text: str) -> list[Monomial]:
+        """The monomials of a text that `summands` reads, as `product` reads them; none where a name
+        is no variable: such a text is left to `value`.
+        """
+        monomials: list[Monomial] = []
+        for upper, lower, powers in summands(text):
+            m = degree = 0
+            for name, power in powers:
+                value = self.values.get(name)
+                if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
+                    return []
+                (one,) = value.terms
+                if power * value.deg > MAX_DEGREE:
+                    return []
+                m += one * power
+                degree += value.deg * power
+            monomials.append((m, upper, lower, degree))
+        self.work.spend(PER_FACTOR * len(text))
+        return monomials
 
     def atom(self, left: Poly, relation: str, right: Poly) -> Formula:
         """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is
@@ -308,13 +310,6 @@ class Context:
                     factors.append(name if exponent == 1 else f"{name}^{exponent}")
             parts.append("*".join(factors))
         return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
-
-
-def exponent(node: ast.BinOp) -> int:
-    """The exponent of a power: an integer as it stands."""
-    if isinstance(node.right, ast.Constant) and type(node.right.value) is int:
-        return node.right.value
-    raise Rejected(Kind.TERM, ast.unparse(node))
 
 
 def variables_of(context: Context, poly: Poly) -> set[str]:
@@ -488,9 +483,11 @@ class Statement:
             self.declared.update(bound)
 
 
-def read_statements(text: str) -> dict[str, Statement]:
-    """The statements of a file in order, by name, with definitions written out."""
-    definitions = Definitions(Work())
+def read_statements(text: str, definitions: Definitions | None = None) -> dict[str, Statement]:
+    """The statements of a file in order, by name, with definitions written out; definitions: those
+    that stand before it.
+    """
+    definitions = definitions or Definitions(Work())
     statements: dict[str, Statement] = {}
     current = None
     for count, keyword, rest in rows(text):
@@ -565,14 +562,16 @@ class Unfolding:
         elif keyword == "given" or keyword == "range" and sharp is None:
             self.assume(said, self.premises)
         elif keyword == "have":
-            self.obligations.append((len(self.premises), negate(context.formula(said))))
+            self.obligations.append(
+                (len(self.premises), negate(context.once(Context.formula, said)))
+            )
             self.assume(said, self.premises)
         elif keyword == "let":
             name, term = said
-            context.define(name, context.value(term))
+            context.define(name, context.once(Context.value, term))
         elif keyword == "root":
             name, (term,) = said
-            value, zero = context.value(term), context.number(0)
+            value, zero = context.once(Context.value, term), context.number(0)
             self.obligations.append((len(self.premises), context.atom(value, "<", zero)))
             self.variable(name, True)
             own = context.values[name]
@@ -591,7 +590,7 @@ class Unfolding:
             self.context.declare(name, name in self.integers)
 
     def assume(self, node: ast.expr, formulas: list[Formula]) -> None:
-        formulas.append(self.context.formula(node))
+        formulas.append(self.context.once(Context.formula, node))
         self.context.license(formulas[-1])
 
     def goal(self, truth: bool) -> Formula:

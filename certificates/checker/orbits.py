@@ -11,7 +11,7 @@ from .algebra import Kind, Rejected, Work, at, require
 from .language import NAMED, Known, Statement, read_statements
 from .maps import PER_LETTER, Orbits, Premises, all_earlier, all_of, earlier, where
 from .rules import Hint, prove
-from .text import names_in, put
+from .text import Definitions, names_in, put
 
 Word = tuple[int, ...]  # pieces of a map, by their numbers from 1 on
 Words = Sequence[Sequence[int]]
@@ -545,9 +545,11 @@ def premises_of(
     statement}.
     """
     premises = {}
-    for name, rows in ORBIT_RULES[statement.kind](statement, known, work or Work()).items():
+    work = work or Work()
+    none = Definitions(work)
+    for name, rows in ORBIT_RULES[statement.kind](statement, known, work).items():
         full = f"{statement.name}.{name}"
-        premises[name] = read_statements("\n".join([f"statement {full}", *rows]))[full]
+        premises[name] = read_statements("\n".join([f"statement {full}", *rows]), none)[full]
     return premises
 
 

@@ -176,7 +176,7 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
     """[(name, outcome, reason)] for every statement of a folder in order, then for every line of
     certificates that is refused or has no statement.
     """
-    left = MAX_FOLDER_WORK
+    left, work = MAX_FOLDER_WORK, Work()
     statements = read_statements(load(os.path.join(folder, STATEMENTS), MAX_STATEMENTS))
     results: list[tuple[str, str, str]] = []
     certificates: dict[str, Hint] = {}
@@ -193,7 +193,7 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
         reason: Rejected | None = Rejected(Kind.NO_CERTIFICATE)
         if name in certificates:
             limit = min(MAX_WORK, left)
-            work = Work(limit)
+            work.refill(limit)
             outcome, reason = check(statement, certificates.pop(name), known, earlier, work)
             left -= limit - work.left
         results.append((name, outcome, str(reason) if reason else ""))

@@ -22,6 +22,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from keyword import kwlist
 from typing import Any
 
 from .algebra import Kind, Rational, Rejected, Work, require
@@ -30,8 +31,14 @@ MAX_TEXT = 1 << 18  # letters of a term or formula: its syntax tree takes some 5
 
 # --------------------------------- text: Python's expression syntax, with ^ and = as in mathematics
 
-WORDS = {"and", "or", "not", "implies", "iff"}  # never names: `names_in` does not count them
+WORDS = {*kwlist, "implies", "iff"}  # never names: `names_in` does not count them
 RESERVED = WORDS | {"sqrt", "root"}
+
+# sums of products of a number, which may come first, and powers of names
+PRODUCT = r"(?:(?:0|[1-9]\d{0,60})(?:/[1-9]\d{0,60})?|NAME)(?:\*NAME)*"
+FLAT = re.compile(
+    f"-?{PRODUCT}(?: [+-] {PRODUCT})*".replace("NAME", r"[A-Za-z]\w*(?:\^[1-9]\d{0,3})?"), re.ASCII
+)
 
 
 def parse(text: object) -> ast.expr:
@@ -71,6 +78,50 @@ def written_line(keyword: str, said: Any) -> str:
 def names_in(*texts: str) -> set[str]:
     """The names that occur in terms or formulas."""
     return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - WORDS
+
+
+def names_of(node: ast.expr) -> tuple[list[str], bool]:
+    """The names in a tree, sorted, and whether it divides."""
+    names: set[str] = set()
+    divides = False
+    nodes: list[ast.AST] = [node]
+    while nodes:
+        part = nodes.pop()
+        if isinstance(part, ast.Name):
+            names.add(part.id)
+        elif isinstance(part, ast.BinOp):
+            divides = divides or isinstance(part.op, ast.Div)
+            nodes += [part.left, part.right]
+        else:
+            nodes += ast.iter_child_nodes(part)
+    return sorted(names), divides
+
+
+def exponent(node: ast.BinOp) -> int:
+    """The exponent of a power: an integer as it stands."""
+    if isinstance(node.right, ast.Constant) and type(node.right.value) is int:
+        return node.right.value
+    raise Rejected(Kind.TERM, ast.unparse(node))
+
+
+def summands(text: str) -> list[tuple[int, int, list[tuple[str, int]]]]:
+    """Of a text like 3/4*x^2*y - x + 1, (upper, lower part of its number, powers) of each summand,
+    as `parse` reads it, without a tree; none for any other text.
+    """
+    found = []
+    if len(text) <= MAX_TEXT and FLAT.fullmatch(text):
+        for summand in text.replace(" - ", " + -").split(" + "):
+            unsigned = summand.removeprefix("-")
+            upper, lower, powers = "1", "1", []
+            for factor in unsigned.split("*"):
+                if factor[0].isdigit():  # the first alone, in such a text
+                    upper, _, lower = factor.partition("/")
+                else:
+                    name, _, power = factor.partition("^")
+                    powers.append((name, int(power or 1)))
+            whole = int(upper) if unsigned == summand else -int(upper)
+            found.append((whole, int(lower or 1), powers))
+    return found
 
 
 def put(text: str, values: Mapping[str, str]) -> str:
@@ -148,13 +199,20 @@ class Definitions:
         self.known[name] = parameters, set(over), out
 
     def occur_in(self, text: str) -> bool:
-        return not self.known.keys().isdisjoint(names_in(text))
+        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a
         definition may be over.
         """
-        return self.write_out(parse(text), {}, declared) if self.occur_in(text) else parse(text)
+        if self.occur_in(text):
+            return self.write_out(parse(text), {}, declared)
+
+        def tree() -> ast.expr:
+            self.work.room -= 5 * len(text)  # see MAX_TEXT
+            return parse(text)
+
+        return self.work.once(text, tree)
 
     def write_out(
         self, node: ast.expr, values: Mapping[str, ast.expr], declared: set[str]

@@ -10,7 +10,6 @@ from math import prod
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Node, Sign
-from juggleproof.certificates.search.boxes.cuts import close_by_cuts
 from juggleproof.certificates.search.boxes.over_box import close_over_box
 from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
@@ -62,6 +61,8 @@ BY_MONOMIALS = 25_000  # the same, for products along monomials
 FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
+MOST_KEPT = 1000  # facts
+_no_forms: dict[tuple[object, ...], int] = {}  # facts without such a node -> the work that it takes
 
 
 @dataclass(frozen=True)
@@ -255,7 +256,6 @@ class Closing:
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside, False))
                 or (None if depth or self.effort == 1 else self.by_monomials(problem))
-                or (None if depth or self.effort == 1 else close_by_cuts(inside, self.budget))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
                 or (None if depth or self.effort == 1 else self.forms(inside, True))
@@ -282,10 +282,22 @@ class Closing:
     def forms(self, state: State, coupled: bool) -> Node | None:
         """Quadratic forms with parameters in a box, with little work where not `coupled`."""
         part = self.budget.part(FORMS_LAST if coupled else FORMS_FIRST)
-        try:
-            return search_forms(state, self.problem(state).ring, part, coupled)
-        except Exhausted:
+        facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
+        key = (*state.context.index, *facts, coupled, part.left)
+        problem = self.problem(state)
+        if key in _no_forms:  # the same facts come back at greater effort
+            self.budget.spend(_no_forms[key])
             return None
+        before, node = part.left, None
+        try:
+            node = search_forms(state, problem.ring, part, coupled)
+        except Exhausted:
+            pass
+        if node is None:
+            if len(_no_forms) >= MOST_KEPT:
+                _no_forms.clear()
+            _no_forms[key] = before - part.left
+        return node
 
     def by_factors(
         self, state: State, factors: Sequence[str], depth: int, level: int = 0

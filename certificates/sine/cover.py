@@ -78,6 +78,7 @@ class Covered(NamedTuple):
 
 
 Progress = Callable[[int, int], None]
+Search = Callable[..., Found]
 
 
 def cover(
@@ -138,7 +139,7 @@ def cover_one(
         boxes, over = boxes[:fits], boxes[fits:]
         left += over
         known += len(boxes)
-        search: Callable[..., Found] = find_certificate
+        search: Search = find_certificate
         if rectangle.basin and boxes:
             each, top = (budget - cells) // len(boxes), max(ONCE, rectangle.basin[1])
             search = partial(find_certificate, basin=each, top=top)
@@ -257,7 +258,7 @@ def width_of(box: Box) -> Fraction:
     return max(end - start for start, end in box)
 
 
-def try_box(search: Callable[..., Found], box: Box) -> Tried:
+def try_box(search: Search, box: Box) -> Tried:
     """Looks for a certificate for a box, and has the checker read it."""
     cells = 0
     for grid in GRIDS if width_of(box) <= NARROW else GRIDS[:1]:

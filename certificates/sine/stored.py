@@ -9,10 +9,11 @@ from pathlib import Path
 
 from ..checker import Rejected, load
 from .cells import UNRANKED, Attraction, Certificate
-from .checker import CERTIFICATES, check_folder, read_line
+from .checker import CERTIFICATES, STATEMENTS, Rectangle, check_folder, read_line, read_statement
 from .flights import Refused
 
 STORE = Path(__file__).resolve().parent / "store"
+WIDE = Path(__file__).resolve().parent / "wide"
 STATEMENT = (
     "the period-one bounce is stable and every motion tends to it for all"
     " alpha in [49/1000, 51/1000] and Gamma in [619/200, 621/200]"
@@ -29,6 +30,14 @@ def boxes_in(folder: Path) -> list[Attraction]:
         for one in lines
         if isinstance(one, Certificate) and UNRANKED not in one.ranks
     ]
+
+
+def wide_rectangles() -> list[Rectangle]:
+    """The rectangles of the wide cover: first those of short intervals of alpha, which hold most of
+    the others, for most boxes in g.
+    """
+    lines = WIDE.joinpath(STATEMENTS).read_text().splitlines()
+    return sorted(map(read_statement, lines), key=lambda one: one.alpha[1] - one.alpha[0])
 
 
 def stored_outcomes() -> list[tuple[str, str, str]]:

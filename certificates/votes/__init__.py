@@ -3,7 +3,6 @@ the certificate, and one that contradicts it stops everything.
 
 In reading order:
 
-- `vote`: a vote, and the stop where two contradict each other;
 - `questions`: a statement as the questions that decide it;
 - `smtlib`: the questions as SMT-LIB 2 text, for Z3 and other solvers;
 - `z3`: the vote of Z3;

@@ -23,9 +23,9 @@ from juggleproof.certificates.algebra.intervals import (
     widest,
 )
 from juggleproof.certificates.algebra.polynomials import value_at
+from juggleproof.certificates.vote import Enclosure
 from juggleproof.certificates.votes.branches import regions
 from juggleproof.certificates.votes.questions import Atom, Formula, Question, atom, join
-from juggleproof.certificates.votes.vote import Enclosure
 
 # -------------------------------------------------------------------------------------------------
 # Whether facts have a common solution in a box.

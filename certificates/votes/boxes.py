@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.intervals import working_precision
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes.box_search import GoalBound, enclose_goal, refute
 from juggleproof.certificates.votes.branches import MOST_BRANCHES, regions
 from juggleproof.certificates.votes.questions import (
@@ -18,7 +19,6 @@ from juggleproof.certificates.votes.questions import (
     scale_variables,
     with_scales_one,
 )
-from juggleproof.certificates.votes.vote import Budget, Vote
 
 TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point there counts
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.vote import Budget, Vote, compare
 from juggleproof.certificates.votes import boxes, z3
 from juggleproof.certificates.votes.questions import questions
-from juggleproof.certificates.votes.vote import Budget, Vote, compare
 
 ROUTES = {"z3": z3, "boxes": boxes}
 

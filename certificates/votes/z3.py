@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
 from juggleproof.certificates.algebra.polynomials import with_value
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes.questions import (
     Atom,
     Denial,
@@ -30,7 +31,6 @@ from juggleproof.certificates.votes.questions import (
     with_scales_one,
 )
 from juggleproof.certificates.votes.smtlib import question_text, symbol
-from juggleproof.certificates.votes.vote import Budget, Vote
 
 if TYPE_CHECKING:
     from z3 import Context, ExprRef, ModelRef, Solver

@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from importlib import import_module
 from itertools import count
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as Bar
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, write_file
@@ -172,13 +171,14 @@ def _progress(console: Console, total: int) -> Iterator[Progress]:
     if not console.is_terminal:
         yield _lines_of_progress(total)
         return
+    bars = import_module("rich.progress")  # some hundredths of a second
     columns = (
-        TextColumn("{task.description:24}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
+        bars.TextColumn("{task.description:24}"),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        bars.TimeElapsedColumn(),
     )
-    with Bar(*columns, console=console, transient=True) as bar:
+    with bars.Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("judging", total=total)
 
         def step(claim: Claim, judgement: Judgement) -> None:

@@ -12,11 +12,11 @@ from pathlib import Path
 from juggleproof.certificates.language import ClaimError, origins_in
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.work import read
 from juggleproof.proofs import paper
 from juggleproof.proofs.claims import CheckedApart, Claim, claim_named
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.conclusions import REFUTED, RULES, conclusion
-from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports.errata import counterexample, words_of

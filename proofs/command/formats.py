@@ -7,25 +7,16 @@ import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from juggleproof.certificates.store import write_file
-from juggleproof.proofs.command.outputs import clear
+from juggleproof.proofs.command.outputs import Files, write_all
 from juggleproof.proofs.reports.ci import badge, markdown
-from juggleproof.proofs.reports.contents import Contents, as_json
+from juggleproof.proofs.reports.contents import Contents, as_json, gather
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.page import FILE, build, pictures
 from juggleproof.proofs.reports.part import kept_results
 from juggleproof.proofs.reports.tex import compiled, files
 from juggleproof.scenes.figures import TABLE
 
-Files = Mapping[str, bytes]
-
-
-def write_all(files: Files, place: Path) -> None:
-    """Writes the files, each aside and renamed, and prints their paths."""
-    clear()
-    for name, content in files.items():
-        write_file(place / name, content)
-        print(place / name)
+__all__ = ["FORMATS", "gather"]
 
 
 def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:

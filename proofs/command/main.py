@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.votes.vote import Disagreement
+from juggleproof.certificates.vote import Disagreement
 from juggleproof.proofs.command.outputs import clear
 from juggleproof.proofs.command.simulate_options import add_simulate
 from juggleproof.scenes.errors import SceneError

@@ -17,6 +17,7 @@ from time import monotonic
 from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import write_file
 
 # -------------------------------------------------------------------------------------------------
 # Files that are refused before a run where they could not be written after it.
@@ -89,6 +90,17 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
         raise ClaimError(
             f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
         ) from None
+
+
+Files = Mapping[str, bytes]  # by name
+
+
+def write_all(files: Files, place: Path) -> None:
+    """Writes the files of a report, each aside and renamed, and prints their paths."""
+    clear()
+    for name, content in files.items():
+        write_file(place / name, content)
+        print(place / name)
 
 
 # -------------------------------------------------------------------------------------------------

@@ -5,15 +5,27 @@ programs.
 from __future__ import annotations
 
 import argparse
+import hashlib
+import os
+import re
 import sys
+from base64 import b64decode, b64encode
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.command.outputs import busy
+from juggleproof.certificates.sine.stored import stored_outcomes
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs import kept
+from juggleproof.proofs.checked import Checked, Reading
+from juggleproof.proofs.command.outputs import busy, write_all
 from juggleproof.proofs.extras import needed
-from juggleproof.proofs.reports.contents import Contents, gather
+
+if TYPE_CHECKING:
+    from juggleproof.proofs.reports.contents import Contents
 
 DEFAULT_FOLDER = Path("juggleproof-report")
 LIBRARIES = {  # of each format, where it needs one
@@ -26,6 +38,9 @@ LIBRARIES = {  # of each format, where it needs one
     "figures": "matplotlib",
 }
 MAKERS = "juggleproof.proofs.command.formats"  # which take a second to load
+PACKAGES = (*kept.SOURCES, "scenes")  # whose files reports are made of
+NOT_KEPT = "pdf"  # which programs make that no digest knows
+DRAWN_BY = ("jinja2", "markupsafe", "latex2mathml", "matplotlib")
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -41,16 +56,30 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
     library or program that is absent.
     """
     write = writer(wanted, folder, "--format")
+    checked = check_store()
+    under = key_of(checked)
+    found = {one: kept_files(f"{one}-{under}") for one in dict.fromkeys(wanted)} if under else {}
+    if found and all(found.values()):
+        for files in found.values():
+            write_all(files, folder or DEFAULT_FOLDER)
+        return 0
     with busy("judging the stored claims"):
-        contents = gather()
-    return write(contents)
+        contents: Contents = import_module(MAKERS).gather(checked=checked)
+    return write(contents, under if settles(checked, contents) else "")
+
+
+def check_store() -> Checked:
+    """What the checker says of every stored statement; nothing where the store cannot be read."""
+    with busy("checking the stored certificates"), Reading(DEFAULT, os.cpu_count() or 1) as reading:
+        reading.outcomes()
+    return reading.results
 
 
 def writer(
     wanted: Sequence[str], folder: Path | None, option: str = "--report"
-) -> Callable[[Contents], int]:
-    """What does the same with contents in hand; an unknown format, what is no folder, and what
-    lacks its library are refused at once.
+) -> Callable[..., int]:
+    """What does the same with contents in hand, and keeps what it makes where it is told under
+    which key; an unknown format, what is no folder, and what lacks its library are refused at once.
     """
     for one in wanted:
         if one not in LIBRARIES:
@@ -60,12 +89,14 @@ def writer(
     place = folder or DEFAULT_FOLDER
     _refuse_what_is_no_folder(place)
 
-    def write(contents: Contents) -> int:
+    def write(contents: Contents, under: str = "") -> int:
         formats, faulty = import_module(MAKERS), 0
         for one in dict.fromkeys(wanted):
             with busy(f"making the report as {one}"):
                 made, faults = formats.FORMATS[one](contents, place)
-            formats.write_all(made, place)
+            write_all(made, place)
+            if under and one != NOT_KEPT:
+                kept.keep(f"{one}-{under}", [_record(name, made[name]) for name in made])
             for fault in faults:
                 print(f"juggleproof: {fault}", file=sys.stderr)
                 faulty = 1
@@ -78,3 +109,60 @@ def _refuse_what_is_no_folder(place: Path) -> None:
     inner = next(one for one in (place, *place.absolute().parents) if one.exists())
     if not inner.is_dir():
         raise ClaimError(f"{inner}: not a folder; choose another with -o")
+
+
+# -------------------------------------------------------------------------------------------------
+# A report that an earlier run made is written again where the checkers say the same of the same
+# store, word for word, and the sources are the same. They are asked in each run: what was judged
+# follows from these, and so does every byte of the report.
+
+
+def key_of(checked: Checked) -> str:
+    """A digest of all that a report is made of: what both checkers said in this run of every
+    statement, the store, the files of the packages, what a run of the scene kept, and the versions
+    of libraries.
+
+    Empty where nothing can be kept, the checker came to no results, or figures cannot be drawn,
+    which each run has to say.
+    """
+    place = kept.folder()
+    if place is None or not checked or find_spec("matplotlib") is None:
+        return ""
+    scene = [kept.load(path.stem) for path in sorted(place.glob("part-*.json"))]
+    files = [*sorted(DEFAULT.iterdir()), kept.ROOT / "pyproject.toml"]
+    digests = [
+        hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "" for path in files
+    ]
+    versions = [kept.version_of(tool) for tool in ("juggleproof", *DRAWN_BY)]
+    said = (checked, stored_outcomes())
+    return kept.key(said, digests, versions, scene, packages=PACKAGES, files="*")
+
+
+def settles(checked: Checked, contents: Contents) -> bool:
+    """Whether every outcome that the report shows is what the checker said of this very text in the
+    store; a certificate that was found in this run is in no store.
+    """
+    outcomes, texts = {name: outcome for name, outcome, _ in checked}, Store(DEFAULT).texts
+    return all(
+        outcomes.get(one.name) == one.outcome and texts.get(one.name) == one.text
+        for entry in contents.entries
+        for one in entry.statements
+    )
+
+
+def kept_files(key: str) -> dict[str, bytes]:
+    """The files of a report that were kept under the key; none where there are none, or where one
+    would be written outside of the report's folder.
+    """
+    try:
+        files = {
+            record["name"]: b64decode(record["data"], validate=True) for record in kept.load(key)
+        }
+    except (KeyError, TypeError, ValueError):
+        return {}
+    inside = all(re.fullmatch(r"(figures/)?\w[\w.-]*", name) for name in files)
+    return files if inside else {}
+
+
+def _record(name: str, content: bytes) -> kept.Record:
+    return {"name": name, "data": b64encode(content).decode("ascii")}

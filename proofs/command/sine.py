@@ -14,13 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from juggleproof.certificates import sine
 from juggleproof.certificates.checker import Work
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.cells import UNRANKED, Attraction, Level, read_levels
 from juggleproof.certificates.sine.checker import (
-    STATEMENTS,
     Box,
     Counterexample,
     Rectangle,
@@ -32,7 +30,7 @@ from juggleproof.certificates.sine.checker import (
 from juggleproof.certificates.sine.cover import BASIN, EVERY, Covered, cover
 from juggleproof.certificates.sine.flights import MAX_STEPS, ONE, PI2, Interval, Refused
 from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import boxes_in
+from juggleproof.certificates.sine.stored import WIDE, boxes_in, wide_rectangles
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.outputs import fault_of, fault_of_folder, now_and_then
 from juggleproof.proofs.conclusions import STABLE
@@ -43,7 +41,6 @@ from juggleproof.scenes.table.curves import birth, g_of
 
 NAME = "sine"
 STORE = Path("sine.certificates")
-WIDE = Path(sine.__file__).with_name("wide")
 GRAVITY = Fraction("9.80665")
 SHOWN = 10  # boxes that are left
 FASTEST = 4  # closing speed of a basin
@@ -165,14 +162,6 @@ def rectangle_of(options: SineOptions) -> Rectangle:
     if not 0 < speed <= FASTEST or ":" in options.basin:
         raise ClaimError(f"--basin {options.basin[:40]}: give a closing speed up to {FASTEST}")
     return rectangle._replace(basin=(Fraction(0), speed))
-
-
-def wide_rectangles() -> list[Rectangle]:
-    """The rectangles of the wide cover: first those of short intervals of alpha, which hold most of
-    the others, for most boxes in g.
-    """
-    lines = WIDE.joinpath(STATEMENTS).read_text().splitlines()
-    return sorted(map(read_statement, lines), key=lambda one: one.alpha[1] - one.alpha[0])
 
 
 def drive_of(options: SineOptions) -> str | None:

@@ -90,15 +90,6 @@ ACCENTS = {
     r"\mathcal": ("script",),
     r"\mathbb": ("blackboard",),
 }
-ACCENT_COMMANDS = {
-    "bar": r"\overline",
-    "dot": r"\dot",
-    "hat": r"\hat",
-    "tilde": r"\tilde",
-    "vec": r"\vec",
-    "script": r"\mathcal",
-    "blackboard": r"\mathbb",
-}
 
 RELATIONS = frozenset(
     (

@@ -10,7 +10,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from juggleproof.proofs.reading.lexer import ACCENT_COMMANDS
+ACCENT_COMMANDS = {
+    "bar": r"\overline",
+    "dot": r"\dot",
+    "hat": r"\hat",
+    "tilde": r"\tilde",
+    "vec": r"\vec",
+    "script": r"\mathcal",
+    "blackboard": r"\mathbb",
+}
 
 
 @dataclass(frozen=True, slots=True)

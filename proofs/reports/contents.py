@@ -6,6 +6,7 @@ import sys
 import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -15,12 +16,11 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.vote import Vote
 from juggleproof.proofs import paper
-from juggleproof.proofs.checked import outcomes_of
-from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.checked import Checked, outcomes_of
+from juggleproof.proofs.claims import VERDICTS, Claim, awaited
 from juggleproof.proofs.judgement import Correction, Judgement, statements_of
-from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.register import (
     PATH,
     Change,
@@ -32,7 +32,16 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, Run, by_id, judge_some, judge_stored
+from juggleproof.proofs.run import (
+    Options,
+    Run,
+    by_id,
+    judge_some,
+    judge_stored,
+    lemmas,
+    settle_by_rules,
+    with_below,
+)
 from juggleproof.proofs.theorem import THEOREM
 
 if TYPE_CHECKING:
@@ -154,13 +163,18 @@ class Contents:
         return next(one for one in self.entries if one.claim.id == claim_id)
 
 
-def gather(register: Path = PATH) -> Contents:
-    """The contents of a report on the stored claims.
+def gather(register: Path = PATH, checked: Checked | None = None) -> Contents:
+    """The contents of a report on the stored claims, by what the checker says of the store, or has
+    just said.
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
     before = load_register(register)
-    done = judge_stored(paper.paper_claims(), Options(DEFAULT))
+    claims = paper.paper_claims()
+    for claim in claims:
+        with suppress(ClaimError, checker.Rejected):  # which judging raises, and says where
+            claim.body()  # stated once, before there are other processes
+    done = judge_stored(claims, Options(DEFAULT), checked=checked)
     settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, by_id(done.claims))
     return contents_of(done, before)
 
@@ -215,26 +229,33 @@ def _entries(
 def errata_text() -> str:
     """Every claim that is not simply true, in groups; a heading with its number opens each.
 
-    A claim is simply true where the checker certifies all that is stored of it; each other is
-    judged, whatever the register says.  Raises ClaimError, one line, where no verdict is registered
-    yet, or the store cannot be read.
+    What is told of a claim is judged now: the checker reads its statements and all on which they
+    rest, and no others.  A claim is judged unless the register lets it hold, and the store has a
+    proof of each of its statements, which says nothing of whether the checker takes these.  Raises
+    ClaimError, one line, where no verdict is registered yet, or the store cannot be read.
     """
     registers, claims, store = load_register(), paper.paper_claims(), Store(DEFAULT)
     if not registers:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"
         )
-    checked, found = outcomes_of(DEFAULT, store.texts), dict[str, set[str]]()
-    for name, outcome in checked.items():
-        found.setdefault(name.split("/")[0], set()).add(outcome)
+    names, proved = dict[str, list[str]](), set[str]()
+    for name in store.texts:
+        names.setdefault(name.split("/")[0], []).append(name)
+        if "certified" in (store.certificate_named(name) or ()):
+            proved.add(name)
     doubted = [
         claim
         for claim in claims
-        if found.get(claim.id) != {"certified"}
+        if not {*names.get(claim.id, [""])} <= proved
         or registers.get(claim.id, {}).get("verdict") != "holds"
         or errata.is_noted(claim)
     ]
-    judged = {one.id: one for one in judge_some(doubted, by_id(claims), DEFAULT, checked)}
+    ids = by_id(claims)
+    rests_on = (*lemmas(ids, doubted), *(name for one in doubted for name in awaited(one.body())))
+    shown = [name for claim in doubted for name in names.get(claim.id, ())]
+    checked = outcomes_of(DEFAULT, [*shown, *with_below((*rests_on, THEOREM), ids)])
+    judged = {one.id: one for one in judge_some(doubted, ids, DEFAULT, checked)}
     register = {claim.id: registered("holds", "", "", "") for claim in claims}
     for name, one in judged.items():
         register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
@@ -337,7 +358,7 @@ def _rules(
 ) -> tuple[Rule, ...]:
     if THEOREM not in store.texts:
         return ()
-    rules, nodes = tree.rules_of(store), list[Rule]()
+    rules, nodes = tree.rules_of(store, [THEOREM]), list[Rule]()
     for name in tree.with_all_below(THEOREM, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.store import Store, WrittenOut
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.vote import Vote
 from juggleproof.proofs.conclusions import PROVED
 from juggleproof.proofs.theorem import DIGEST, SENTENCE, THEOREM
 

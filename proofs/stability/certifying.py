@@ -13,10 +13,10 @@ from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.states import state_of
-from juggleproof.certificates.votes.vote import Budget as Votes
+from juggleproof.certificates.vote import Budget as Votes
 from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
-from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.searches.unproved_premises import why
 from juggleproof.proofs.stability import limits
 from juggleproof.proofs.stability.premise_searches import proof_without_next
 from juggleproof.proofs.stability.terms import conjuncts

@@ -15,21 +15,25 @@ from juggleproof.benchmarks.processes import Timed
 from juggleproof.certificates.coq import share_of
 from juggleproof.proofs.smtlib.script import problems_of_file
 
-EVERY = every_problem()
+
+@pytest.fixture(scope="module", name="every")
+def all_problems() -> list[Made]:
+    """Every problem of every class."""
+    return every_problem()
 
 
-def test_every_kind_is_made_with_and_without_a_solution_holds() -> None:
-    names = [problem.name for problem in EVERY]
+def test_every_kind_is_made_with_and_without_a_solution_holds(every: list[Made]) -> None:
+    names = [problem.name for problem in every]
     assert len(set(names)) == len(names) == SEEDS * len(CLASSES)
     for group, makers in CLASSES.items():
-        of_group = [problem for problem in EVERY if problem.group == group]
+        of_group = [problem for problem in every if problem.group == group]
         for maker in makers:
             kind = maker.__name__.replace("_", "-") + "-"
             assert {one.status for one in of_group if one.name.startswith(kind)} == {"sat", "unsat"}
 
 
-def test_a_seed_makes_the_same_script_again_holds() -> None:
-    assert [made(one.group, int(one.name.rsplit("-", 1)[1])) for one in EVERY] == EVERY
+def test_a_seed_makes_the_same_script_again_holds(every: list[Made]) -> None:
+    assert [made(one.group, int(one.name.rsplit("-", 1)[1])) for one in every] == every
 
 
 def test_the_published_forms_are_not_negative_on_a_grid_holds() -> None:
@@ -43,11 +47,11 @@ def test_the_published_forms_are_not_negative_on_a_grid_holds() -> None:
         assert min(polynomial(*end) for end in ends) == 0, form.__name__
 
 
-def test_z3_and_we_say_what_each_problem_of_a_sample_is_holds() -> None:
-    sample = set(share_of([one.name for one in EVERY], 24))
+def test_z3_and_we_say_what_each_problem_of_a_sample_is_holds(every: list[Made]) -> None:
+    sample = set(share_of([one.name for one in every], 24))
     solvers = {"Z3": measuring.z3(), "ours": measuring.ours()}
     decided = dict.fromkeys(solvers, 0)
-    for problem in EVERY:
+    for problem in every:
         if problem.name not in sample or problem.group in ("size", "many variables"):
             continue
         for solver, ask in solvers.items():
@@ -57,12 +61,12 @@ def test_z3_and_we_say_what_each_problem_of_a_sample_is_holds() -> None:
     assert min(decided.values()) > 4
 
 
-def test_the_page_has_every_class_and_no_certificate_is_refused_holds() -> None:
+def test_the_page_has_every_class_and_no_certificate_is_refused_holds(every: list[Made]) -> None:
     rows = [row.strip("| ").split(" | ") for row in command.TABLE.text().splitlines()[2:]]
     cells = {row[0]: row[1:] for row in rows if len(row) > 2}
     assert [*cells] == [*CLASSES, "all"]
     for group, (problems, _, _, ours, certified, *_) in cells.items():
-        assert int(problems) == (len(EVERY) if group == "all" else SEEDS)
+        assert int(problems) == (len(every) if group == "all" else SEEDS)
         assert ours == certified
 
 
@@ -90,10 +94,10 @@ def test_rejects_a_certificate_that_does_not_prove_the_statement() -> None:
     assert measuring.checked({one: said[one], other: changed})[0] == 0
 
 
-def test_the_written_scripts_state_what_they_are_holds(tmp_path: Path) -> None:
+def test_the_written_scripts_state_what_they_are_holds(every: list[Made], tmp_path: Path) -> None:
     assert command.main(["-o", str(tmp_path)]) == 0
     paths = sorted(tmp_path.glob("*/*.smt2"))
-    assert len(paths) == len(EVERY)
+    assert len(paths) == len(every)
     (problem,) = problems_of_file(tmp_path / "forms/agiform-2.smt2")
     assert problem.status == made("forms", 2).status
 

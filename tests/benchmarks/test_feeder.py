@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-import pytest
-
 from juggleproof.benchmarks import feeder
 from juggleproof.certificates.sine.checker import Rectangle, outcome
 from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.proofs.command.sine import SineOptions, interval, rectangle_of
+from tests.rows import each_row
 
 ROWS = [
     [":".join(re.findall(r"[\d.]+", cell)) for cell in line.strip("| ").split(" | ")]
@@ -29,7 +28,7 @@ def test_the_page_has_the_restitutions_of_the_generator_holds() -> None:
     ]
 
 
-@pytest.mark.parametrize(("alpha", "gamma", "slow", "fast"), ROWS, ids=feeder.ALPHAS)
+@each_row(("alpha", "gamma", "slow", "fast"), ROWS)
 def test_what_the_page_tells_is_certified_and_as_much_as_is_certified_holds(
     alpha: str, gamma: str, slow: str, fast: str
 ) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from juggleproof.benchmarks import orbits
 from juggleproof.scenes.juggler import orbit, point, scene
+from tests.rows import each_row
 
 
 def test_slopes_are_those_of_powers_holds() -> None:
@@ -23,7 +24,7 @@ def test_slopes_are_those_of_powers_holds() -> None:
         )
 
 
-@pytest.mark.parametrize("kind", ["exact", "enclosed", "mp", "fast"])
+@each_row("kind", ["exact", "enclosed", "mp", "fast"])
 def test_errors_are_distances_to_the_exact_orbit_holds(kind: str) -> None:
     setting = scene("9/10", point(1, -4))
     exact = orbit(setting, "exact", 50).row(0)
@@ -48,6 +49,7 @@ def test_each_arithmetic_has_its_row_holds(
     assert found.count("height 1e+12") == 1 and found.count("40 states") == 1
 
 
+@pytest.mark.exhaust
 def test_a_million_states_stay_below_200_megabytes_holds() -> None:
     """And what the parent holds, here 300 MB, is not counted as theirs."""
     held = bytearray(b"\1") * 300_000_000

@@ -22,6 +22,7 @@ from juggleproof.certificates.coq import share_of
 from juggleproof.certificates.store import DEFAULT, Store, write_store
 from juggleproof.certificates.votes.questions import questions, read_statement
 from tests.certificates.votes.corpus import FALSE, TRUE
+from tests.rows import each_row
 
 SECONDS = 60.0  # of CPU, far more than any of them takes
 HOLD = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")
@@ -45,7 +46,7 @@ def words(title: str, names: Sequence[str]) -> list[Answer]:
     return [results[one.name] for one in asked]
 
 
-@pytest.mark.parametrize(
+@each_row(
     "title",
     [
         "ours, search and check",
@@ -66,7 +67,7 @@ def test_nra_proves_what_is_true_and_nothing_false_holds() -> None:
     assert answers == ["holds", "gave up", "holds", "gave up", "holds"]
 
 
-@pytest.mark.parametrize(
+@each_row(
     "title, name, why",
     [
         ("QEPCAD B", "flight-count", "integers"),
@@ -78,7 +79,7 @@ def test_what_a_route_has_no_words_for_is_not_taken_holds(title: str, name: str,
     assert words(title, [name]) == [("not taken", why)]
 
 
-@pytest.mark.parametrize("module", [notation, routes])
+@each_row("module", [notation, routes])
 def test_the_formats_are_those_of_the_examples_holds(module: object) -> None:
     result = doctest.testmod(module)  # type: ignore[arg-type]
     assert result.attempted and not result.failed
@@ -120,6 +121,7 @@ def few(tmp_path: Path) -> Path:
     return tmp_path / "few"
 
 
+@pytest.mark.exhaust
 def test_a_share_of_the_store_is_decided_by_every_route_holds(
     tmp_path: Path, few: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,7 +1,7 @@
 """Every published map in examples comes out as docs/stability.md says, with no rank typed in it;
 what is written is read by the checker, by `certify` without a search, and by coqc.  `make test`
-settles three of them and compiles one; `make exhaust` settles all, and with
-JUGGLEPROOF_MUTANTS=many an attraction and an escape are compiled.
+settles three of them; `make exhaust` settles all, and with JUGGLEPROOF_MUTANTS=many an attraction
+and an escape are compiled.
 """
 
 from __future__ import annotations
@@ -14,15 +14,16 @@ from pathlib import Path
 import pytest
 
 from juggleproof.benchmarks import stability
-from juggleproof.proofs import judging
+from juggleproof.proofs.searches import claim_search
 from juggleproof.proofs.stability.findings import MapVerdict
 from tests.proofs.command import running
 from tests.proofs.coq.development import coqc
+from tests.rows import each_row
 from tests.share import MANY
 
 OUTCOMES = stability.outcomes(stability.TABLE.text())
 EXAMPLES = stability.examples()
-COMPILED = ("lozi", "skew-tent") if MANY else ("skew-tent",)
+COMPILED = ("lozi", "skew-tent") if MANY else ()
 QUICK = ("cobweb", "skew-tent", "switched")  # in part, refuted and proved, in each run of the tests
 SETTLED = [
     path if path.stem in QUICK else pytest.param(path, marks=pytest.mark.exhaust)
@@ -37,7 +38,7 @@ def test_the_page_has_every_example_and_most_are_proved_holds() -> None:
     assert heads.count("proved") > len(heads) // 2
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: str(path.stem))
+@each_row("path", EXAMPLES)
 def test_an_example_is_short_cites_its_source_and_types_no_rank_holds(path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
     comment = "".join(line for line in lines if line.startswith("#"))
@@ -72,7 +73,7 @@ def test_an_example_is_settled_as_the_page_says_holds(
     def search(*_: object, **__: object) -> None:
         raise AssertionError("`certify` searches for what is stored")
 
-    monkeypatch.setattr(judging, "search_premises", search)
+    monkeypatch.setattr(claim_search, "search_premises", search)
     certified = running.run("certify", str(claims), "--routes", "exact")
     assert certified.returncode == 0, certified.stderr
     assert "1 claim: 1 holds" in certified.stdout

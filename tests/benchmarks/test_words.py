@@ -19,11 +19,12 @@ from juggleproof.benchmarks.words import (
 )
 from juggleproof.proofs.restitution.settling import RANGES
 from juggleproof.symbolic import normal_periodic_impact
+from tests.rows import each_row
 
 BEYOND = "restitution-beyond-five-sevenths"
 
 
-@pytest.mark.parametrize("name", ["restitution-to-three-fifths", "restitution-two-thirds", BEYOND])
+@each_row("name", ["restitution-to-three-fifths", "restitution-two-thirds", BEYOND])
 def test_words_of_the_claims_are_those_found_holds(name: str) -> None:
     assert search_for(RANGES[name]) == (RANGES[name].runs, RANGES[name].never)
 

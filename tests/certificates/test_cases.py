@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from juggleproof.certificates.cases import exact, with_cases
 from juggleproof.certificates.language import ClaimError, MapRule
 from juggleproof.proofs.stability.terms import holds, value
+from tests.rows import each_row
 
 NUMBERS = st.fractions(-3, 3, max_denominator=4)
 
@@ -52,7 +53,7 @@ def test_what_has_nothing_of_this_is_the_same_rule_holds() -> None:
     assert with_cases(rule) is rule
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "says"),
     [
         ("abs(x, y)", "a/b: the line `rank abs(x, y)`: abs(x, y): abs takes one term, max and min"),

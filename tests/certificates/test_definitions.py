@@ -26,6 +26,7 @@ from juggleproof.proofs.claims import assertions, named_statements
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import definitions
 from tests.certificates.drawn import fractions
+from tests.rows import each_row
 
 a, b, g, x, y = reals("a b g x y")
 E = Definition("E", ("x", "y"), g * x + y**2 / 2)
@@ -86,13 +87,13 @@ LONG = {
 }
 
 
-@pytest.mark.parametrize("line", LONG)
+@each_row("line", LONG)
 def test_lines_are_shortened_and_written_out_again_holds(line: str) -> None:
     assert short_line(line, ALL) == LONG[line]
     assert Reader(defining_lines(ALL)).long_line(LONG[line]) == line
 
 
-@pytest.mark.parametrize("line", ["forall E x", "sharp E/x", "word 1 2", "statement E/f"])
+@each_row("line", ["forall E x", "sharp E/x", "word 1 2", "statement E/f"])
 def test_other_lines_stay_as_they_are_holds(line: str) -> None:
     assert short_line(line, ALL) == Reader(defining_lines(ALL)).long_line(line) == line
 
@@ -138,7 +139,7 @@ def test_a_shortened_line_means_the_same_to_the_checker_holds(thing: Term) -> No
     assert said[0] == said[1]
 
 
-@pytest.mark.parametrize("text", ["x", "1 + 2"])
+@each_row("text", ["x", "1 + 2"])
 def test_rejects_a_term_as_formula(text: str) -> None:
     with pytest.raises(ClaimError, match="is not a formula"):
         formula_of(checker.parse(text))
@@ -153,8 +154,8 @@ TWO = ["define d(x) := x - 1", "", "statement a/b", "forall x", "show d(x) < x"]
 TWO += ["", "statement a/c", "forall x", "given x > 1", "show d(x) > 0"]
 
 
-@pytest.mark.parametrize("added", ["", "# statement a/d", "statement a/d", "define e := 1"])
-@pytest.mark.parametrize("place", range(len(TWO) + 1))
+@each_row("added", ["", "# statement a/d", "statement a/d", "define e := 1"])
+@each_row("place", range(len(TWO) + 1))
 def test_a_statement_is_what_the_checker_reads_of_it_holds(place: int, added: str) -> None:
     """Whatever stands between its lines, where the checker takes the file."""
     for lines in ([*TWO[:place], added, *TWO[place:]], [*TWO[:place], added, *TWO[place + 1 :]]):

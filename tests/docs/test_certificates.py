@@ -8,13 +8,12 @@ import json
 import re
 from typing import Any, NamedTuple
 
-import pytest
-
 from juggleproof.certificates import checker
 from tests.certificates.reader.settling import load_json, outcomes
 from tests.certificates.reader.statements import read_statements
 from tests.certificates.reader.syntax import Rejected
 from tests.docs.pages import ROOT, blocks
+from tests.rows import each_row
 
 PAGE = ROOT / "docs/certificates.md"
 
@@ -159,15 +158,13 @@ def verdicts(example: Example) -> tuple[str, str]:
     return outcome, other.split(":")[0]
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@each_row("name", EXAMPLES)
 def test_an_example_is_accepted_holds(name: str) -> None:
     expected = next(iter(json.loads(EXAMPLES[name].entries[name])))
     assert verdicts(EXAMPLES[name]) == (expected, expected)
 
 
-@pytest.mark.parametrize(
-    ("name", "old", "new"), [row[:3] for row in CHANGES], ids=[f"{n}: {w}" for n, *_, w in CHANGES]
-)
+@each_row(("name", "old", "new"), [row[:3] for row in CHANGES])
 def test_rejects_a_changed_example(name: str, old: str, new: str) -> None:
     statements, entries = EXAMPLES[name]
     statement, entry = statements[name] + "\n", entries[name]

@@ -11,7 +11,7 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -89,6 +89,7 @@ ELSEWHERE = {
         "tests/scenes/table/test_attractors.py",
         '"--picture", "attractors"',
     ),
+    "juggleproof errata": ("tests/proofs/command/test_show.py", 'running.run("errata")'),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof certify --only eq-37": (
@@ -128,6 +129,7 @@ ELSEWHERE = {
         "tests/benchmarks/test_engines.py",
         "engines.main([])",
     ),
+    "python -m juggleproof.benchmarks.sine": ("tests/benchmarks/test_sine.py", "sine.main()"),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
     "python -m juggleproof.benchmarks.peers": (
         "tests/benchmarks/test_peers.py",
@@ -154,11 +156,8 @@ COMMANDS = [(page, one) for one, page in FIRST.items()]
 
 
 @pytest.fixture(scope="module", autouse=True)
-def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """A folder for the records of these runs: what one has derived, the next need not."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("JUGGLEPROOF_CACHE", str(tmp_path_factory.mktemp("records")))
-        yield
+def _kept(kept_records: None) -> None:
+    """With the records that other tests keep."""
 
 
 Run = Callable[[str, Path], Done]

@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import algebra, language, orbits, rules, settling, text
 from juggleproof.certificates.store import DEFAULT
 from tests.certificates.checker.maps import ASKED
-from tests.docs.pages import PAGES, ROOT, code, name, text_of
+from tests.docs.pages import PAGES, ROOT, code, text_of
+from tests.rows import each_row
 
 LANGUAGE = text_of(ROOT / "docs/statement-language.md")
 CERTIFICATES = text_of(ROOT / "docs/certificates.md")
@@ -82,7 +81,7 @@ def test_limits_are_the_checkers_holds() -> None:
 SHOWN = [(page, one) for page in PAGES for one in code(page, "statement")]
 
 
-@pytest.mark.parametrize(("page", "text"), SHOWN, ids=[name(page) for page, _ in SHOWN])
+@each_row(("page", "text"), SHOWN)
 def test_a_statement_that_is_shown_is_stored_holds(page: Path, text: str) -> None:
     stored = (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n")
     assert text.strip() in map(str.strip, stored)

@@ -7,10 +7,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import pytest
 import yaml
 
 from tests.docs.pages import PAGES, ROOT, name, text_of
+from tests.rows import each_row
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 BLOCKS = re.compile(r"^```.*?^```$|`[^`\n]*`", re.M | re.S)
@@ -26,7 +26,7 @@ def anchors(page: Path) -> set[str]:
     return slugs | set(re.findall(r'<a id="([^"]+)">', text))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
+@each_row("page", PAGES)
 def test_links_lead_somewhere_holds(page: Path) -> None:
     for target in LINK.findall(BLOCKS.sub("", text_of(page))):
         assert not re.match(r"\w+:", target), f"{target}: a page outside cannot be tested"

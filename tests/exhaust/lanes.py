@@ -151,5 +151,9 @@ class Lanes:
 
 
 def environment() -> dict[str, str]:
-    """What a stage is run with: more than the share of the suite, and no figures that are kept."""
-    return {**os.environ, "JUGGLEPROOF_MUTANTS": "many", "JUGGLEPROOF_CACHE": "off"}
+    """What a stage is run with: more than the share of the suite, no figures that are kept, and
+    bytecode, which many processes share.
+    """
+    settings = {"JUGGLEPROOF_MUTANTS": "many", "JUGGLEPROOF_CACHE": "off"}
+    others = {name: one for name, one in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {**others, **settings}

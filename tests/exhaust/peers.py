@@ -1,40 +1,48 @@
-"""The tests that need other solvers and engines, with these installed in a folder of their own.
+"""Tests that need other solvers and engines, with these installed in a folder of their own.
 
-python -m tests.exhaust.peers
+python -m tests.exhaust.peers MODULE ..
 """
 
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
 
 from tests.exhaust.sources import ROOT
 
 FOLDER = ROOT / "build" / "peers"
-TESTS = (
-    "tests.benchmarks.bench.test_bench",
-    "tests.benchmarks.test_engines",
-    "tests.benchmarks.test_peers",
-    "tests.benchmarks.test_problems",
-    "tests.certificates.sine.test_cover",
-    "tests.certificates.votes.test_smtlib",
-    "tests.proofs.command.test_show",
-    "tests.proofs.smtlib.test_answering",
-    "tests.scenes.part.test_setting",
-)
+LOCK = ROOT / "requirements-peers.lock"
+INSTALLED = FOLDER / LOCK.name
 
 
-def main() -> int:
+def install() -> None:
+    """Installs what the lock names, unless this lock was installed; aside, as two may install."""
+    wanted = LOCK.read_bytes()
+    if INSTALLED.exists() and INSTALLED.read_bytes() == wanted:
+        return
+    FOLDER.parent.mkdir(exist_ok=True)
+    aside = tempfile.mkdtemp(dir=FOLDER.parent)
+    pip = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check")
+    subprocess.run([sys.executable, *pip, "--target", aside, "-r", str(LOCK)], cwd=ROOT, check=True)
+    Path(aside, LOCK.name).write_bytes(wanted)
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    try:
+        os.rename(aside, FOLDER)
+    except OSError:  # another has just done the same
+        shutil.rmtree(aside)
+
+
+def main(modules: Sequence[str]) -> int:
     """Installs them, runs the tests; returns what pytest does."""
-    lock = ROOT / "requirements-peers.lock"
-    install = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--upgrade")
-    subprocess.run(
-        [sys.executable, *install, "--target", str(FOLDER), "-r", str(lock)], cwd=ROOT, check=True
-    )
-    files = [f"{name.replace('.', '/')}.py" for name in TESTS]
+    install()
+    files = [f"{name.replace('.', '/')}.py" for name in modules]
     return subprocess.run(
-        [sys.executable, "-m", "pytest", "-n", "2", "--dist", "loadfile", *files],
+        [sys.executable, "-m", "pytest", *files],
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(FOLDER)},
         check=False,
@@ -42,4 +50,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

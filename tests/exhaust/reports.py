@@ -1,4 +1,5 @@
-"""A report is the same to the byte when it is made again, without what the first has kept.
+"""A report is the same to the byte when it is made again, without what the first has kept and with
+it.
 
 python -m tests.exhaust.reports FORMAT
 """
@@ -27,11 +28,14 @@ def made(form: str, folder: Path) -> dict[str, bytes]:
 
 
 def main(form: str) -> int:
-    """Makes it twice; returns 1 where the two differ."""
+    """Makes it three times; returns 1 where two differ."""
     with tempfile.TemporaryDirectory() as folder:
-        first, second = (made(form, Path(folder, name)) for name in ("1", "2"))
+        first, *others = (made(form, Path(folder, name)) for name in ("1", "2", "1"))
     differ = sorted(
-        name for name in {*first, *second} if first.get(name, b"") != second.get(name, b"")
+        name
+        for other in others
+        for name in {*first, *other}
+        if first.get(name, b"") != other.get(name, b"")
     )
     for name in differ:
         print(f"{name} differs from run to run")

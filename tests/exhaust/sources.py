@@ -4,14 +4,17 @@ modules' imports, and the data that stands beside them or that they name.
 Every import counts, wherever it stands.  A module that is only named in a string counts as well:
 whole ("juggleproof.proofs.run", also inside a longer text), or in parts where the file imports by
 name or is a package ("run" or ".run").  More is found than is loaded, and nothing less; a test
-watches what a stage opens.  Prose is never among it: the pages of docs, and what ends in .md.
+watches what a stage opens.  Prose is never among it: the pages of docs, what ends in .md, and in a
+module its comments and the docstrings of what has no decorator.
 """
 
 from __future__ import annotations
 
 import ast
+import io
 import re
 import subprocess
+import tokenize
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from hashlib import sha256
@@ -23,6 +26,7 @@ NAME = "juggleproof"
 PACKAGES = ("symbolic", "certificates", "scenes", "proofs", "benchmarks")
 NAMED = re.compile(rf"\b(?:{NAME}|tests)(?:\.\w+)+")
 MARK = "pytest.mark.exhaust"
+DEFINED = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 BY_NAME = ("import_module", "lazy_names", "__import__")
 
 
@@ -36,11 +40,7 @@ def committed(root: Path) -> list[str]:
         check=True,
     )
     paths = (root / name for name in told.stdout.split("\0") if name)
-    return sorted(
-        path.relative_to(root).as_posix()
-        for path in paths
-        if path.is_file() and not path.is_symlink()
-    )
+    return sorted(path.relative_to(root).as_posix() for path in paths if path.is_file())
 
 
 class Facts(NamedTuple):
@@ -177,7 +177,10 @@ class Sources:
         whole = sha256(repr(said).encode())
         for file in sorted(files):
             if file not in self.kept_digests:
-                self.kept_digests[file] = sha256((self.root / file).read_bytes()).hexdigest()
+                content = (self.root / file).read_bytes()
+                if file.endswith(".py"):
+                    content = without_prose(content.decode()).encode()
+                self.kept_digests[file] = sha256(content).hexdigest()
             whole.update(f"\n{file} {self.kept_digests[file]}".encode())
         return whole.hexdigest()[:24]
 
@@ -208,6 +211,28 @@ def module_of(file: str) -> str:
         return ""
     parts = parts[:-1] if parts[-1] == "__init__" else parts
     return ".".join(parts if parts[0] in (NAME, "tests") else (NAME, *parts))
+
+
+def without_prose(text: str) -> str:
+    """A module without comments, blank lines, and the docstrings of what has no decorator: a
+    decorator may read the docstring, as that of a claim does.
+
+    >>> without_prose("# why\\nx = 1  # one\\n\\ndef f():\\n    'Return 1.'\\n    return 1\\n")
+    'x = 1\\ndef f():\\n    return 1\\n'
+    """
+    lines = text.splitlines(keepends=True)
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Module) or isinstance(node, DEFINED) and not node.decorator_list:
+            first = node.body[0] if node.body else None
+            if isinstance(first, ast.Expr) and ast.get_docstring(node) is not None:
+                begin, end = first.lineno, first.end_lineno or first.lineno
+                if not lines[begin - 1][: first.col_offset].strip():
+                    lines[begin - 1 : end] = [""] * (end - begin + 1)
+    return "".join(f"{line.rstrip()}\n" for line in lines if line.strip())
 
 
 def facts_of(text: str, module: str, package: bool) -> Facts:

@@ -16,10 +16,23 @@ DERIVED = "proofs/ledger/derived.json"
 REGISTER = "proofs/register.json"
 LOCKS = ("requirements.lock",)
 TEST_LOCKS = (*LOCKS, "requirements-report.lock", "requirements-test.lock", "pyproject.toml")
+PEERS_LOCKS = (*TEST_LOCKS, "requirements-peers.lock")
 CHECKER = ("algebra", "text", "language", "rules", "maps", "orbits", "settling")
 SINE = ("flights", "cells", "checker")
 FORMATS = ("html", "latex", "markdown", "json", "badge", "figures", "pdf")
 SHARES = 8  # of the store, for Coq
+WIDE_SHARES = ("cover", *(f"{share}/24" for share in range(1, 25)))
+WITH_PEERS = (  # tests of what needs other solvers and engines
+    "tests.benchmarks.bench.test_bench",
+    "tests.benchmarks.test_engines",
+    "tests.benchmarks.test_peers",
+    "tests.benchmarks.test_problems",
+    "tests.certificates.sine.test_cover",
+    "tests.certificates.votes.test_smtlib",
+    "tests.proofs.command.test_show",
+    "tests.proofs.smtlib.test_answering",
+    "tests.scenes.part.test_setting",
+)
 SEARCH = ("juggleproof.proofs.run", "juggleproof.proofs.register")
 FRESH, MUTANTS = "fresh/", "mutants/checker/"
 NEW_CLAIM = 20  # CPU seconds that CI grants to a claim that no line tells of
@@ -103,13 +116,17 @@ class Stages:
         """What one command does."""
         for name, module, *more in (
             ("problems", "juggleproof.benchmarks.problems", "--votes", "5"),
-            ("peers", "tests.exhaust.peers"),
-            ("sine-wide", "tests.exhaust.wide"),
             *((f"reports/{form}", "tests.exhaust.reports", form) for form in FORMATS),
+            *(
+                (f"sine-wide/{share.partition('/')[0]}", "tests.exhaust.wide", share)
+                for share in WIDE_SHARES
+            ),
         ):
-            locks = [*TEST_LOCKS, *["requirements-peers.lock"] * (name == "peers")]
-            depends = self.sources.depends_on([module], locks)
+            depends = self.sources.depends_on([module], TEST_LOCKS)
             yield Stage(name, ("python", "-m", module, *more), depends)
+        for tests in WITH_PEERS:
+            depends = self.sources.depends_on(["tests.exhaust.peers", tests], PEERS_LOCKS)
+            yield Stage(f"peers/{tests}", ("python", "-m", "tests.exhaust.peers", tests), depends)
 
     # ------------------------------------------------------------ claims, and shares of the store
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.exhaust.sources import ROOT, Sources, facts_of
+from tests.exhaust.sources import ROOT, Sources, facts_of, without_prose
 from tests.exhaust.stages import FRESH, INDEX, REGISTER, STORE, Stages
 
 
@@ -90,7 +90,15 @@ def test_lazy_packages_and_packages_on_the_way_are_told_apart_holds(sources: Sou
         sources.closure(["juggleproof.nowhere"])
 
 
-CHECKERS = ("mutants/*", "fresh/*", "coq-store/*", "sine-wide", "problems", "reports/*", "peers")
+CHECKERS = (
+    "mutants/*",
+    "fresh/*",
+    "coq-store/*",
+    "sine-wide/*",
+    "problems",
+    "reports/*",
+    "peers/*",
+)
 
 
 @pytest.mark.parametrize(
@@ -107,10 +115,10 @@ CHECKERS = ("mutants/*", "fresh/*", "coq-store/*", "sine-wide", "problems", "rep
         (
             "certificates/sine/search.py",
             "x = 1",
-            ("sine-wide",),
+            ("sine-wide/*",),
             ("mutants/checker/*", "fresh/eq*"),
         ),
-        ("certificates/sine/wide/statements.txt", "x", ("sine-wide",), ("mutants/checker/*",)),
+        ("certificates/sine/wide/statements.txt", "x", ("sine-wide/*",), ("mutants/checker/*",)),
         (
             "proofs/restitution/unequal.py",
             "x = 1",
@@ -157,6 +165,23 @@ def test_a_change_asks_for_what_it_can_change_holds(
 @pytest.mark.parametrize("file", ["README.md", "CHANGELOG.md", "docs/trust.md", "docs/formulas.py"])
 def test_prose_asks_for_nothing_holds(copied: Path, stages: Stages, file: str) -> None:
     assert not asked(copied, stages, file, "\nx = 1\n")
+
+
+def test_a_comment_asks_for_nothing_holds(copied: Path, stages: Stages) -> None:
+    assert not asked(copied, stages, "certificates/checker/rules.py", "\n\n# x = 1\n")
+
+
+def test_a_module_without_prose_has_what_is_run_and_what_decorators_read_holds() -> None:
+    text = (
+        '"""Of the module."""\n# why\nimport a  # here\n\n\n'
+        '@claim("c")\ndef c():\n    """Read."""\n'
+        '    return """#\n\n    x"""\n\n\nclass D:\n    """Of\n    a class."""\n    E = "#"\n'
+        '\ndef f(): "Of one line."; return 1\n'
+    )
+    assert without_prose(text) == (
+        'import a\n@claim("c")\ndef c():\n    """Read."""\n    return """#\n    x"""\n'
+        'class D:\n    E = "#"\ndef f(): "Of one line."; return 1\n'
+    )
 
 
 def test_an_import_inside_a_function_asks_for_what_it_brings_holds(

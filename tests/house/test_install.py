@@ -1,6 +1,6 @@
-"""What is installed is one import name: from a wheel and from an editable install, with what
-certifying needs and no more, the command, the API and the pytest plugin work beside a project that
-has folders named as ours.
+"""What is installed is one import name: from a wheel, from an sdist and from an editable install of
+a clone, with what certifying needs and no more, the command, the API and the pytest plugin work
+beside a project that has folders named as ours.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from collections.abc import Mapping
@@ -93,19 +94,23 @@ def ran(*command: object, cwd: Path, env: Mapping[str, str] | None = None) -> st
     return done.stdout
 
 
+def committed() -> list[Path]:
+    """The files that git knows and that are still there."""
+    told = ran("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", cwd=ROOT)
+    return [path for name in told.split("\0") if name and (path := ROOT / name).is_file()]
+
+
 @pytest.fixture(scope="module")
 def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of what is installed, so that building leaves nothing in the checkout."""
-    folder = tmp_path_factory.mktemp("checkout")
-    for name in (*FOLDERS, "juggleproof", "src"):
-        shutil.copytree(
-            ROOT / name,
-            folder / name,
-            symlinks=True,
-            ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"),
-        )
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, folder)
+    """A clone of what is committed, as on a system without symbolic links."""
+    folder = tmp_path_factory.mktemp("clones") / "checkout"
+    for path in committed():
+        copy = folder / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_symlink():
+            copy.write_text(os.readlink(path), encoding="utf-8")
+        else:
+            shutil.copy(path, copy)
     return folder
 
 
@@ -119,6 +124,13 @@ def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     pip(sys.executable, "wheel", checkout, "--wheel-dir", folder, cwd=folder)
     (made,) = folder.glob("*.whl")
     return made
+
+
+@pytest.fixture(scope="module")
+def sdist(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sdist")
+    code = f"from setuptools.build_meta import build_sdist; print(build_sdist({str(folder)!r}))"
+    return folder / ran(sys.executable, "-c", code, cwd=checkout).splitlines()[-1]
 
 
 PARTS = """
@@ -158,20 +170,20 @@ def environment(python: str, folder: Path) -> tuple[Path, Path]:
     return bin, site
 
 
-@pytest.fixture(scope="module", params=[*PYTHONS, "editable"])
+@pytest.fixture(scope="module", params=[*PYTHONS, "sdist", "editable"])
 def place(
     request: pytest.FixtureRequest,
     checkout: Path,
     wheel: Path,
+    sdist: Path,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Place:
-    editable = request.param == "editable"
-    python = sys.executable if editable else interpreter(request.param)
+    python = interpreter(request.param if request.param in PYTHONS else RUNNING)
     folder = tmp_path_factory.mktemp("installed")
     bin, site = environment(python, folder)
-    what = ("--editable", checkout) if editable else (wheel,)
+    what = {"editable": ("--editable", checkout), "sdist": (sdist,)}.get(request.param, (wheel,))
     pip(python, "--python", bin / "python", "install", "--no-index", *what, cwd=folder)
-    return Place(bin, checkout / "src" if editable else site)
+    return Place(bin, checkout if request.param == "editable" else site)
 
 
 @pytest.fixture
@@ -227,11 +239,26 @@ def types(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("types")
 
 
-def test_types_beside_a_project_hold(place: Place, project: Path, types: Path) -> None:
+def test_types_beside_a_project_hold(
+    place: Place, project: Path, types: Path, checkout: Path
+) -> None:
+    """Of an editable install, by the folder of links that `make lint` lays for such tools."""
     (project / "typed.py").write_text(TYPED, encoding="utf-8")
     python = place.bin / "python"
-    options = ("--strict", "--cache-dir", types, "--python-executable", python)
-    seen = ran(sys.executable, "-m", "mypy", *options, "typed.py", cwd=project)
+    options = ("--strict", "--follow-imports=silent", "--cache-dir", types)
+    ran("make", "build/imports", cwd=checkout)
+    path = {"MYPYPATH": f"{checkout}/build/imports"} if place.home == checkout else None
+    seen = ran(
+        sys.executable,
+        "-m",
+        "mypy",
+        *options,
+        "--python-executable",
+        python,
+        "typed.py",
+        cwd=project,
+        env=path,
+    )
     types = [line.partition("Revealed type is ")[2] for line in seen.splitlines()[:2]]
     assert types[0].startswith('"def (what: ') and "list[juggleproof.proofs.api.Result]" in types[0]
     assert types[1].startswith('"def (setting: juggleproof.scenes.part.setting.Scene')
@@ -243,6 +270,30 @@ def test_pytest_beside_a_project_holds(place: Place, project: Path) -> None:
     )
     assert "test_own.py::test_the_project_has_its_own_folders PASSED" in told
     assert "squares" in told and "2 passed" in told
+
+
+def test_a_new_file_needs_no_new_install_holds(place: Place, project: Path, checkout: Path) -> None:
+    if place.home != checkout:
+        pytest.skip("no editable install")
+    (checkout / "proofs" / "new").mkdir()
+    for file in ("symbolic/new.py", "proofs/new/__init__.py"):
+        (checkout / file).write_text("HERE = __name__\n", encoding="utf-8")
+    code = (
+        "import juggleproof.symbolic.new as a, juggleproof.proofs.new as b; print(a.HERE, b.HERE)"
+    )
+    told = ran(place.bin / "python", "-c", code, cwd=project)
+    assert told.split() == ["juggleproof.symbolic.new", "juggleproof.proofs.new"]
+
+
+def test_no_symbolic_link_is_committed_holds() -> None:
+    assert not [path for path in committed() if path.is_symlink()]
+
+
+def test_the_sdist_has_all_that_is_committed_holds(sdist: Path) -> None:
+    with tarfile.open(sdist) as archive:
+        held = {name.partition("/")[2] for name in archive.getnames()}
+    names = {path.relative_to(ROOT).as_posix() for path in committed()}
+    assert {name for name in names if not name.startswith(".")} <= held
 
 
 def test_all_sources_and_data_are_in_the_wheel_holds(wheel: Path) -> None:

@@ -69,5 +69,5 @@ def test_no_other_folder_is_committed_at_the_root() -> None:
     if listed.returncode:
         pytest.skip("no repository")
     folders = {line.split("/")[0] for line in listed.stdout.splitlines() if "/" in line}
-    others = {"juggleproof", "src", "tests", "docs", "examples", ".ci", ".github"}
+    others = {"juggleproof", "tests", "docs", "examples", ".ci", ".github"}
     assert folders == {*PACKAGES, *others}

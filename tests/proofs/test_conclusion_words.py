@@ -9,9 +9,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-
 from juggleproof.proofs import conclusions
+from tests.rows import each_row
 
 ROOT = Path(conclusions.__file__).resolve().parents[1]
 WORD = re.compile(r"(?<!/)\b(stable|attracts?|proved|refuted)\b")
@@ -61,8 +60,6 @@ def test_no_other_file_writes_the_words_of_results_holds() -> None:
     assert "proofs/stability/findings.py" in found
 
 
-@pytest.mark.parametrize(
-    "text", ['print("it is proved")', 'print(f"{e} attracts all")', 'x = ["not " "stable"]']
-)
+@each_row("text", ['print("it is proved")', 'print(f"{e} attracts all")', 'x = ["not " "stable"]'])
 def test_rejects_a_sentence_about_a_result(text: str) -> None:
     assert sentences_in(text)

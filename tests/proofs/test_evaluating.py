@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from juggleproof.certificates.language import real
 from juggleproof.certificates.nodes import Counterexample
 from juggleproof.proofs.evaluating import at_simple_values, is_simple, numbers_at, value_at
 from juggleproof.proofs.paper.names import always
+from tests.rows import each_row
 
 alpha, s, x = real("alpha"), real("s"), real("x")
 
 
-@pytest.mark.parametrize(
+@each_row(
     "terms, adjoined, simple",
     [
         ({"x": "-12/7"}, [], True),
@@ -39,7 +38,7 @@ def test_simple_values_make_roots_rational_holds() -> None:
     assert plain == ["alpha = 1/2", "alpha = 1/3", "alpha = 2/3", "alpha = 1/4"]
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text, numbers",
     [
         ("x^2 < x", "4 < 2"),
@@ -55,6 +54,6 @@ def test_numbers_stand_in_the_part_that_fails_holds(text: str, numbers: str) -> 
     assert numbers_at(text, {"x": Fraction(2)}) == numbers
 
 
-@pytest.mark.parametrize("text", ["y", "1/(x - 2)", "x < 1"])
+@each_row("text", ["y", "1/(x - 2)", "x < 1"])
 def test_rejects_what_has_no_value(text: str) -> None:
     assert value_at(text, {"x": Fraction(2)}) is None

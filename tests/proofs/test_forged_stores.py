@@ -20,9 +20,9 @@ from juggleproof.proofs.command import explain
 from juggleproof.proofs.command.main import run as command
 from juggleproof.proofs.judgement import Correction, Judgement
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.reports.results import summary
 from juggleproof.proofs.run import FINDINGS, Options, Run, run
+from juggleproof.proofs.searches.range_search import search_sharp_range
 from tests.certificates.checker.maps import SUBTRACT, searched
 from tests.proofs.stores import part_of_store
 

@@ -15,14 +15,14 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.vote import Vote
 from juggleproof.certificates.votes.z3 import vote_and_model
-from juggleproof.proofs import judging
 from juggleproof.proofs.claims import place_in_file
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.conclusions import RULES, conclusion, meaning
 from juggleproof.proofs.evaluating import is_true_at, value_at
-from juggleproof.proofs.orbit_rules import why
+from juggleproof.proofs.searches import claim_search
+from juggleproof.proofs.searches.unproved_premises import why
 from tests.certificates.checker.maps import (
     ASKED,
     COUNT,
@@ -44,6 +44,7 @@ from tests.certificates.checker.test_map_rules import (
 )
 from tests.certificates.checker.test_returns import LOOP
 from tests.certificates.checker.test_settles import TWO
+from tests.rows import each_row
 
 STATEMENTS_OF = [
     read(text)
@@ -156,7 +157,7 @@ def test_every_premise_of_every_rule_has_its_words_holds() -> None:
     assert named == {kind: {*rule.premises} for kind, rule in RULES.items()}
 
 
-@pytest.mark.parametrize("name", CONCLUSIONS)
+@each_row("name", CONCLUSIONS)
 def test_a_rule_is_concluded_with_its_numbers_holds(name: str) -> None:
     assert conclusion(KINDS[name], name, TEXTS) == CONCLUSIONS[name]
 
@@ -213,7 +214,7 @@ def test_a_domain_that_is_no_interval_is_concluded_as_it_stands_holds() -> None:
     assert conclusion("map", "demo/map", changed).startswith("for all a with a^2 < a: f maps")
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("whole", "part", "old", "new", "premise"),
     [
         *((SUBTRACT, *row) for row in FAILING),
@@ -298,7 +299,7 @@ def test_a_long_goal_is_shown_by_its_numbers_holds() -> None:
     assert re.search(r": false at a = 1, x = [^ ]+, y = [^ ]+, where -[\d/]+ >= 0$", line), line
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("kind", "old", "new", "premise", "says"),
     [
         ("contracts", "rate a", "rate 1", "constants", ", where 1 < 1 is false"),
@@ -334,7 +335,7 @@ def test_a_false_recurrence_has_values_holds() -> None:
 NOT_FOUND = "no certificate was found within the budget: try --budget 700, or a lemma"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("answer", "says"),
     [
         ("holds", f"Z3 says that it holds; {NOT_FOUND}"),
@@ -472,14 +473,14 @@ def test_reasons_are_the_same_from_run_to_run_holds(tmp_path: Path) -> None:
 def test_a_rule_whose_proofs_the_checker_rejects_is_searched_again_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked, search = list[bool](), judging.search_premises
+    asked, search = list[bool](), claim_search.search_premises
 
     def first_in_vain(*rest: Any) -> Any:
         asked.append(rest[-1])
         for name, proof in search(*rest):
             yield name, proof if rest[-1] else ("proof", [], ("close",))
 
-    monkeypatch.setattr(judging, "search_premises", first_in_vain)
+    monkeypatch.setattr(claim_search, "search_premises", first_in_vain)
     assert certify(file_of(tmp_path)) == 0
     assert asked == [False, True, False, True]  # the map, and what is claimed of it
 

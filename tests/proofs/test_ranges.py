@@ -19,11 +19,13 @@ from juggleproof.certificates.language import (
     reals,
 )
 from juggleproof.certificates.search.ranges import Line
+from juggleproof.certificates.work import read
 from juggleproof.proofs.claims import Assertion, Claim
-from juggleproof.proofs.forms import always, read, speaks_of_range
+from juggleproof.proofs.forms import always, speaks_of_range
 from juggleproof.proofs.judgement import Resources, Sharp
 from juggleproof.proofs.judging import Judge, judge
-from juggleproof.proofs.ranges import line_text, search_sharp_range, text_of_range
+from juggleproof.proofs.searches.range_search import line_text, search_sharp_range, text_of_range
+from tests.rows import each_row
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))
@@ -145,7 +147,7 @@ def told(*statements, parameters=None):
     return sharp and sharp.text
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("statement", "parameters"),
     [
         (always(a * q < 1, in_range=UNIT, given=[q > 0, q < 1]), ("q",)),
@@ -165,7 +167,7 @@ def test_range_lines_of_two_variables_are_both_replaced_holds():
     assert text_of_range(text, [product.named("own/main")], ("a", "q"), roles, BUDGET) is None
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("show", "domain", "shown"),
     [
         (a**2 < 2, [a**2 < 1], "a^2 < 1"),
@@ -193,7 +195,7 @@ def test_rejects_range_beside_a_statement_that_is_not_settled():
     assert one.find_sharp_range("", Assertion((refuted, open_part))) is None
 
 
-@pytest.mark.parametrize(
+@each_row(
     "statements",
     [
         [always(2 * a < 1, in_range=UNIT, label="sharp")],

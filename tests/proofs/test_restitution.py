@@ -7,14 +7,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import term
 from juggleproof.certificates.search.certificate import search_certificate
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.work import Budget
-from juggleproof.proofs.forms import read
+from juggleproof.certificates.work import Budget, read
 from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
@@ -29,10 +25,10 @@ from juggleproof.proofs.restitution.unequal import (
 )
 from juggleproof.proofs.theorem.definition import holds_at, value_of
 from juggleproof.proofs.theorem.orbits import State, step
+from tests.rows import each_row
+from tests.stored import STORE, statements
 
-STORE = Store(DEFAULT)
 TEXTS = {name: text for name, text in STORE.texts.items() if name.startswith("restitution-")}
-KNOWN = checker.read_statements("\n\n".join(TEXTS.values()))
 # (statement, what is changed in it, into what): each is false
 FALSE = {
     "as-it-begins": ("restitution-e-K-none/no-two-flights", "(K + 1) < K - 1", "(K + 1) <= K - 1"),
@@ -88,7 +84,8 @@ WEAKENED = [
 def outcome(name: str, text: str) -> str:
     """The checker's, of this text with the certificate that is stored for the statement."""
     statement = checker.read_statements(text)[name]
-    return checker.check_one(statement, STORE.certificate(name, TEXTS[name]), dict(KNOWN), {})[0]
+    known = {one: there for one, there in statements().items() if one in TEXTS}
+    return checker.check_one(statement, STORE.certificate(name, TEXTS[name]), known, {})[0]
 
 
 def state_at(alpha: Fraction, place: Vector, **more: Fraction | int) -> State:
@@ -110,7 +107,7 @@ def flights(state: State, count: int) -> tuple[tuple[int, ...], State]:
     return tuple(lengths), state
 
 
-@pytest.mark.parametrize("name", FALSE)
+@each_row("name", FALSE)
 def test_claims_on_restitution_fail_without_a_hypothesis(name: str) -> None:
     statement, old, new = FALSE[name]
     assert old in TEXTS[statement]
@@ -119,16 +116,14 @@ def test_claims_on_restitution_fail_without_a_hypothesis(name: str) -> None:
     assert checker.check_one(changed, found, {}, {})[0] == "refuted"
 
 
-@pytest.mark.parametrize(
-    ("name", "old", "new"), WEAKENED, ids=[f"{name}: {new.strip()}" for name, _, new in WEAKENED]
-)
+@each_row(("name", "old", "new"), WEAKENED)
 def test_rejects_a_weakened_map_rule(name: str, old: str, new: str) -> None:
     assert old in TEXTS[name]
     assert outcome(name, TEXTS[name]) == "certified"
     assert outcome(name, TEXTS[name].replace(old, new)) == "rejected"
 
 
-@pytest.mark.parametrize(("K", "above"), [(1, 9), (2, 1000), (3, 3), (5, 2)])
+@each_row(("K", "above"), [(1, 9), (2, 1000), (3, 3), (5, 2)])
 def test_the_box_of_a_fixed_point_is_followed_by_exact_orbits_holds(K: int, above: int) -> None:
     least = Fraction(K - 1, K + 1)
     alpha = least + (1 - least) / above
@@ -144,7 +139,7 @@ def test_the_box_of_a_fixed_point_is_followed_by_exact_orbits_holds(K: int, abov
         assert abs(after.w - centre.w) == alpha**3 * radius
 
 
-@pytest.mark.parametrize("K", [2, 3, 7])
+@each_row("K", [2, 3, 7])
 def test_states_that_lead_to_a_fixed_point_where_it_begins_holds(K: int) -> None:
     alpha = Fraction(K - 1, K + 1)
     orbit = [state_at(alpha, before(term(periods)), K=K) for periods in range(K + 1)]
@@ -163,7 +158,7 @@ def test_every_orbit_tends_to_one_of_two_fails_without_the_exceptions() -> None:
     assert 3 not in flights(near, 8)[0][1:]
 
 
-@pytest.mark.parametrize("name", RANGES)
+@each_row("name", RANGES)
 def test_words_that_no_state_has_are_in_no_exact_orbit_holds(name: str) -> None:
     chosen = RANGES[name]
     alpha = (2 * chosen.least + 3 * chosen.most) / 5
@@ -178,7 +173,7 @@ def test_words_that_no_state_has_are_in_no_exact_orbit_holds(name: str) -> None:
     assert len(ended) > 1
 
 
-@pytest.mark.parametrize("name", [name for name, one in RANGES.items() if one.least == one.most])
+@each_row("name", [name for name, one in RANGES.items() if one.least == one.most])
 def test_exceptions_tend_to_the_orbit_that_begins_holds(name: str) -> None:
     chosen = RANGES[name]
     states = [state_at(chosen.least, place) for place in chosen.exceptions()]
@@ -198,7 +193,7 @@ def room_at(alpha: Fraction) -> Fraction:
     return min(born.x / (43 * alpha**8), (dies.w - dies.x) / (48 * alpha**9), Fraction(1, 2000))
 
 
-@pytest.mark.parametrize("alpha", [Fraction(3, 4), Fraction(72864, 10**5), Fraction(77649, 10**5)])
+@each_row("alpha", [Fraction(3, 4), Fraction(72864, 10**5), Fraction(77649, 10**5)])
 def test_orbit_of_unequal_flights_comes_back_holds(alpha: Fraction) -> None:
     away = room_at(alpha)
     start = state_at(alpha, on_the_orbit(0))

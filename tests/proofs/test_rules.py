@@ -7,17 +7,16 @@ from __future__ import annotations
 from fractions import Fraction
 from pathlib import Path
 
-import pytest
-
 from juggleproof.certificates.language import MapRule, Roles, Statement, real
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import always
 from juggleproof.proofs.judgement import Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.ranges import range_of_rule
+from juggleproof.proofs.rule_ranges import range_of_rule
 from tests.proofs.command.running import Done, run
 from tests.proofs.conftest import Loaded
+from tests.rows import each_row
 
 CLAIMS = """
 from juggleproof.proofs import MapRule, claim
@@ -76,9 +75,7 @@ SHARP = {
 }
 
 
-@pytest.mark.parametrize(
-    "is_conclusion, text", [(True, "0 < a < 1/3"), (False, "at least 0 < a < 1/3")]
-)
+@each_row("is_conclusion, text", [(True, "0 < a < 1/3"), (False, "at least 0 < a < 1/3")])
 def test_a_range_is_sharp_only_for_the_conclusion_itself_holds(
     is_conclusion: bool, text: str
 ) -> None:
@@ -107,7 +104,7 @@ def test_the_range_of_several_attractors_is_that_of_the_descent_holds() -> None:
     assert range_of_rule("t/returns", texts) == "at least 0 < a < 1/3"
 
 
-@pytest.mark.parametrize(
+@each_row(
     "domain, text",
     [
         ("a^2 <= 2 and a >= 0", "at least 0 <= a <= 1393/985"),
@@ -164,7 +161,7 @@ WHOLE = "0 < a and a < 1"
 BELOW_HALF = always(real("a") < Fraction(1, 2), in_range=[real("a") > 0, real("a") < 1])
 
 
-@pytest.mark.parametrize(
+@each_row(
     "parts",
     [
         (BELOW_HALF, scaled("f", WHOLE), near(WHOLE)),
@@ -182,6 +179,6 @@ def test_range_of_the_last_rule_within_the_domains_of_the_others_holds() -> None
     assert told(*rules) == "at least 0 < a < 1/2"
 
 
-@pytest.mark.parametrize("more", ["a < b", "b = 3"])
+@each_row("more", ["a < b", "b = 3"])
 def test_range_of_a_rule_is_told_with_all_of_its_conditions_holds(more: str) -> None:
     assert told(scaled("f", f"{WHOLE} and {more}", "a b")) == f"at least {WHOLE} and {more}"

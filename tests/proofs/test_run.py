@@ -35,6 +35,7 @@ from juggleproof.proofs.run import (
 from juggleproof.proofs.theorem import THEOREM
 from tests.proofs.command.running import run as command
 from tests.proofs.stores import part_of_store
+from tests.rows import each_row
 
 Json = Any
 
@@ -110,7 +111,7 @@ def test_a_store_that_a_run_changes_is_checked_again_holds(
     assert seen[1] > 0 and seen[2:] == [0]
 
 
-@pytest.mark.parametrize("routes", [(), ("z3",), ("exact", "magic")])
+@each_row("routes", [(), ("z3",), ("exact", "magic")])
 def test_rejects_routes_without_the_exact_one_or_unknown(routes: tuple[str, ...]) -> None:
     with pytest.raises(ClaimError, match="choose from exact, z3, boxes"):
         Options(Path("store"), routes)

@@ -18,15 +18,15 @@ from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.sine import stored
 from juggleproof.certificates.sine.stored import STATEMENT, STORE, stored_outcomes
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, read
 from juggleproof.proofs.claims import CheckedApart, claims_in
-from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement, Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.reports.results import results_of_run
 from juggleproof.proofs.sine import everywhere
 from tests.proofs.command.running import run
 from tests.proofs.stores import part_of_store
+from tests.rows import each_row
 
 (CLAIM,) = claims_in([everywhere.__name__])
 REGISTERED = {"sine": {"verdict": "holds", "detail": "by the second checker"}}
@@ -92,7 +92,7 @@ def test_sentences_of_another_checker_come_to_a_verdict_holds() -> None:
     assert settled(*both, ("three", "unknown", "not asked"))[0] == "holds"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("found", "detail"),
     [
         ([("one", "certified", "")], "two: unknown: it is not stored"),
@@ -109,7 +109,7 @@ def test_sentences_of_another_checker_fail_without_a_certificate(
     assert settled(*found) == ("unknown", f"not certified by the other: {detail}")
 
 
-@pytest.mark.parametrize("name", FALSE)
+@each_row("name", FALSE)
 def test_claims_on_bounces_fail_without_a_hypothesis(name: str) -> None:
     statement, old, new = FALSE[name]
     text = Store(DEFAULT).texts[statement]

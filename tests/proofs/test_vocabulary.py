@@ -10,8 +10,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
     NO_ROLES,
@@ -29,12 +27,14 @@ from juggleproof.proofs.judgement import Judgement, Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import STANDING
+from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[2]
 SINE = ROOT / "certificates" / "sine"  # of one theorem, whose parameters it names
 ENGINE = [
     *(path for path in sorted((ROOT / "certificates").rglob("*.py")) if path.parent != SINE),
     *sorted((ROOT / "proofs").glob("*.py")),
+    *sorted((ROOT / "proofs" / "searches").glob("*.py")),
     *sorted((ROOT / "proofs" / "smtlib").glob("*.py")),
 ]
 a, alpha, q, r, g, v = reals("a alpha q r g v")
@@ -58,8 +58,8 @@ def scales(show: Formula, given: Sequence[Formula], roles: Roles = NO_ROLES) -> 
 # Names mean nothing.
 
 
-@pytest.mark.parametrize("among", ["range lines", "givens"])
-@pytest.mark.parametrize(("parameter", "other"), [(alpha, q), (alpha, r), (a, q), (g, r)])
+@each_row("among", ["range lines", "givens"])
+@each_row(("parameter", "other"), [(alpha, q), (alpha, r), (a, q), (g, r)])
 def test_a_claim_has_one_sharp_range_however_it_is_spelled_holds(
     parameter: Term, other: Term, among: str
 ) -> None:
@@ -99,12 +99,12 @@ def names_of_the_paper(text: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("path", ENGINE, ids=lambda path: str(path.relative_to(ROOT)))
+@each_row("path", ENGINE)
 def test_engine_names_nothing_of_the_paper_holds(path: Path) -> None:
     assert names_of_the_paper(path.read_text(encoding="utf-8")) == []
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         'x = {"alpha"}',

@@ -13,10 +13,11 @@ import pytest
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT
-from juggleproof.certificates.votes.vote import Budget
+from juggleproof.certificates.vote import Budget
 from juggleproof.proofs import judgement, judging
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import Options, Run, findings_in, run
+from juggleproof.proofs.searches import claim_search
 from tests.proofs.command.running import run as command
 
 CHOSEN = ("eq-37", "s2.2.1-B1")
@@ -37,13 +38,13 @@ def mine():
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The names of the statements that votes are cast on, as they are cast."""
-    names, cast = list[str](), judging.cast_votes
+    names, cast = list[str](), claim_search.cast_votes
 
     def counted(statement: Any, *rest: Any) -> Any:
         names.append(statement.name)
         return cast(statement, *rest)
 
-    monkeypatch.setattr(judging, "cast_votes", counted)
+    monkeypatch.setattr(claim_search, "cast_votes", counted)
     return names
 
 
@@ -91,7 +92,7 @@ def test_revote_asks_again_and_changes_no_byte_holds(
 def test_rejects_votes_with_another_budget(
     tmp_path: Path, asked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judging, "Asking", lambda: Budget(boxes=Budget().boxes - 1))
+    monkeypatch.setattr(judging, "Budget", lambda: Budget(boxes=Budget().boxes - 1))
     fresh(tmp_path)
     assert {name.split("/")[0] for name in asked} == {*CHOSEN}
 

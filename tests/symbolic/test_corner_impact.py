@@ -15,6 +15,7 @@ import pytest
 from sympy import Expr, S, lambdify
 
 import juggleproof.symbolic as s
+from tests.rows import each_row
 
 COUNT = 1500
 NAMES = (s.B1, s.B2, s.B3, s.S0, s.C0, s.e, s.mu, s.sigma, s.P_y)
@@ -252,14 +253,14 @@ def recalled() -> dict[str, tuple[Expr, Expr]]:
     }
 
 
-@pytest.mark.parametrize("way", [1, -1])
-@pytest.mark.parametrize("mode", s.MODES)
+@each_row("way", [1, -1])
+@each_row("mode", s.MODES)
 def test_modes_are_those_of_the_table_holds(mode: str, way: int) -> None:
     for ours, theirs in zip((s.normal_impulse(mode), s.tangential_impulse(mode)), recalled()[mode]):
         assert s.lowest_terms((ours - theirs).xreplace({s.sigma: S(way)})) == 0
 
 
-@pytest.mark.parametrize("way", [1, -1])
+@each_row("way", [1, -1])
 def test_conditions_are_those_of_the_table_holds(way: int) -> None:
     B1, B2, B3, S0, C0, e, mu, sigma, _ = NAMES
     P_d, P_q = (B2 + sigma * mu * B3) * sigma * S0, (mu * B1 + sigma * B3) * -C0

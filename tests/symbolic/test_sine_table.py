@@ -16,6 +16,7 @@ from sympy import Expr, Rational, lambdify, sympify
 
 import juggleproof.symbolic as s
 from juggleproof.scenes.table import curves
+from tests.rows import each_row
 
 STEP = 1e-6
 shares = st.fractions(Fraction(1, 40), Fraction(9, 10), max_denominator=40)
@@ -105,7 +106,7 @@ def test_the_page_shows_what_is_derived_holds() -> None:
         assert s.lowest_terms(sympify(text, locals=names) - value) == 0, text
 
 
-@pytest.mark.parametrize("alpha", [0.02, 0.05, 0.098, 0.3])
+@each_row("alpha", [0.02, 0.05, 0.098, 0.3])
 def test_curves_are_those_that_the_scene_draws_holds(alpha: float) -> None:
     birth, doubling = number(s.birth_drive(), alpha, 0), number(s.doubling_fall(), alpha, 0)
     assert curves.birth(alpha) == pytest.approx(birth)
@@ -113,7 +114,7 @@ def test_curves_are_those_that_the_scene_draws_holds(alpha: float) -> None:
     assert curves.doubling(alpha) == pytest.approx(sqrt(number(s.squared_drive(), alpha, doubling)))
 
 
-@pytest.mark.parametrize("alpha", [0.05, 0.098, 0.13])
+@each_row("alpha", [0.05, 0.098, 0.13])
 def test_gap_and_rate_of_the_other_bounce_vanish_where_the_scene_has_it_graze_holds(
     alpha: float,
 ) -> None:

@@ -9,5 +9,4 @@ The files, each after those that it imports:
 - `over_box`: one fact over the box of the others, by a small tree
 - `squares`: squares around a point, where halving boxes leads nowhere; facts over a box by them
 - `enclosures`: a bound within a width of the value at a point, by the two of them
-- `cuts`: several constraints over a box, which is cut
 """

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from math import comb, prod
 from operator import le, mul
@@ -13,6 +14,7 @@ from flint import fmpz_mat, fmpz_mpoly
 
 from juggleproof.certificates.algebra.numbers import bernstein, univariate
 from juggleproof.certificates.algebra.polynomials import (
+    Gradings,
     Ring,
     constant_of,
     degree_in,
@@ -290,18 +292,20 @@ class Scaling:
     """
 
     def __init__(self, ring: Ring, polys: Sequence[fmpz_mpoly], positive: Sequence[int]) -> None:
-        self.ring = ring
-        self.scales: tuple[int, ...] = ()
-        self.weights: list[Weight] = []  # of every variable
-        self.values: dict[int, int] = {}
-        self.gradings: list[list[int]] = []  # of all of which the polynomials are homogeneous
-        differences = frozenset[tuple[int, ...]]().union(*map(self._differences, polys))
-        key = differences, tuple(positive)
-        if key not in ring.scalings:  # most states of a search have the same scales
-            self._find(differences, positive)
-            ring.scalings[key] = self.scales, self.weights, self.values, self.gradings
-        self.scales, self.weights, self.values, self.gradings = ring.scalings[key]
+        self.ring, self.polys, self.positive = ring, polys, tuple(positive)
+        none: Gradings = ((), [], {}, [])
+        # weights of every variable, and the values of the scales
+        self.scales, self.weights, self.values, _ = self._found if positive else none
         self.of_scale = list(zip(*self.weights))  # the weights of all variables, for every scale
+
+    @cached_property
+    def _found(self) -> Gradings:
+        """The scales with their weights and values, and the gradings of all polynomials."""
+        differences = frozenset[tuple[int, ...]]().union(*map(self._differences, self.polys))
+        known, key = self.ring.scalings, (differences, self.positive)
+        if key not in known:  # most states of a search have the same scales
+            known[key] = self._chosen(self._gradings(differences))
+        return known[key]
 
     def _differences(self, poly: fmpz_mpoly) -> frozenset[tuple[int, ...]]:
         """The first monomial less each of the others."""
@@ -315,27 +319,33 @@ class Scaling:
             )  # holding the polynomial keeps its id from being used again
         return known[1]
 
-    def _find(self, differences: frozenset[tuple[int, ...]], positive: Sequence[int]) -> None:
-        ring = self.ring
-        if differences:
-            basis, rank = fmpz_mat(sorted(differences)).nullspace()
-            self.gradings = [[int(c) for c in line] for line in zip(*basis.tolist())][:rank]
-        else:
-            self.gradings = [[int(i == k) for k in range(ring.size)] for i in range(ring.size)]
-        candidates = [k for k in positive if any(row[k] for row in self.gradings)]
-        for count in range(min(len(self.gradings), len(candidates)), 0, -1):
-            if any(self._choose(scales) for scales in combinations(candidates, count)):
-                return
+    def _gradings(self, differences: frozenset[tuple[int, ...]]) -> list[list[int]]:
+        """A basis of all gradings under which such polynomials are homogeneous."""
+        size = self.ring.size
+        if not differences:
+            return [[int(i == k) for k in range(size)] for i in range(size)]
+        basis, rank = fmpz_mat(sorted(differences)).nullspace()
+        return [[int(c) for c in line] for line in zip(*basis.tolist())][:rank]
 
-    def _choose(self, scales: tuple[int, ...]) -> bool:
-        """Takes these scales, if each has a grading of its own with integer weights for all
-        variables.
+    def _chosen(self, gradings: list[list[int]]) -> Gradings:
+        """As many scales as have a grading each."""
+        candidates = [k for k in self.positive if any(row[k] for row in gradings)]
+        for count in range(min(len(gradings), len(candidates)), 0, -1):
+            for scales in combinations(candidates, count):
+                weights = self._weights(scales, gradings)
+                if weights is not None:
+                    return scales, weights, dict.fromkeys(scales, 1), gradings
+        return (), [], {}, gradings
+
+    def _weights(self, scales: tuple[int, ...], gradings: list[list[int]]) -> list[Weight] | None:
+        """Integer weights of all variables by which each of these scales has a grading of its own;
+        None where there are none.
         """
         size = self.ring.size
         others = [k for k in range(size) if k not in scales]
-        for first in others if len(scales) < len(self.gradings) else others[:1] or [-1]:
+        for first in others if len(scales) < len(gradings) else others[:1] or [-1]:
             order = [*scales, *(k for k in (first, *(k for k in others if k != first)) if k >= 0)]
-            table, den, rank = fmpz_mat([[row[k] for k in order] for row in self.gradings]).rref()
+            table, den, rank = fmpz_mat([[row[k] for k in order] for row in gradings]).rref()
             lines, den = (
                 [[int(c) for c in line] for line in table.tolist()[: len(scales)]],
                 int(den),
@@ -350,14 +360,12 @@ class Scaling:
                 )
             ):
                 place = {variable: k for k, variable in enumerate(order)}
-                self.scales, self.values = scales, dict.fromkeys(scales, 1)
-                self.weights = [tuple(line[place[k]] // den for line in lines) for k in range(size)]
-                return True
-        return False
+                return [tuple(line[place[k]] // den for line in lines) for k in range(size)]
+        return None
 
     def alike(self, v: int, w: int) -> bool:
         """Whether two variables may be compared: every grading gives them the same weight."""
-        return all(row[v] == row[w] for row in self.gradings)
+        return all(row[v] == row[w] for row in self._found[3])
 
     def lower(self, poly: fmpz_mpoly) -> fmpz_mpoly:
         """The polynomial with every scale set to 1."""

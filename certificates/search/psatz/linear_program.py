@@ -4,7 +4,8 @@ exact rationals on it.  By Farkas' lemma, linear inequalities without a solution
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 from operator import add, ge
@@ -111,37 +112,83 @@ def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -
     alive = presolve(matrix, count, strict[:count], budget)
     if alive is None:
         return None
-    work = matrix[:, alive]
-    work = work[work.any(axis=1)]
-    size = np.abs(work).max(axis=0, initial=0.0)
-    size[size == 0] = 1.0
+    work = matrix.of_columns(alive)
+    size = work.sizes()
     inequality, strict, costs = alive < count, strict[alive], costs[alive]
-    budget.spend(100 + work.size // 8)
+    budget.spend(100 + work.rows * work.columns // 8)
     for jitter in JITTER:
-        vertex = optimum(
-            work / size,
+        values = optimum(
+            replace(work, values=work.values / size[work.at_column]),
             inequality,
             strict,
             costs * (1 + jitter * NOISE[: len(costs)]),
             iterations,
         )
-        if vertex is None:
+        if values is None:
             return None
-        values, basic = vertex
-        for support in (np.flatnonzero(np.abs(values) > TINY), basic):
+        for chosen in supports(values):
             found = exact(
-                work[:, support],
-                inequality[support],
-                strict[support],
-                values[support] / size[support],
+                work.of_columns(chosen).dense(),
+                inequality[chosen],
+                strict[chosen],
+                values[chosen] / size[chosen],
                 budget,
             )
             if found is not None:
-                chosen = [(int(alive[k]), c) for k, c in zip(support, found) if c]
-                return {k: c for k, c in chosen if k < count}, {
-                    k - count: c for k, c in chosen if k >= count
+                used = [(int(alive[k]), c) for k, c in zip(chosen, found) if c]
+                return {k: c for k, c in used if k < count}, {
+                    k - count: c for k, c in used if k >= count
                 }
     return None
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A matrix by its entries that are not 0, one column's after another's, and those by rows.
+
+    Shapes, for N entries: `at_row`, `at_column` and `values` (N,).
+    """
+
+    rows: int
+    columns: int
+    at_row: Keys
+    at_column: Keys
+    values: Floats
+
+    @staticmethod
+    def of(turned: Floats) -> Matrix:
+        """The transpose of an array.
+
+        >>> Matrix.of(np.array([[0.0, 2.0], [0.0, 0.0], [1.0, 0.0]])).dense().tolist()
+        [[0.0, 0.0, 1.0], [2.0, 0.0, 0.0]]
+        """
+        columns, rows = turned.shape
+        places = np.flatnonzero(turned != 0)
+        at_column, at_row = np.divmod(places, rows or 1)
+        return Matrix(rows, columns, at_row, at_column, turned.ravel()[places])
+
+    def of_columns(self, chosen: Keys) -> Matrix:
+        """Some of the columns, given in ascending order, without the rows that are 0 in them."""
+        place = np.full(self.columns, -1)
+        place[chosen] = np.arange(len(chosen))
+        kept = place[self.at_column] >= 0
+        rows, at_row = np.unique(self.at_row[kept], return_inverse=True)
+        return Matrix(
+            len(rows), len(chosen), at_row, place[self.at_column[kept]], self.values[kept]
+        )
+
+    def sizes(self) -> Floats:
+        """The largest absolute value of each column; 1 where it is 0."""
+        largest = np.zeros(self.columns)
+        np.maximum.at(largest, self.at_column, np.abs(self.values))
+        largest[largest == 0] = 1.0
+        return largest
+
+    def dense(self) -> Floats:
+        """The matrix as an array."""
+        array = np.zeros((self.rows, self.columns))
+        array[self.at_row, self.at_column] = self.values
+        return array
 
 
 JITTER = (0.0, 0.7)
@@ -150,7 +197,7 @@ MOST_COLUMNS = 20_000
 NOISE = np.random.default_rng(7).random(MOST_COLUMNS)
 
 
-def assemble(program: Program, budget: Budget) -> Floats | None:
+def assemble(program: Program, budget: Budget) -> Matrix | None:
     """The coefficients as a matrix, one row for each monomial that the equations leave; None if it
     is too large.
     """
@@ -180,8 +227,8 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
         inverse = inverse[part]
         if len(keys) * columns > MOST_ENTRIES:
             return None
-    matrix = np.bincount(inverse * columns + places, values, len(keys) * columns)
-    return matrix.astype(np.float64, copy=False).reshape(len(keys), columns)
+    turned = np.bincount(places * len(keys) + inverse, values, columns * len(keys))
+    return Matrix.of(turned.astype(np.float64, copy=False).reshape(columns, len(keys)))
 
 
 def counted(counts: Keys) -> Keys:
@@ -247,38 +294,43 @@ def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
     return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 
 
-def presolve(matrix: Floats, count: int, strict: Mask, budget: Budget) -> NDArray[np.intp] | None:
+def presolve(matrix: Matrix, count: int, strict: Mask, budget: Budget) -> Keys | None:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
     None if no strict one is left. Raises Exhausted where the budget ends.
 
-    Shapes, for n columns of which the first `count` are not free: `matrix` (rows, n), `strict`
-    (count,).
+    Shapes, for n columns of which the first `count` are not free: `strict` (count,).
     """
-    signs = np.sign(matrix)
-    used = np.abs(signs)
-    fixed = used[:, count:].any(axis=1)
-    alive = np.ones(matrix.shape[1])
+    free = matrix.at_column >= count
+    fixed = np.bincount(matrix.at_row[free], minlength=matrix.rows) > 0
+    own = ~free & ~fixed[matrix.at_row]
+    at_row, at_column, up = matrix.at_row[own], matrix.at_column[own], matrix.values[own] > 0
+    alive = np.ones(matrix.columns, dtype=bool)
     while True:
-        budget.spend(matrix.size // 1000)
-        reached = used @ alive
-        rows = (reached > 0) & (np.abs(signs @ alive) == reached) & ~fixed
-        if not rows.any():
+        budget.spend(matrix.rows * matrix.columns // 1000)
+        rising = np.bincount(at_row[up], minlength=matrix.rows) > 0
+        falling = np.bincount(at_row[~up], minlength=matrix.rows) > 0
+        one_sign = (rising != falling)[at_row]
+        if not one_sign.any():
             return np.flatnonzero(alive)
-        alive[:count][(rows @ used)[:count] > 0] = 0.0
+        alive[at_column[one_sign]] = False
         if not alive[:count][strict].any():
             return None
+        left = alive[at_column]
+        at_row, at_column, up = at_row[left], at_column[left], up[left]
 
 
 def optimum(
-    matrix: Floats, inequality: Mask, strict: Mask, costs: Floats, iterations: int
-) -> tuple[Floats, Keys] | None:
+    matrix: Matrix, inequality: Mask, strict: Mask, costs: Floats, iterations: int
+) -> Floats | None:
     """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
-    floats, and its basic columns; None where HiGHS finds none.
+    floats; None where HiGHS finds none.
 
-    Shapes, for n columns: `matrix` (rows, n); `inequality`, `strict`, `costs` and the vertex (n,).
+    Shapes, for n columns: `inequality`, `strict`, `costs` and the vertex (n,).
     """
-    rows, columns = matrix.shape
-    whole = np.vstack([matrix, strict.astype(float)])
+    rows, columns = matrix.rows, matrix.columns
+    starts = np.searchsorted(matrix.at_column, np.arange(columns + 1))
+    last = starts[1:][strict]  # the sum of strict ones is the last row
+    before: Keys = np.cumsum(strict) - strict
     model = highspy.HighsLp()
     model.num_col_, model.num_row_ = columns, rows + 1
     model.col_cost_ = costs
@@ -287,12 +339,10 @@ def optimum(
     right = np.zeros(rows + 1)
     right[rows] = 1.0
     model.row_lower_ = model.row_upper_ = right
-    turned = whole.T
-    at_column, at_row = np.nonzero(turned)
     model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
-    model.a_matrix_.start_ = np.searchsorted(at_column, np.arange(columns + 1)).astype(np.int32)
-    model.a_matrix_.index_ = at_row.astype(np.int32)
-    model.a_matrix_.value_ = turned[at_column, at_row]
+    model.a_matrix_.start_ = (starts + np.append(before, strict.sum())).astype(np.int32)
+    model.a_matrix_.index_ = np.insert(matrix.at_row, last, rows).astype(np.int32)
+    model.a_matrix_.value_ = np.insert(matrix.values, last, 1.0)
     solver = SOLVER.highs
     solver.setOptionValue("simplex_iteration_limit", iterations)
     solver.passModel(model)
@@ -300,9 +350,15 @@ def optimum(
     solver.setOptionValue("simplex_iteration_limit", MOST_ITERATIONS)
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
         return None
-    status = solver.getBasis().col_status
-    basic = [k for k, s in enumerate(status) if s == highspy.HighsBasisStatus.kBasic]
-    return np.array(solver.getSolution().col_value), np.array(basic, dtype=np.int64)
+    return np.array(solver.getSolution().col_value)
+
+
+def supports(values: Floats) -> Iterator[Keys]:
+    """The columns that are used at the vertex that was found last, then its basic columns."""
+    yield np.flatnonzero(np.abs(values) > TINY)
+    basic = highspy.HighsBasisStatus.kBasic
+    statuses = SOLVER.highs.getBasis().col_status
+    yield np.array([k for k, status in enumerate(statuses) if status == basic], dtype=np.int64)
 
 
 # iterations, not seconds, bound a run; one thread and a fixed seed make it the same every time

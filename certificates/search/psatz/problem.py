@@ -406,9 +406,11 @@ def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
     >>> high_facts([a**20 - 2, a**3 - 1, x - a**9]), high_facts([a**20 - 2, x - a**10])
     ({0}, set())
     """
+    high = {k: p for k, p in enumerate(polys) if total_degree(p) > HIGH and used_in(p) == 1}
+    if not high:  # as for nearly all states
+        return set()
     most = max((total_degree(p) for p in polys if used_in(p) > 1), default=0)
-    least = max(HIGH, 2 * most)
-    return {k for k, p in enumerate(polys) if used_in(p) == 1 and total_degree(p) > least}
+    return {k for k, p in high.items() if total_degree(p) > 2 * most}
 
 
 def used_in(poly: fmpz_mpoly) -> int:

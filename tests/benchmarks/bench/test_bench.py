@@ -51,6 +51,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.main import run as command
 from juggleproof.symbolic.algebra import alpha, r, w, x
+from tests.rows import each_row
 
 WIDTH, COARSE = Fraction(1, 1000), Fraction(1, 10)
 NAMES = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
@@ -81,7 +82,7 @@ def test_every_question_is_asked_here_holds() -> None:
     assert NAMES == tuple(questions())  # which derives them
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each_row("name", NAMES)
 def test_floating_point_comes_near_from_below_holds(name: str) -> None:
     value = METHODS["sampling"].solve(questions()[name].problem(), WIDTH)
     assert value.high is None and truth(name) - Fraction(1, 2) < value.low <= truth(
@@ -92,7 +93,7 @@ def test_floating_point_comes_near_from_below_holds(name: str) -> None:
     ) - Fraction(1, 10**12)
 
 
-@pytest.mark.parametrize("count", [1, 4, 7])
+@each_row("count", [1, 4, 7])
 def test_a_point_is_found_in_many_variables_holds(count: int) -> None:
     problem, truth = balls(count)
     assert truth - Fraction(1, 10**12) <= best_point(problem, Fraction(1, 10**12))[1] <= truth
@@ -113,8 +114,8 @@ def test_our_method_loads_without_numpy_holds() -> None:
     )
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("more", [Fraction(0), Fraction(1, 10**6)])
+@each_row("name", NAMES)
+@each_row("more", [Fraction(0), Fraction(1, 10**6)])
 def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Fraction) -> None:
     problem = questions()[name].problem()
     for text, holds in (
@@ -156,7 +157,7 @@ def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name:
         bernstein(questions()[name].problem(), WIDTH)
 
 
-@pytest.mark.parametrize("numbers", [Arb(), Mpmath()])
+@each_row("numbers", [Arb(), Mpmath()])
 def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Intervals) -> None:
     for name in ("E-B1zero", "p-outside-R", "DE-H"):
         problem = questions()[name].problem()
@@ -231,8 +232,8 @@ def test_a_bound_that_the_exact_orbit_breaks_is_noticed() -> None:
     ).wrong(Fraction(5))
 
 
-@pytest.mark.parametrize("arithmetic", ORBITS)
-@pytest.mark.parametrize("steps", [1, 1000])
+@each_row("arithmetic", ORBITS)
+@each_row("steps", [1, 1000])
 def test_orbits_stay_within_their_bounds_holds(arithmetic: str, steps: int) -> None:
     found = ORBITS[arithmetic].solve(STARTS["orbit"], Fraction(steps))()
     assert not found.beyond and found.distance < Fraction(1, 10**12)
@@ -249,7 +250,7 @@ def test_floats_stray_where_the_others_do_not_holds() -> None:
         ORBITS["fast"].solve(start, steps)
 
 
-@pytest.mark.parametrize("count", [1, 2])
+@each_row("count", [1, 2])
 def test_the_sum_over_balls_has_its_closed_form_holds(count: int) -> None:
     problem, expected = balls(count)
     for name in ("bernstein", "arb", "z3-once"):

@@ -38,6 +38,7 @@ from tests.certificates.checker import (
     test_files,
     test_limits,
     test_map_rules,
+    test_meaning,
     test_returns,
     test_rules,
     test_settles,
@@ -48,7 +49,7 @@ from tests.certificates.checker.mutants import FILES, Mutant, mutants, parsed
 MODULES = {name: import_module(f"{checker.__name__}.{name}") for name in FILES}
 TABLES = (
     *(test_rules, test_files, test_work, test_definitions, test_map_rules, test_settles),
-    *(test_returns, test_limits),
+    *(test_returns, test_limits, test_meaning),
 )
 ELSEWHERE = ("compiled_code", "module_beside")  # what Python loads: no text of the checker
 LIMIT = checker.MAX_WORK // 20  # of work, for a case

@@ -5,12 +5,27 @@ directions.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.certificates import checker
+from juggleproof.certificates.checker import Context, Kind, Rejected, State
+from juggleproof.certificates.checker.algebra import Work, sum_of_monomials
+from juggleproof.certificates.checker.text import names_of, summands
 from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
-from tests.certificates.checker.harness import CLOSE, Case, judge, lines, proof, refuted, verdict
+from tests.certificates.checker.harness import (
+    CLOSE,
+    Case,
+    judge,
+    lines,
+    proof,
+    refused,
+    refuted,
+    verdict,
+)
 from tests.certificates.checker.rules.sharp import EARLIER, SHARP, VALID, over
 from tests.certificates.drawn import fractions
 
@@ -199,3 +214,311 @@ def test_a_number_is_the_only_root_between_its_ends(
     once = orders == 1 and not any(root in (low, high) for root, _ in roots)
     outcome, _ = judge(Case("", text, VALID, earlier=EARLIER))
     assert outcome == ("certified" if once else "rejected")
+
+
+def of_x_and_y() -> Context:
+    context = Context()
+    context.declare("x")
+    context.declare("y")
+    return context
+
+
+def licensed_by(context: Context, line: str) -> Context:
+    """The context, in which a strict line stands."""
+    context.license(context.formula(checker.parse(line)))
+    return context
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "2*x*3*y - x/4 + x*y/2",
+        "x - x + 0*y",
+        "7 - 2*3",
+        "-2*x*(x + 1)",
+        "3/4*x*(x + 1)*(y + 2)*(x - y)",
+        "5*(x + y)*2/3 - y",
+        "(x + 1)^3 + (x + 1)^2 + (x + 1)^4",
+        "1 - (x - y)^5*(x - y)^2/(3 - 1) - 1/2",
+    ],
+)
+def test_a_sum_has_the_value_of_its_summands_holds(text: str) -> None:
+    value = of_x_and_y().polynomial(text)
+    for x, y in [(0, 0), (1, 2), (-3, 5), (7, -2)]:
+        found = sum(c * x ** (m & 65535) * y ** (m >> 16) for m, c in value.terms.items())
+        point = {"x": Fraction(x), "y": Fraction(y)}
+        assert Fraction(found, value.den) == term_at(text, point)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("1/x + x/2", "1/2*x^2 + 1"),
+        ("3*y/x - 2*(y + 1)/x + 1", "y + x - 2"),
+        ("2 - (x + y)*(x - y)/x*3", "3*y^2 - 3*x^2 + 2*x"),
+        ("(1/x)^3 + (1/x)^2", "x + 1"),
+    ],
+)
+def test_a_sum_with_quotients_has_one_denominator_holds(text: str, expected: str) -> None:
+    context = licensed_by(of_x_and_y(), "x > 0")
+    value = context.value(checker.parse(text))
+    assert context.show(value.over({})) == expected
+    ((divisor, positive),) = value.under
+    assert positive and context.show(divisor) == "x"
+
+
+def test_a_power_is_the_same_whatever_was_asked_for_before_holds() -> None:
+    context = of_x_and_y()
+    base = context.polynomial("x + y - 1")
+    for exponent in (5, 2, 3, 7, 4, 2):
+        alone = context.polynomial("x + y - 1")
+        expected = context.number(1)
+        for _ in range(exponent):
+            expected = expected * alone
+        assert (base**exponent).terms == expected.terms
+
+
+def test_rejects_a_division_licensed_in_another_branch() -> None:
+    """What one branch assumes, and divides by, says nothing in the other, nor before both."""
+    state = State(of_x_and_y())
+    one, other = state.branch(), state.branch()
+    tree = checker.parse("1/x >= 1")
+    one.assume(one.context.formula(checker.parse("x > 0")))
+    one.context.formula(tree)
+    for context in (other.context, state.context, state.branch().context, Context(other.context)):
+        with pytest.raises(Rejected) as info:
+            context.formula(tree)
+        assert refused(info.value, (Kind.DIVISION, "x"))
+    one.branch().context.formula(tree)
+    Context(one.context).formula(tree)
+
+
+def test_rejects_a_division_that_only_the_variables_around_license() -> None:
+    """The facts of a state license, not the lines of the context that it takes variables from."""
+    around = licensed_by(of_x_and_y(), "x > 0")
+    for _ in range(2):  # before and after something divides there
+        with pytest.raises(Rejected) as info:
+            State(around).context.value(checker.parse("1/x"))
+        assert refused(info.value, (Kind.DIVISION, "x"))
+        around.value(checker.parse("1/x"))
+
+
+@pytest.mark.parametrize(
+    "rows, expected",
+    [
+        (["x > 0"], "-x + 1"),
+        (["x != 0"], "-x^2 + x"),
+        (["x != 0", "x > 0"], "-x + 1"),
+        (["x > 0", "x != 0"], "-x + 1"),
+        (["-2*x > 0"], "x - 1"),
+        (["x > 0 or y > 0", "3*x < 0 and y > 0"], "x - 1"),
+    ],
+)
+def test_the_sign_of_a_divisor_is_that_of_its_strict_lines_holds(
+    rows: list[str], expected: str
+) -> None:
+    for divided in (False, True):
+        context = of_x_and_y()
+        for row in rows:
+            licensed_by(context, row)
+            assert not divided or context.licensed is not None
+        formula = Context(context).formula(checker.parse("1/x >= 1"))
+        assert not isinstance(formula, bool) and formula[0] == "atom"
+        assert context.show(formula[1]) == expected
+
+
+def beside(context: Context, **values: str) -> Context:
+    """Names with these values, in a context that has the same meter."""
+    named = {name: context.polynomial(text) for name, text in values.items()}
+    return Context(context, {**context.values, **named})
+
+
+def test_rejects_what_was_kept_for_other_values() -> None:
+    """One tree says of each value of its names what it says of that value."""
+    context = of_x_and_y()
+    tree = checker.parse("a - 2*b > 0")
+    for a, b in [("x", "y"), ("y", "x"), ("x", "x"), ("1", "x"), ("x", "y")] * 2:
+        inner = beside(context, a=a, b=b)
+        kept, made = inner.once(Context.formula, tree), inner.formula(tree)
+        assert not isinstance(kept, bool) and not isinstance(made, bool)
+        assert kept[0] == made[0] == "atom" and kept[1].terms == made[1].terms
+    context.once(Context.formula, checker.parse("x > y"))
+    with pytest.raises(Rejected) as info:
+        context.once(Context.formula, tree)
+    assert refused(info.value, (Kind.UNDECLARED, "a"))
+    with pytest.raises(Rejected) as info:
+        beside(context, a="x", b="y").once(Context.value, tree)
+    assert refused(info.value, Kind.TERM)
+
+
+def test_rejects_what_was_kept_for_other_strict_lines() -> None:
+    """A quotient has a value, and an atom with one a sign, by the strict lines of its context."""
+    around = of_x_and_y()
+    tree = checker.parse("1/x >= 1")
+    for _ in range(2):
+        for rows, expected in (
+            (["x > 0"], "-x + 1"),
+            (["x != 0"], "-x^2 + x"),
+            (["y > 0", "x > 0"], "-x + 1"),
+            (["-2*x > 0"], "x - 1"),
+        ):
+            context = Context(around)
+            for row in rows:
+                context.license(context.once(Context.formula, checker.parse(row)))
+            formula = context.once(Context.formula, tree)
+            assert not isinstance(formula, bool) and formula[0] == "atom"
+            assert context.show(formula[1]) == expected
+        for rows in ([], ["y > 0"], ["x >= 0"]):
+            context = Context(around)
+            for row in rows:
+                context.license(context.once(Context.formula, checker.parse(row)))
+            with pytest.raises(Rejected) as info:
+                context.once(Context.formula, tree)
+            assert refused(info.value, (Kind.DIVISION, "x"))
+
+
+def test_quotients_that_were_kept_have_one_denominator_holds() -> None:
+    around = licensed_by(of_x_and_y(), "3*x > 0")
+    kept = Context(around).once(Context.value, checker.parse("1/x"))
+    total = kept + Context(around).value(checker.parse("y/x"))
+    assert around.show(total.over({})) == "y + 1" and [*total.under.values()] == [1]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "3/4*x^2*y - x + 1",
+        "-x",
+        "-3/6*x*y^2 - 0*x - 7/2",
+        "0",
+        "x - x",
+        "x*x^2*y*x - 2*x^4*y",
+        "x^1 + 10/4",
+        "-1 - 12345678901234567890*y^4000",
+    ],
+)
+def test_a_sum_of_products_is_read_as_its_tree_holds(text: str) -> None:
+    context = of_x_and_y()
+    (flat, tree) = context.polynomial(text), context.value(checker.parse(text))
+    assert context.monomials(text)
+    assert (flat.terms, flat.den) == (tree.terms, tree.den)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("3/4*x^2*y - x + 1", [(3, 4, [("x", 2), ("y", 1)]), (-1, 1, [("x", 1)]), (1, 1, [])]),
+        ("-5*b", [(-5, 1, [("b", 1)])]),
+        ("0/7", [(0, 7, [])]),
+        ("x*3", []),
+        ("x/2", []),
+        ("(x)", []),
+        ("x +y", []),
+        ("x + -y", []),
+        ("+x", []),
+        ("", []),
+        ("x" * (1 << 18), [(1, 1, [("x" * (1 << 18), 1)])]),
+        ("x" * (1 + (1 << 18)), []),
+    ],
+)
+def test_summands_are_those_of_a_sum_of_products_alone_holds(
+    text: str, expected: list[tuple[int, int, list[tuple[str, int]]]]
+) -> None:
+    assert summands(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("a*b > 1 + b", (["a", "b"], False)),
+        ("a/2 + b > 0", (["a", "b"], True)),
+        ("b > 0 and not (3 - c/a^2 >= 0)", (["a", "b", "c"], True)),
+        ("implies(-x > 0, y/x + x = 1)", (["implies", "x", "y"], True)),
+        ("1/2 + x", (["x"], True)),
+        ("7", ([], False)),
+    ],
+)
+def test_names_and_divisions_of_a_tree_are_found_holds(
+    text: str, expected: tuple[list[str], bool]
+) -> None:
+    assert names_of(checker.parse(text)) == expected
+
+
+def test_monomials_are_limited_by_their_degree_and_counted_by_their_letters() -> None:
+    context = of_x_and_y()
+    assert context.monomials("x^4000*y") == [(4000 + (1 << 16), 1, 1, 4001)]
+    assert context.monomials("x^4001") == []
+    before = context.work.left
+    assert context.monomials("2*x - y") == [(1, 2, 1, 1), (1 << 16, -1, 1, 1)]
+    assert before - context.work.left == 4 * 7
+
+
+def test_a_sum_of_monomials_has_their_bounds_holds() -> None:
+    work = Work(10**6)
+    total = sum_of_monomials([(1, 3, 2, 1), (2, 1 << 600, 1, 2), (0, 5, 3, 0), (1, 1, 2, 1)], work)
+    assert (total.terms, total.den) == ({1: 12, 2: 6 << 600, 0: 10}, 6)
+    assert total.deg == 2 and total.bits == 603 + 2
+    assert 10**6 - work.left == 4 * 9 + (603**2 >> 16)
+    assert sum_of_monomials([(1, 3, 2, 1), (1, -3, 2, 1)], work).terms == {}
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("x^4001", Kind.EXPONENT),
+        ("x^4000*y", Kind.SIZE),
+        ("x*z", (Kind.UNDECLARED, "z")),
+        ("1/0*x", Kind.ZERO_DIVISION),
+        ("01*x", Kind.TEXT),
+        ("x^-1", Kind.TERM),
+        ("x +", Kind.TEXT),
+        ("2x", Kind.TEXT),
+        ("1_0*x", Kind.TEXT),
+        ("x**2", Kind.TEXT),
+        ("x y", Kind.TEXT),
+        ("lambda", Kind.TEXT),
+        ("None*x", Kind.TERM),
+        ("\u0661*x", Kind.TEXT),
+    ],
+)
+def test_rejects_what_is_no_sum_of_products(text: str, expected: Kind | tuple[Kind, str]) -> None:
+    with pytest.raises(Rejected) as info:
+        of_x_and_y().polynomial(text)
+    assert refused(info.value, expected)
+
+
+def test_a_name_of_a_sum_of_products_may_stand_for_any_value_holds() -> None:
+    context = beside(of_x_and_y(), a="x + 1", b="2*x", c="x/2", d="x*y", e="x^3", f="5")
+    for text in ("a*y^2", "b^2 - x", "c*c", "d^2*x", "e^2 - d", "f*x - f^2", "3*d*e"):
+        flat, tree = context.polynomial(text), context.value(checker.parse(text))
+        assert (flat.terms, flat.den) == (tree.terms, tree.den)
+
+
+@pytest.mark.parametrize("text", ["a", "a*y", "2*a^2 - x"])
+def test_rejects_a_sum_of_products_with_a_name_for_a_quotient(text: str) -> None:
+    context = licensed_by(of_x_and_y(), "x > 0")
+    context.define("a", context.value(checker.parse("1/x")))
+    with pytest.raises(Rejected) as info:
+        context.polynomial(text)
+    assert refused(info.value, (Kind.POLYNOMIAL, text))
+
+
+@pytest.mark.parametrize("text", [5, None, ["x"], {}])
+def test_rejects_a_polynomial_that_is_no_text(text: Any) -> None:
+    with pytest.raises(Rejected) as info:
+        of_x_and_y().polynomial(text)
+    assert refused(info.value, Kind.TEXT)
+
+
+@pytest.mark.parametrize("name", ["lambda", "None", "if", "and", "iff"])
+def test_rejects_a_variable_with_the_name_of_a_word(name: str) -> None:
+    with pytest.raises(Rejected) as info:
+        Context().declare(name)
+    assert refused(info.value, (Kind.NAME, name))
+
+
+@pytest.mark.parametrize("text", ["x*True", "x + None", "1 - False", "True*2/3"])
+def test_rejects_a_constant_that_is_no_integer_in_a_sum(text: str) -> None:
+    with pytest.raises(Rejected) as info:
+        of_x_and_y().polynomial(text)
+    assert refused(info.value, Kind.TERM)

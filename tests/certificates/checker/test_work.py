@@ -12,7 +12,13 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.checker import Kind, Rejected, Work, settling
+from juggleproof.certificates.checker import Context, Kind, Rejected, Work, settling
+from juggleproof.certificates.checker.algebra import (
+    LEAST_KEPT,
+    MAX_KEPT,
+    MAX_TERMS,
+    sum_of_monomials,
+)
 from juggleproof.certificates.checker.rules import State, parts_of_box, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
 from tests.certificates.checker.maps import ASKED, read
@@ -104,6 +110,13 @@ def product_of_300(work: Work) -> checker.Poly:
     return checker.Poly({ones: 1, **powers}, 1, 300, 7, work)
 
 
+def licences_of(line: checker.Atom) -> object:
+    """What a strict line licenses."""
+    context = checker.Context(work=line[1].work)
+    context.license(line)
+    return context.licensed
+
+
 def state_of_40(work: Work) -> State:
     """A state with 40 facts."""
     context = checker.Context(work=work)
@@ -145,8 +158,13 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
     "a primitive part of long monomials": (product_of_300, lambda p: p.primitive(), 100 * 7),
     "a licence of long monomials": (
         product_of_300,
-        lambda p: checker.Context(work=p.work).license(("atom", p, ">")),
+        lambda p: licences_of(("atom", p, ">")),
         2 * 100 * 7,
+    ),
+    "a quotient of long numbers": (
+        lambda work: checker.Context(work=work),
+        lambda context: context.value(checker.parse(f"3/{10**3999 + 1}")),
+        13284**2 >> 16,
     ),
     "which variables occur": (product_of_300, lambda p: p.places(), 100 + 299),
     "a product of constants": (
@@ -288,3 +306,118 @@ def test_all_statements_of_a_folder_have_one_meter(
         monkeypatch.setattr(settling, "MAX_FOLDER_WORK", enough * least() + least() // 2)
         outcomes = [outcome for _, outcome, _ in checker.check_folder(str(tmp_path))]
         assert outcomes == (["certified"] * enough + ["rejected"] * 3)[:3]
+
+
+def test_rejects_a_sum_of_too_many_monomials() -> None:
+    monomials = [(k, 1, 1, 1) for k in range(1, MAX_TERMS + 2)]
+    assert len(sum_of_monomials(monomials[1:], Work()).terms) == MAX_TERMS
+    with pytest.raises(Rejected) as info:
+        sum_of_monomials(monomials, Work())
+    assert refused(info.value, Kind.SIZE)
+
+
+def test_what_is_found_again_is_counted_as_made_holds() -> None:
+    work = Work(1000)
+    made = []
+
+    def make() -> str:
+        work.spend(400)
+        made.append(work.left)
+        return "made"
+
+    assert [work.once("key", make) for _ in range(2)] == ["made", "made"]
+    assert made == [600] and work.left == 200
+    with pytest.raises(Rejected) as info:
+        work.once("key", make)
+    assert refused(info.value, Kind.WORK)
+    with pytest.raises(Rejected):
+        work.once("other", make)
+    work.refill(1000)
+    assert work.once("other", make) == "made" and work.left == 600 and len(made) == 2
+
+
+def test_what_is_kept_has_an_end_and_begins_anew_with_a_check_alone() -> None:
+    work = Work(10**9)
+
+    def kept(key: int) -> bool:
+        """Whether what took a fourth of the room, and what it is, is kept."""
+        work.once(key, lambda: work.spend(MAX_KEPT // 4))
+        return key in work.kept
+
+    assert [kept(k) for k in range(6)] == [True] * 4 + [False] * 2
+    work.refill(10**9)
+    assert not work.kept and kept(5)
+    work.refill(10**9)
+    assert kept(6) and {5, 6} == work.kept.keys()
+
+
+def test_a_check_spends_the_same_whatever_was_checked_before_it() -> None:
+    work = Work()
+    spent = []
+    for _ in range(3):
+        work.refill(10**6)
+        assert checker.check_one(STATEMENT, CERTIFICATE, {}, {}, work)[0] == "certified"
+        spent.append(10**6 - work.left)
+    assert spent == [least()] * 3
+
+
+def test_what_is_kept_takes_room_by_its_cost_and_a_text_by_its_letters() -> None:
+    work = Work(10**6)
+    work.once("key", lambda: work.spend(7))
+    assert MAX_KEPT - work.room == 7 + LEAST_KEPT
+    text = "x + y > 2*z"
+    definitions = checker.Definitions(work)
+    before = work.room
+    tree = definitions.read(text, set())
+    assert before - work.room == 5 * len(text) + LEAST_KEPT
+    assert (
+        definitions.read(text, set()) is tree
+        and checker.Definitions(work).read(text, set()) is tree
+    )
+    x = checker.variable(0, work)
+    one = x.plus(checker.number(1, work))
+    before, left = work.room, work.left
+    third = one**3
+    assert third.terms == {0: 1, 1: 3, 2: 3, 3: 1}
+    spent = left - work.left
+    assert before - work.room == spent + 2 * LEAST_KEPT == 8 + 4 + 8 + 6 + 2 * LEAST_KEPT
+    assert one**3 is third and left - work.left == 2 * spent
+
+
+def test_what_is_read_once_is_counted_by_its_names_and_licences() -> None:
+    context = checker.Context(work=Work(10**6))
+    for name in ("x", "y"):
+        context.declare(name)
+    context.license(context.formula(checker.parse("x > 0")))
+    for text, names in (("x + y", 2), ("1/x", 2)):
+        tree = checker.parse(text)
+        costs = []
+        for way in (Context.once, Context.once, lambda one, _, node: one.value(node)):
+            before = context.work.left
+            way(context, Context.value, tree)
+            costs.append(before - context.work.left)
+        assert costs[0] == costs[1] == costs[2] + names
+
+
+def test_the_room_for_what_is_kept_has_its_ends_holds() -> None:
+    work = Work()
+    for room, kept in ((0, False), (1, True)):
+        work.room = room
+        work.once(room, str)
+        assert (room in work.kept) is kept
+    for room, kept in ((MAX_KEPT // 2, True), (MAX_KEPT // 2 - 1, False)):
+        work.room = room
+        work.refill(10)
+        assert (1 in work.kept) is kept
+    assert work.room == MAX_KEPT
+
+
+def test_a_sum_of_products_is_counted_by_its_letters_and_summands_holds() -> None:
+    context = Context(work=Work(10**6))
+    context.declare("x")
+    before = context.work.left
+    context.polynomial("2*x - 1")
+    assert before - context.work.left == 20 + 4 * 7 + 2 * 9
+    before = context.work.left
+    context.polynomial("(x)")  # and by its tree
+    assert before - context.work.left == 20 + 4 * 3 + 3

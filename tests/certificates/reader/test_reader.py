@@ -49,11 +49,12 @@ from tests.certificates.reader.settling import (
 )
 from tests.certificates.reader.statements import Statement, read_statements
 from tests.certificates.reader.syntax import Rejected, Tree
+from tests.rows import each_row
 from tests.share import share
 
 HERE = Path(__file__).parent
 LIMITS = {"a number too long", "a denominator too long", *AT_LIMITS}
-SHARE = share(20, 10)
+SHARE = share(40, 10)
 
 
 @pytest.mark.exhaust  # the reader takes minutes for the store
@@ -95,7 +96,7 @@ def certificates_of(case: Case) -> dict[str, Any]:
     return {**case.earlier, last.removeprefix("statement "): case.certificate}
 
 
-@pytest.mark.parametrize("rule", TABLES)
+@each_row("rule", TABLES)
 def test_the_tables_hold(rule: str) -> None:
     module = TABLES[rule]
     for case in module.ACCEPTED:
@@ -117,7 +118,7 @@ def changed(case: Case) -> Iterator[tuple[str, dict[str, Any]]]:
         yield text, certificates
 
 
-@pytest.mark.parametrize("rule", TABLES)
+@each_row("rule", TABLES)
 def test_changes_of_the_tables_have_the_checkers_outcome_hold(rule: str) -> None:
     # a statement of which nothing is said is not unfolded by the checker
     cases = [case for case in TABLES[rule].ACCEPTED if case.expected != "unknown"]
@@ -174,7 +175,7 @@ def until(text: str) -> Iterator[str]:
     return ("\n\n".join(blocks[:k]) + "\n" for k in range(1, len(blocks) + 1))
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH, SCALE, COUNT, WHOLE, TWO, NEARER, LOOP],
 )

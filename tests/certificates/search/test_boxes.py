@@ -9,7 +9,6 @@ import json
 import random
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,6 +21,7 @@ from juggleproof.certificates.work import Budget
 from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at
 from tests.certificates.drawn import fractions
+from tests.rows import each_row
 
 MANY = settings(max_examples=40, deadline=None, derandomize=True)
 NAMES = ("x", "y", "z")
@@ -120,7 +120,7 @@ def test_corner_coefficients_are_values(terms: dict[tuple[int, int], Fraction], 
         )
 
 
-@pytest.mark.parametrize("exact", [False, True])
+@each_row("exact", [False, True])
 def test_a_tree_reaches_its_target_in_both_arithmetics(exact: bool) -> None:
     terms = {(3,): Fraction(1), (1,): Fraction(-2)}
     tree = Branching(
@@ -155,7 +155,7 @@ VALLEYS = {
 }
 
 
-@pytest.mark.parametrize("name", VALLEYS)
+@each_row("name", VALLEYS)
 def test_squares_prove_the_minimum_of_a_valley(name: str) -> None:
     text, at = VALLEYS[name]
     found = enclose_minimum(text, dict.fromkeys(NAMES, (-2, 2)), 0, budget=2000)
@@ -163,7 +163,7 @@ def test_squares_prove_the_minimum_of_a_valley(name: str) -> None:
     assert list(found.point.values()) == [Fraction(value) for value in at.split()]
 
 
-@pytest.mark.parametrize("exponent", [3, 9])
+@each_row("exponent", [3, 9])
 def test_squares_enclose_an_irrational_minimum_of_a_valley(exponent: int) -> None:
     text = "100*(y - x^2)^2 + (1 - x)^2 + 100*(z - y^2)^2 + (1 - y)^2 + x*z/10"
     found = enclose_minimum(

@@ -13,6 +13,7 @@ from juggleproof.certificates.search.psatz.by_monomials import search_by_monomia
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 NAMES = ("a", "u", "v", "x", "y", "d")
 BOUNDS = (
@@ -32,7 +33,7 @@ def found(text: str, budget: int = 10**5) -> Node | None:
     return node
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         f"{BOUNDS} and {SUM}",
@@ -45,7 +46,7 @@ def test_bounds_of_each_term_contradict_the_sum_holds(text: str) -> None:
     assert node is not None and node[0] == "psatz"
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         f"{BOUNDS} and a*u*x + a*v*y > d/2",  # 3/5 d is reached

@@ -13,6 +13,7 @@ from juggleproof.certificates.search.psatz.by_parameter import search_by_paramet
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 NAMES = ("t", "x", "y")
 
@@ -31,7 +32,7 @@ def found(text: str, budget: int = 10**5) -> Node | None:
     return node
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "most"),
     [
         ("t > 1 and t < 2 and x >= t*y and y >= 1 and x < t", 5),
@@ -46,7 +47,7 @@ def test_few_facts_contradict_one_another_holds(text: str, most: int) -> None:
     assert node is not None and node[0] == "psatz" and len(node[1]) <= most
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         "t > 1 and t < 2 and x >= t*y and y >= 1 and x <= 2",  # they have a common point

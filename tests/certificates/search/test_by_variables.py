@@ -4,14 +4,13 @@ not.
 
 from __future__ import annotations
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 # Motzkin 1967; Robinson 1973; Choi and Lam 1977; Schmuedgen 1979; Delzell 1980
 FORMS = {
@@ -46,7 +45,7 @@ def closed(names: str, form: str) -> bool:
     return node is not None
 
 
-@pytest.mark.parametrize("name", FORMS)
+@each_row("name", FORMS)
 def test_a_nonnegative_form_has_no_negative_value_holds(name: str) -> None:
     assert closed(*FORMS[name])
 

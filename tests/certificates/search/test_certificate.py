@@ -16,6 +16,7 @@ from juggleproof.certificates.search.certificate import search_certificate, sear
 from juggleproof.certificates.search.closing import Hints, search_closing
 from juggleproof.certificates.states import proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 STATEMENTS = checker.read_statements((Path(__file__).parent / "statements.txt").read_text())
 BUDGET = 3_000_000
@@ -26,7 +27,7 @@ def proof_of(name: str) -> Proof | None:
     return search_proof(STATEMENTS[name], {}, Budget(BUDGET))
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_true_statements_are_proved_and_false_ones_are_not(name: str) -> None:
     proof = proof_of(name)
     assert (proof is None) == name.endswith("-false")
@@ -34,7 +35,7 @@ def test_true_statements_are_proved_and_false_ones_are_not(name: str) -> None:
         assert proves(STATEMENTS[name], json.loads(json.dumps(proof)), {})
 
 
-@pytest.mark.parametrize("name", ["rank/falls", "region/f-r-physical", "integers/floor"])
+@each_row("name", ["rank/falls", "region/f-r-physical", "integers/floor"])
 def test_the_same_certificate_comes_out_every_time(name: str) -> None:
     again = search_proof(STATEMENTS[name], {}, Budget(BUDGET))
     assert json.dumps(again) == json.dumps(proof_of(name))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import random
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition
 from juggleproof.certificates.language import NO_ROLES
@@ -15,6 +13,7 @@ from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.hints.few_values import Question, point_by_few_values
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 
 def state(names: str, *formulas: str) -> State:
@@ -99,7 +98,7 @@ def test_conflicts_fail_without_a_fact_that_they_need() -> None:
     assert closed_by_conflicts(state(names, *formulas[:-1])) is None
 
 
-@pytest.mark.parametrize("seed", (0, 1, 6))
+@each_row("seed", (0, 1, 6))
 def test_random_clauses_are_closed_or_have_a_point_holds(seed: int) -> None:
     names, formulas = clauses(seed)
     assumed = state(names, *formulas)
@@ -124,7 +123,7 @@ def chain(steps: int, goal: str) -> Condition:
     return Condition.of(assumed.context, checker.join("and", assumed.formulas))
 
 
-@pytest.mark.parametrize("goal", ["x6*x6 = 121", "x6 < -1", "x6*x3 < -1 and x5 > 1"])
+@each_row("goal", ["x6*x6 = 121", "x6 < -1", "x6*x3 < -1 and x5 > 1"])
 def test_few_values_and_a_linear_rest_reach_a_goal_holds(goal: str) -> None:
     condition = chain(6, goal)
     point = point_by_few_values(condition, Budget(10**6), NO_ROLES)

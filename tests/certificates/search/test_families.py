@@ -5,14 +5,13 @@ where a slope has no proved sign.
 from fractions import Fraction
 from itertools import product
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import SharpRange, reals
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.families import implies_domain, solved
 from juggleproof.certificates.states import proves
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 alpha, K, n = reals("alpha K n")
 UNIT = (alpha > 0) & (alpha < 1)
@@ -34,7 +33,7 @@ def stated(domain, condition):
     return SharpRange("x/sharp", (), ("alpha", "K"), UNIT & domain, condition)
 
 
-@pytest.mark.parametrize("case", SOLVED)
+@each_row("case", SOLVED)
 def test_display_is_the_condition(case):
     domain, condition, shown = SOLVED[case]
     assert solved(stated(domain, condition), "alpha", ["K"]) == shown
@@ -50,7 +49,7 @@ def test_display_is_the_condition(case):
         assert (there.formula(checker.parse(str(condition))) is True) == (True in means)
 
 
-@pytest.mark.parametrize(
+@each_row(
     "condition", [alpha * (K - 2) >= 1, alpha**2 * K >= 1, (alpha * K >= 1) & (2 * alpha * K >= 1)]
 )
 def test_gives_up_without_a_proved_slope(condition):

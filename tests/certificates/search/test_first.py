@@ -7,14 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Union
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.search.first.at_hand import search_at_hand
 from juggleproof.certificates.search.first.by_pairs import search_by_pairs
 from juggleproof.certificates.search.first.stages import MOST_VARIABLES, certificates_in_turn
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 Search = Callable[[checker.Statement, Budget], Union[Certificate, None]]
 
@@ -24,7 +23,7 @@ def statement_of(names: str, formula: str, given: str = "") -> checker.Statement
     return checker.read_statements(text)["a/b"]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("names", "formula"),
     [
         ("x", "x^2 = 9 and x < 0"),
@@ -39,7 +38,7 @@ def test_a_point_at_hand_is_taken_holds(names: str, formula: str) -> None:
     assert checker.check_one(statement, found, {}, {}) == ("refuted", None)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("names", "formula"),
     [
         ("x y", "x > 1 and y > 1 and x*y < 1"),
@@ -59,7 +58,7 @@ def test_a_contradiction_of_pairs_is_taken_holds(names: str, formula: str) -> No
     assert search_at_hand(statement, Budget(10**5)) is None
 
 
-@pytest.mark.parametrize("search", [search_at_hand, search_by_pairs])
+@each_row("search", [search_at_hand, search_by_pairs])
 def test_nothing_is_found_fails_without_budget(search: Search) -> None:
     assert search(statement_of("x y", "x^2*y > 90 and x*y < 1"), Budget(5)) is None
 
@@ -76,7 +75,7 @@ def test_too_many_variables_are_told_where_it_is_not_linear_holds() -> None:
     assert last == {"unknown": "it is not linear, in 121 variables; at most 120 are tried"}
 
 
-@pytest.mark.parametrize(("above", "key"), [(148, "certified"), (149, "refuted")])
+@each_row(("above", "key"), [(148, "certified"), (149, "refuted")])
 def test_many_variables_are_decided_where_all_is_linear_holds(above: int, key: str) -> None:
     names = [f"x{k}" for k in range(150)]
     steps = " and ".join(f"{b} >= {a} + 1" for a, b in zip(names, names[1:]))

@@ -19,6 +19,7 @@ from juggleproof.certificates.search.psatz.parameters import bounds, split_varia
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 STATEMENTS = checker.read_statements((Path(__file__).parent / "forms.txt").read_text())
 BUDGET = 200_000
@@ -43,7 +44,7 @@ def node_of(name: str) -> Node | None:
     return search_forms(state, Ring(tuple(state.context.index)), Budget(BUDGET))
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_true_forms_are_closed_and_false_ones_are_not(name: str) -> None:
     node = node_of(name)
     assert (node is None) == name.endswith("-false")

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import random
 
-import pytest
 import z3
 
 from juggleproof.certificates import checker
@@ -21,6 +20,7 @@ from juggleproof.certificates.search.first.linear_system import (
 )
 from juggleproof.certificates.search.psatz.basis import last_basis
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 WORDS = {"certified": "unsat", "refuted": "sat"}
 RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
@@ -73,8 +73,8 @@ def clause(choose: random.Random, names: list[str], largest: int) -> str:
     return "(" + " or ".join(atoms) + ")"
 
 
-@pytest.mark.parametrize("largest", [3, 10**13])
-@pytest.mark.parametrize("seed", range(25))
+@each_row("largest", [3, 10**13])
+@each_row("seed", range(25))
 def test_random_systems_are_decided_as_z3_does_holds(seed: int, largest: int) -> None:
     choose = random.Random(seed)
     names = ["x", "y", "z", "w"][: choose.randint(1, 4)]
@@ -121,7 +121,7 @@ def test_a_budget_that_ends_is_no_answer_holds() -> None:
     assert answered(["x", "y"], "x > y and y > x", 10) == "unknown"
 
 
-@pytest.mark.parametrize("show", ["x^2 >= 0", "x*y > 1", "x > 0 or x*x*x < 1"])
+@each_row("show", ["x^2 >= 0", "x*y > 1", "x > 0 or x*x*x < 1"])
 def test_no_answer_fails_without_linearity(show: str) -> None:
     assert answered(["x", "y"], show) == "unknown"
 

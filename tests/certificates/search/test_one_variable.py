@@ -6,12 +6,11 @@ from __future__ import annotations
 
 from random import Random
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.one_variable import close_in_one_variable
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
+from tests.rows import each_row
 
 NUMBERS = ("0", "1", "-2", "1/2", "-7/5", "1414213563/1000000000", "2000001/1000000")
 RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
@@ -46,7 +45,7 @@ CLOSED = (
 )
 
 
-@pytest.mark.parametrize("text", CLOSED)
+@each_row("text", CLOSED)
 def test_what_has_no_solution_is_closed_holds(text: str) -> None:
     assert closed(text)
     for more in ("x <= 10", "x >= -10", "x^2 + 1 > 0", "x <= 10^9", "(x - 1/3)^2 >= 0"):
@@ -61,7 +60,7 @@ OPEN = (
 )
 
 
-@pytest.mark.parametrize("text", OPEN)
+@each_row("text", OPEN)
 def test_what_has_a_solution_stays_open_holds(text: str) -> None:
     assert not closed(text)
 
@@ -72,7 +71,7 @@ def _polynomial(rng: Random, depth: int) -> str:
     return f"({_polynomial(rng, depth - 1)} {rng.choice('+-**')} {_polynomial(rng, depth - 1)})"
 
 
-@pytest.mark.parametrize("seed", range(4))
+@each_row("seed", range(4))
 def test_random_conditions_are_closed_or_met_at_a_sample_holds(seed: int) -> None:
     """A condition that is left open with strict relations alone holds on an interval, which a fine
     grid meets, or the roots are close together: none of these is.

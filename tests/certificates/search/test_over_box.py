@@ -16,6 +16,7 @@ from juggleproof.certificates.search.hints.few_values import point_by_few_values
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.smtlib.answering import Question, answer
+from tests.rows import each_row
 
 # a polynomial, a box and a rational a little below and a little above the minimum, from
 # Munoz and Narkawicz, Journal of Automated Reasoning 51 (2013), and Goldstein and Price (1971)
@@ -39,8 +40,8 @@ def state(text: str, names: Sequence[str]) -> State:
     return State(context).assume(context.formula(checker.parse(text)))
 
 
-@pytest.mark.parametrize("poly, box, ends", [CAPRASSE, GOLDSTEIN])
-@pytest.mark.parametrize("relation", ["<", "<="])
+@each_row("poly, box, ends", [CAPRASSE, GOLDSTEIN])
+@each_row("relation", ["<", "<="])
 def test_a_minimum_over_a_box_is_proved_below_and_met_above_holds(
     poly: str, box: dict[str, tuple[str, str]], ends: tuple[str, str], relation: str
 ) -> None:
@@ -59,9 +60,7 @@ VALLEY = " + ".join(f"100*(x{k + 1} - x{k}^2)^2 + (1 - x{k})^2" for k in range(2
 PRODUCT = "*".join(f"(1 - x{k})" for k in range(12))
 
 
-@pytest.mark.parametrize(
-    "text", [f"{VALLEY} < 0", f"{VALLEY} <= -1/1000", f"{VALLEY} - x0*x2/10 < -1/8"]
-)
+@each_row("text", [f"{VALLEY} < 0", f"{VALLEY} <= -1/1000", f"{VALLEY} - x0*x2/10 < -1/8"])
 def test_a_valley_is_closed_by_squares_holds(text: str) -> None:
     inside = " and ".join(f"-2 <= x{k} and 2*x{k} <= 4" for k in range(3))
     one = state(f"{inside} and {text}", ("x0", "x1", "x2"))

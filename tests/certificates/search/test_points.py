@@ -1,7 +1,6 @@
 """Points, counterexamples and witnesses."""
 
 import numpy as np
-import pytest
 from flint import Ordering, fmpq_mpoly_ctx
 
 from juggleproof.certificates import checker
@@ -9,6 +8,7 @@ from juggleproof.certificates.search.hints.models import Residuals
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from tests.certificates.search.cases import UNIT, budget, read, search_points
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Points and counterexamples: simple, exact, and accepted by the checker's own functions.
@@ -110,7 +110,7 @@ show x < 0""",
 }
 
 
-@pytest.mark.parametrize("case", REFUTED)
+@each_row("case", REFUTED)
 def test_refuted(case):
     text, effort = REFUTED[case]
     statement = read(text)
@@ -144,8 +144,8 @@ show 1 < 2""",
 }
 
 
-@pytest.mark.parametrize("case", TRUE)
-@pytest.mark.parametrize("effort", [0, 1])
+@each_row("case", TRUE)
+@each_row("effort", [0, 1])
 def test_true_statements_have_points_and_no_counterexample(case, effort):
     text, values = TRUE[case]
     point, counterexample = search_points(read(text), budget(), effort)
@@ -248,7 +248,7 @@ def witness(statement: checker.Statement) -> list:
     return found
 
 
-@pytest.mark.parametrize("case", WITNESSES)
+@each_row("case", WITNESSES)
 def test_witness(case):
     text, terms = WITNESSES[case]
     assert witness(read(text))[2] == terms
@@ -353,13 +353,13 @@ alpha))) - eps"""
 }
 
 
-@pytest.mark.parametrize("case", CASES_BY_SIGN)
+@each_row("case", CASES_BY_SIGN)
 def test_what_a_term_divides_by_makes_cases_by_sign(case):
     text, terms = CASES_BY_SIGN[case]
     assert leaves(witness(read(text))) == [terms]
 
 
-@pytest.mark.parametrize("case", NEAR_A_BOUNDARY)
+@each_row("case", NEAR_A_BOUNDARY)
 def test_a_witness_near_a_boundary(case):
     statement = read(NEAR_A_BOUNDARY[case])
     unknown = {name for line in statement.get("exists") for name in line}

@@ -28,10 +28,11 @@ from juggleproof.certificates.search.psatz.lifting import (
     shortest_divisor,
     without_common_facts,
 )
-from juggleproof.certificates.search.psatz.linear_program import Program, presolve, solve
+from juggleproof.certificates.search.psatz.linear_program import Matrix, Program, presolve, solve
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 RING = Ring(("x", "y", "z"))
 monomials = st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(0, 2))
@@ -53,7 +54,7 @@ def test_long_numbers_of_one_denominator_become_short_fractions_holds() -> None:
     assert shortest_divisor(weights, []) == first * second
 
 
-@pytest.mark.parametrize(("relation", "left"), [(">", 0), (">=", 0), ("!=", 2)])
+@each_row(("relation", "left"), [(">", 0), (">=", 0), ("!=", 2)])
 def test_an_identity_is_divided_by_common_facts_with_a_sign_holds(relation: str, left: int) -> None:
     state = state_of(f"x {relation} 0 and y > 0 and x + y^2 > 1", "x y")  # without scales
     source = Problem(state, Ring(("x", "y")), True).source
@@ -128,7 +129,7 @@ def test_scales_are_found_for_lengths_and_times() -> None:
     assert scaling.lift(b + 2 * v - 2, (2, 0)) == g * b + 2 * r * v - 2 * r**2
 
 
-@pytest.mark.parametrize(
+@each_row(
     "text",
     [
         "x + y = 3 and x - y = 1 and x != 2",
@@ -147,7 +148,7 @@ def test_equations_are_used_up(text: str) -> None:
     assert node is not None and state.is_closed_by(node, {})
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("text", "integers"),
     [
         ("x > 0 and x < 1", "x"),
@@ -261,7 +262,8 @@ def test_rejects_resultants_whose_work_no_count_bounds() -> None:
 
 
 def test_columns_that_fall_one_after_another_are_counted_work_holds() -> None:
-    chain = np.eye(100) - np.eye(100, k=-1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    turned = np.eye(100) - np.eye(100, k=1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
+    chain = Matrix.of(turned)
     strict, budget = np.arange(100) == 99, Budget(2000)
     assert presolve(chain, 100, strict, budget) is None and budget.left == 1000
     with pytest.raises(Exhausted):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
 from juggleproof.proofs.smtlib.answering import Question, answer
+from tests.rows import each_row
 
 PROBLEMS = {
     "a form": "x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2 < 0",
@@ -22,14 +21,14 @@ LINES = {
 }
 
 
-@pytest.mark.parametrize("line", LINES)
-@pytest.mark.parametrize("name", PROBLEMS)
+@each_row("line", LINES)
+@each_row("name", PROBLEMS)
 def test_a_redundant_line_loses_no_proof_holds(name: str, line: str) -> None:
     text = f"statement f/c\nforall x y z t\nshow not ({PROBLEMS[name]} and {LINES[line]})"
     assert answer(Question("f/c", (text,))).word == "unsat"
 
 
-@pytest.mark.parametrize("name", PROBLEMS)
+@each_row("name", PROBLEMS)
 def test_all_lines_said_twice_lose_no_proof_holds(name: str) -> None:
     text = f"statement f/c\nforall x y z\nshow not ({PROBLEMS[name]} and {PROBLEMS[name]})"
     assert answer(Question("f/c", (text,))).word == "unsat"

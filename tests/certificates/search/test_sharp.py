@@ -1,12 +1,12 @@
 """Sharp ranges of one parameter."""
 
 import mpmath
-import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import reals
 from juggleproof.certificates.search.sharp import find_sharp_range, read, search_sharp
 from tests.certificates.search import cases
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Sharp ranges: the exact set of alpha, its end points to twelve decimals, and certificates of both
@@ -31,7 +31,7 @@ RANGES = {
 }
 
 
-@pytest.mark.parametrize("case", RANGES)
+@each_row("case", RANGES)
 def test_range(case):
     condition, ends = RANGES[case]
     statement = cases.read(getattr(cases, case))
@@ -121,7 +121,7 @@ show slope != 2*alpha"""
 }
 
 
-@pytest.mark.parametrize("case", NOWHERE)
+@each_row("case", NOWHERE)
 def test_one_family_breaks_a_statement_everywhere(case):
     statement = cases.read(NOWHERE[case])
     found = find_sharp_range([statement], "alpha", UNIT, "x/sharp", {}, cases.budget())
@@ -167,7 +167,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@each_row("case", CASES)
 def test_a_family_begins_in_a_corner(case):
     text, condition, end = CASES[case]
     statement = cases.read(text)

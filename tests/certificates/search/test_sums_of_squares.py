@@ -7,7 +7,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,6 +24,7 @@ from juggleproof.certificates.search.closing import SQUARED, search_closing
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted
+from tests.rows import each_row
 
 rows = st.lists(st.lists(st.integers(-3, 3), min_size=4, max_size=4), min_size=1, max_size=4)
 
@@ -98,7 +98,7 @@ def program() -> LinearEquations:
     return LinearEquations([goal, GramBlock(ring.one, False, [ring.one, x, y])], [], Fraction(1, 3))
 
 
-@pytest.mark.parametrize("denominator", [1, 7, 1 << 20])
+@each_row("denominator", [1, 7, 1 << 20])
 def test_rounded_entries_meet_every_equation_holds(denominator: int) -> None:
     equations = program()
     grams = equations.solve(Budget(10**6), 1e-6, 1e-7)
@@ -157,7 +157,7 @@ FALSE = {
 }
 
 
-@pytest.mark.parametrize("name", TRUE)
+@each_row("name", TRUE)
 def test_squares_close_what_is_true_holds(name: str) -> None:
     unfolding = checker.Unfolding(statement(TRUE[name]), checker.Context())
     state = state_of(unfolding).assume(unfolding.goal(False))
@@ -165,7 +165,7 @@ def test_squares_close_what_is_true_holds(name: str) -> None:
     assert node is not None and state.is_closed_by(node, {})
 
 
-@pytest.mark.parametrize("name", FALSE)
+@each_row("name", FALSE)
 def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
     unfolding = checker.Unfolding(statement(FALSE[name]), checker.Context())
     try:
@@ -205,7 +205,7 @@ POINTS = {
 }
 
 
-@pytest.mark.parametrize("name", POINTS)
+@each_row("name", POINTS)
 def test_points_with_irrational_values_are_found_holds(name: str) -> None:
     one = statement(POINTS[name])
     found = search_values(

@@ -25,38 +25,37 @@ from tests.certificates.sine.lines import (
 )
 from tests.certificates.sine.mutants import NO_STATEMENTS, work_is_bounded
 from tests.certificates.sine.states import CODE
+from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[3]
 BEGINS = worlds.BEGINS
 
 
-@pytest.mark.parametrize("name, make", ACCEPTED, ids=[name for name, _ in ACCEPTED])
+@each_row("name, make", ACCEPTED)
 def test_a_line_that_proves_something_is_accepted_holds(name: str, make: object) -> None:
     assert callable(make)
     proves, why = check_line(make())
     assert proves is not None and not why
 
 
-@pytest.mark.parametrize(
-    "defect, make, why", REJECTED, ids=[name.replace(" ", "-") for name, _, _ in REJECTED]
-)
+@each_row("defect, make, why", REJECTED)
 def test_rejects_a_line_with(defect: str, make: object, why: str) -> None:
     assert callable(make)
     proves, reason = check_line(make())
     assert proves is None and reason.startswith(why) and reason
 
 
-@pytest.mark.parametrize("world", worlds.WORLDS, ids=[one.name for one in worlds.WORLDS])
+@each_row("world", worlds.WORLDS)
 def test_rejects_cells_that_go(world: worlds.World) -> None:
     assert worlds.seen(CODE, world) == world.reason
 
 
-@pytest.mark.parametrize("name, rectangle, boxes, why", worlds.COVERS)
+@each_row("name, rectangle, boxes, why", worlds.COVERS)
 def test_rejects_a_cover_with(name: str, rectangle: str, boxes: tuple[str, ...], why: str) -> None:
     assert worlds.covered(CODE, rectangle, boxes) == why
 
 
-@pytest.mark.parametrize("name, text, expected", worlds.MEETS)
+@each_row("name, text, expected", worlds.MEETS)
 def test_a_statement_is_refuted_where_it_meets_what_refutes_holds(
     name: str, text: str, expected: bool
 ) -> None:
@@ -87,7 +86,7 @@ def test_drives_are_between_their_bounds_holds() -> None:
 # ------------------------------------------------------------ false theorems
 
 
-@pytest.mark.parametrize(
+@each_row(
     "alpha, g",
     [("1/20", "7/100"), ("1/20", "78/1000"), ("1/10", "15/100"), ("3/10", "13/100")],
 )

@@ -24,9 +24,9 @@ from juggleproof.certificates.sine.checker import (
 )
 from juggleproof.certificates.sine.cover import Covered, cover, first_boxes, halves, kept
 from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import STATEMENT, STORE, boxes_in
+from juggleproof.certificates.sine.stored import STATEMENT, STORE, WIDE, boxes_in
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.command.sine import WIDE
+from tests.rows import each_row
 
 WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
 
@@ -84,7 +84,7 @@ def test_where_the_theorem_fails_it_is_refuted(
     assert outcome(at("1/20", "31/10"), [proved])[0] == "unknown"
 
 
-@pytest.mark.parametrize("g", ["7/100", "39/500", "29/100"])
+@each_row("g", ["7/100", "39/500", "29/100"])
 def test_no_certificate_is_found_where_the_theorem_fails(g: str) -> None:
     pair = (Fraction(1, 20), Fraction(1, 20)), (Fraction(g), Fraction(g))
     assert find_certificate(*pair, 256, 16).certificate is None
@@ -245,7 +245,7 @@ def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
 ) -> None:
     ends = ("[1/20, 1/20] and Gamma in [31/10, 31/10]", "[1/10, 1/10] and g in [11/50, 11/50]")
     (tmp_path / "statements.txt").write_text("".join(f"{WORDS} {one}\n" for one in ends))
-    monkeypatch.setattr("juggleproof.proofs.command.sine.WIDE", tmp_path)
+    monkeypatch.setattr("juggleproof.certificates.sine.stored.WIDE", tmp_path)
     assert run(["certify", "sine", "--jobs", "1", "--store", str(tmp_path / "found")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[::2][:2] == [f"certified: {WORDS} {one}" for one in ends]

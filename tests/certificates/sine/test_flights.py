@@ -13,6 +13,7 @@ from tests.certificates.sine import bounds, states
 from tests.certificates.sine.bounds import broken_bounds, missed_zeros, roundings
 from tests.certificates.sine.impacts import PRECISION
 from tests.certificates.sine.states import CODE, STEPS, box, escapes
+from tests.rows import each_row
 from tests.share import share
 
 SHARE = share(60, 2_500)  # of impacts, for each grid
@@ -20,13 +21,13 @@ GRIDS = range(len(states.GRIDS))
 BOUNDED = range(len(bounds.GRIDS))
 
 
-@pytest.mark.parametrize("grid", GRIDS)
+@each_row("grid", GRIDS)
 def test_first_impacts_are_in_the_enclosure_holds(grid: int) -> None:
     looked, outside = escapes(CODE, states.GRIDS[grid], SHARE, seed=grid)
     assert looked >= SHARE and not outside
 
 
-@pytest.mark.parametrize("grid", BOUNDED)
+@each_row("grid", BOUNDED)
 def test_bounds_hold_at_all_corners_of_cells_and_boxes(grid: int) -> None:
     assert not broken_bounds(CODE, bounds.GRIDS[grid], share(15, 100), seed=grid)
 
@@ -37,12 +38,12 @@ def test_walks_find_the_first_zero_of_a_known_height_holds() -> None:
     assert looked > count / 2 and not missed
 
 
-@pytest.mark.parametrize("grid", GRIDS)
+@each_row("grid", GRIDS)
 def test_roundings_stay_far_below_what_is_added_for_them_holds(grid: int) -> None:
     assert roundings(CODE, states.GRIDS[grid], 20, seed=grid) < 30 < 100 <= flights.SLACK / 2
 
 
-@pytest.mark.parametrize("count", [32, 64, 16384])
+@each_row("count", [32, 64, 16384])
 def test_sines_are_within_a_unit_holds(count: int) -> None:
     ctx.prec = PRECISION
     table = flights.sines(count)

@@ -9,9 +9,8 @@ from __future__ import annotations
 import ast
 import hashlib
 
-import pytest
-
 from tests.certificates.sine.mutants import Mutant, noticed, read, text_of
+from tests.rows import each_row
 from tests.share import share
 
 SHARE = share(128, 4)  # of this number of mutants one is tried
@@ -29,6 +28,6 @@ def test_every_mutant_is_one_change_of_the_text_holds() -> None:
         assert ast.parse(text_of(one))
 
 
-@pytest.mark.parametrize("mutant", chosen(MUTANTS), ids=lambda one: str(one.name))
+@each_row("mutant", chosen(MUTANTS))
 def test_a_mutant_is_noticed_holds(mutant: Mutant) -> None:
     assert noticed(mutant)

@@ -17,6 +17,7 @@ from juggleproof.certificates.sine.checker import CERTIFICATES, STATEMENTS
 from juggleproof.certificates.sine.flights import MAX_CELLS, MAX_COLUMNS, Flights
 from tests.certificates.sine.lines import refuting
 from tests.certificates.sine.states import STEPS
+from tests.rows import each_row
 
 TRUE = (
     "the period-one bounce is stable and every motion tends to it for all alpha in [1/20, 1/20]"
@@ -59,7 +60,7 @@ LINES: dict[str, tuple[str, int]] = {
 }
 
 
-@pytest.mark.parametrize("name", LINES)
+@each_row("name", LINES)
 def test_what_a_line_costs_is_counted_holds(name: str) -> None:
     line, least = LINES[name]
     work = Work(STEPS)
@@ -67,7 +68,7 @@ def test_what_a_line_costs_is_counted_holds(name: str) -> None:
     assert least <= STEPS - work.left <= 2 * least + len(line)
 
 
-@pytest.mark.parametrize("name", LINES)
+@each_row("name", LINES)
 def test_rejects_a_line_that_costs_more_than_is_left(name: str) -> None:
     line, least = LINES[name]
     assert checker.check_line(line, Work(min(least, 10 + len(line) // 4) - 1)) == (

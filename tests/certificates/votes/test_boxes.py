@@ -7,11 +7,12 @@ from functools import cache
 
 import pytest
 
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes import box_search, boxes
 from juggleproof.certificates.votes.questions import Atom, questions, read_statement
-from juggleproof.certificates.votes.vote import Budget, Vote
 from tests.certificates.votes.corpus import FALSE, STATEMENTS, TRUE
 from tests.certificates.votes.independent import fails_at
+from tests.rows import each_row
 
 BOUNDED_AND_STRICT = [
     "square",
@@ -36,7 +37,7 @@ def vote(*rows: str, budget: Budget | None = None) -> Vote:
     return boxes.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_no_vote_is_wrong(name: str) -> None:
     expected, cast = STATEMENTS[name][1], vote_on(name)
     assert cast.answer != ("fails" if expected else "holds"), str(cast)
@@ -47,13 +48,13 @@ def test_no_vote_is_wrong(name: str) -> None:
         assert all(e.high - e.low <= e.wanted + Fraction(2, 1 << 20) for e in cast.enclosures)
 
 
-@pytest.mark.parametrize("name", BOUNDED_AND_STRICT)
+@each_row("name", BOUNDED_AND_STRICT)
 def test_bounded_strict_statements_are_decided(name: str) -> None:
     cast = vote_on(name)
     assert cast.answer == "holds" and cast.work > 0 and "boxes discarded" in cast.detail
 
 
-@pytest.mark.parametrize("name", ATTAINED)
+@each_row("name", ATTAINED)
 def test_attained_bounds_are_enclosed_around_zero(name: str) -> None:
     cast = vote_on(name)
     (enclosure,) = cast.enclosures
@@ -72,7 +73,7 @@ def test_the_width_is_the_one_that_is_asked_for() -> None:
         )
 
 
-@pytest.mark.parametrize(
+@each_row(
     "rows, reason",
     [
         (("forall x", "given x >= 0", "show x^2 + 1 > x - 1/2*x^3"), "not bounded in x"),

@@ -44,6 +44,7 @@ from juggleproof.certificates.votes.spans import (
     intervals,
     span,
 )
+from tests.rows import each_row
 
 F = Fraction
 
@@ -170,7 +171,7 @@ def test_energy_bounds_both_variables() -> None:
     assert x_high >= F(3, 2) and w_low <= F(-144, 100) and w_high >= F(344, 100) and w_high < 10
 
 
-@pytest.mark.parametrize(
+@each_row(
     "rows, point",
     [
         (("forall x y", "given x*y >= 1 and y <= 0 and x >= -2"), (F(-1), F(-1))),
@@ -213,7 +214,7 @@ def test_spans_hold_all_values() -> None:
         assert value <= 0
 
 
-@pytest.mark.parametrize(
+@each_row(
     "low, high",
     [(F(0), F(1, 3)), (F(-7, 3), F(1000001, 7)), (F(1, 3), F(1, 3)), (F(10**20), F(10**20 + 1))],
 )
@@ -309,7 +310,7 @@ def test_a_polynomial_keeps_its_value_without_the_solved_variables() -> None:
     assert value_at(reduced[0], point) / reduced[1] == value_at(poly, point)
 
 
-@pytest.mark.parametrize("size", [1, 2**31, 2**80 + 1])
+@each_row("size", [1, 2**31, 2**80 + 1])
 def test_factorizations_multiply_back(size: int) -> None:
     poly, random = polynomial(f"6*({size}^2*x^2 - y^2)^2*({size}*x + 3)*(6*x + 9)"), Random(5)
     constant, factors = factorization(poly)

@@ -7,14 +7,15 @@ from collections.abc import Callable
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import questions, read_statement
 from juggleproof.certificates.votes.smtlib import logic, script
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH
 from tests.certificates.votes.corpus import ITERATES, SHARP, STATEMENTS
+from tests.rows import each_row
+from tests.stored import statements as stored
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_scripts_are_deterministic_balanced_and_free_of_divisions(name: str) -> None:
     statement, _ = STATEMENTS[name]
     text = script(statement)
@@ -33,7 +34,7 @@ def test_scripts_are_deterministic_balanced_and_free_of_divisions(name: str) -> 
     )
 
 
-@pytest.mark.parametrize(
+@each_row(
     "rows, expected",
     [
         (("forall x", "show x^2 >= 0"), "QF_NRA"),
@@ -244,7 +245,7 @@ ANSWERS = {
 }
 
 
-@pytest.mark.parametrize(
+@each_row(
     "solve, name",
     [  # cvc5 has no count that would stop it where a square is to be found
         (solve, name)
@@ -264,19 +265,18 @@ def test_a_solver_reads_the_whole_script_as_it_is_meant(
     assert solve is by_cvc5 or "unknown" not in found, found
 
 
-STORED = checker.read_statements("\n\n".join(Store(DEFAULT).texts.values()))
 MAPS = checker.read_statements("\n".join([FLIP, NEST, DOUBLE, PUSH]))
-SPECIAL = [
-    name
-    for name, statement in STORED.items()
-    if statement.kind != "universal" or statement.get("exists") or statement.get("integer")
-]
 
 
 def test_both_solvers_accept_the_scripts_of_stored_statements() -> None:
     z3 = pytest.importorskip("z3")
-    statements = {**STORED, **MAPS}
-    chosen = dict.fromkeys([*SPECIAL, *list(STORED)[::20], *MAPS])
+    statements = {**stored(), **MAPS}
+    special = [
+        name
+        for name, statement in stored().items()
+        if statement.kind != "universal" or statement.get("exists") or statement.get("integer")
+    ]
+    chosen = dict.fromkeys([*special, *list(stored())[::20], *MAPS])
     kinds = {statements[name].kind for name in chosen}
     assert kinds == {"universal", "sharp", *checker.orbit_rules()}
     context = z3.Context()

@@ -6,17 +6,18 @@ import pickle
 
 import pytest
 
+from juggleproof.certificates.vote import Budget, Disagreement, Vote, compare
 from juggleproof.certificates.votes import boxes, z3
 from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote, compare
 from tests.certificates.votes.corpus import STATEMENTS
+from tests.rows import each_row
 
 HOLDS = Vote("z3", "holds", "unsat")
 FAILS = Vote("z3", "fails", "sat", model=(("alpha", "1/2"), ("x", "0")))
 
 
-@pytest.mark.parametrize(
+@each_row(
     "outcome, cast",
     [
         ("certified", HOLDS),
@@ -32,7 +33,7 @@ def test_what_does_not_contradict_passes(outcome: str, cast: Vote) -> None:
     compare("a/b", outcome, [cast])
 
 
-@pytest.mark.parametrize(
+@each_row(
     "outcome, cast, parts",
     [
         ("refuted", HOLDS, ("refuted", "z3 says holds")),
@@ -63,7 +64,7 @@ def test_a_disagreement_passes_between_processes() -> None:
     assert str(again) == str(first) == "a/b: one side, but the other"
 
 
-@pytest.mark.parametrize(
+@each_row(
     "name", ["circle", "third-f1-R-in-R", "trap", "circle-half", "kinetic-decreases", "sup-is-sup"]
 )
 def test_both_routes_agree_with_what_is_known(name: str) -> None:
@@ -73,8 +74,8 @@ def test_both_routes_agree_with_what_is_known(name: str) -> None:
     assert pickle.loads(pickle.dumps((z3_vote, boxes_vote))) == (z3_vote, boxes_vote)
 
 
-@pytest.mark.parametrize("name", ["circle", "circle-half"])
-@pytest.mark.parametrize("route", ["z3", "boxes"])
+@each_row("name", ["circle", "circle-half"])
+@each_row("route", ["z3", "boxes"])
 def test_a_wrong_outcome_is_contradicted_by_either_route(name: str, route: str) -> None:
     statement, expected = STATEMENTS[name]
     with pytest.raises(Disagreement, match=statement.name):

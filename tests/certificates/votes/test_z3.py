@@ -11,18 +11,19 @@ from multiprocessing import get_context
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.vote import Budget, Vote
 from juggleproof.certificates.votes import z3
 from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.vote import Budget, Vote
 from tests.certificates.votes.corpus import FALSE, ITERATES, SHARP, STATEMENTS, TRUE
 from tests.certificates.votes.independent import fails_at
+from tests.rows import each_row
 
 
 def vote(*rows: str, budget: Budget | None = None) -> Vote:
     return z3.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
-@pytest.mark.parametrize("name", STATEMENTS)
+@each_row("name", STATEMENTS)
 def test_every_statement_of_the_corpus_is_decided_as_it_is_known_to_be(name: str) -> None:
     statement, expected = STATEMENTS[name]
     cast = z3.vote(statement)
@@ -148,7 +149,7 @@ def _vote_on(text: str) -> Vote:
 
 def test_solvers_are_loaded_only_when_they_are_asked() -> None:
     code = (
-        "import sys, juggleproof.certificates.votes.vote, juggleproof.certificates.votes.z3,"
+        "import sys, juggleproof.certificates.vote, juggleproof.certificates.votes.z3,"
         " juggleproof.certificates.votes.boxes\n"
         "print([name for name in ('z3', 'mpmath', 'sympy') if"
         " name in sys.modules])"

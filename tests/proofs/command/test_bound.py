@@ -16,6 +16,7 @@ from juggleproof.certificates.language import ClaimError, reals
 from juggleproof.proofs.bounds import ATTAINED, LOWER, enclose_minimum
 from juggleproof.proofs.command.bound import decimals
 from juggleproof.proofs.command.main import run
+from tests.rows import each_row
 
 UNIT = {"x": (0, 1)}
 PAGE = Path(__file__).resolve().parents[3] / "docs/your-own.md"
@@ -120,7 +121,7 @@ VALLEYS = {
 }
 
 
-@pytest.mark.parametrize("kind", VALLEYS)
+@each_row("kind", VALLEYS)
 def test_what_a_wider_or_a_narrower_width_reaches_is_not_missed_holds(kind: str) -> None:
     text, end, least = VALLEYS[kind]
     box = dict.fromkeys("xy", (-end, end))

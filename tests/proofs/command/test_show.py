@@ -1,5 +1,5 @@
-"""`juggleproof list` with its options, and `export smt2`: one statement, one claim, several, or the
-whole paper; a solver reads what is written in one go.
+"""`juggleproof list` with its options, `errata`, and `export smt2`: one statement, one claim,
+several, or the whole paper; a solver reads what is written in one go.
 """
 
 from __future__ import annotations
@@ -15,12 +15,14 @@ from rich.text import Text
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.command import show
 from juggleproof.proofs.command.listing import list_claims
 from juggleproof.proofs.command.show import export_smt2
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.tables import draw
 from tests.proofs.command import running
+from tests.rows import each_row
 
 
 def heads(text: str) -> list[str]:
@@ -53,6 +55,12 @@ def test_export_of_the_whole_paper_writes_every_statement_holds(tmp_path: Path) 
     written = {path.name for path in tmp_path.iterdir()}
     assert written == {name.replace("/", ".") + ".smt2" for name in Store(DEFAULT).texts}
     assert all(path.read_text(encoding="utf-8").count("(check-sat)") for path in tmp_path.iterdir())
+
+
+def test_the_errata_are_printed_as_they_are_made_holds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How they are made is asked of the reports."""
+    monkeypatch.setattr(show, "errata_text", lambda: "Misprints (1)\n\neq-2")
+    assert running.run("errata") == (0, "Misprints (1)\n\neq-2\n", "")
 
 
 def test_rejects_export_of_an_unknown_name() -> None:
@@ -98,7 +106,7 @@ def test_claims_of_a_section_and_a_verdict_are_listed_holds(
     assert [line.split()[0] for line in lines] == [one["id"] for one in listed]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("section", "verdict", "reason"),
     [("9", "", "--section 9: no claim is of it"), ("", "wrong", "choose from holds, misprint")],
 )

@@ -353,6 +353,7 @@ def written(case: Case) -> str:
     return accepted(last, json.loads(json.dumps(case.certificate)), known, earlier)
 
 
+@pytest.mark.exhaust
 def test_coq_accepts_what_the_checker_accepts_and_nothing_else_holds(development: Coq) -> None:
     asked, expected = [], []
     for rule, module in TABLES.items():

@@ -10,7 +10,6 @@ import json
 import re
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -19,24 +18,19 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten, export, lemmas, share_of, write
 from juggleproof.certificates.coq.files import CLASSES, HEADER
-from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.store import Store
 from juggleproof.proofs.bounds import LOWER, enclose_minimum
 from juggleproof.proofs.command.main import run
 from tests.proofs.coq.development import Answer, Coq, compiled, coqc
 from tests.share import share
+from tests.stored import STORE, statements
 
 SHARE, OF_STORE = share((3, 8), (1, 1))
 OPENED = HEADER.replace("From Store ", "From Juggleproof ")
 
 
-@cache
-def stored() -> tuple[Store, dict[str, Any]]:
-    store = Store(DEFAULT)
-    return store, checker.read_statements("\n\n".join(store.texts.values()))
-
-
 def certificate(name: str) -> Any:
-    return stored()[0].certificate(name, stored()[0].texts[name])
+    return STORE.certificate(name, STORE.texts[name])
 
 
 def kinds(node: Any) -> set[str]:
@@ -53,7 +47,7 @@ def kinds(node: Any) -> set[str]:
 
 def class_of(name: str) -> str:
     """The class of a statement of the store, by its kind and outcome alone."""
-    statement = stored()[1][name]
+    statement = statements()[name]
     if "refuted" in certificate(name):
         return "refuted"
     if statement.kind == "universal":
@@ -67,7 +61,7 @@ def smallest(kind: str, rule: str = "", line: str = "") -> str:
     """
     fitting = [
         name
-        for name, statement in stored()[1].items()
+        for name, statement in statements().items()
         if class_of(name) == (kind if kind in CLASSES else "orbit")
         and (kind in CLASSES or statement.kind == kind)
         and (not rule or rule in kinds(certificate(name)))
@@ -75,7 +69,7 @@ def smallest(kind: str, rule: str = "", line: str = "") -> str:
     ]
     return min(
         fitting,
-        key=lambda name: (len(stored()[0].texts[name] + json.dumps(certificate(name))), name),
+        key=lambda name: (len(STORE.texts[name] + json.dumps(certificate(name))), name),
     )
 
 
@@ -96,11 +90,11 @@ CASES = [
 
 
 def test_every_statement_of_the_store_is_written_holds() -> None:
-    wanted = share_of(stored()[1], OF_STORE)
-    exported = export(stored()[0], wanted)
+    wanted = share_of(statements(), OF_STORE)
+    exported = export(STORE, wanted)
     names = list(exported.texts)
     assert exported.reasons == {} and set(wanted) <= set(names)
-    assert names == list(stored()[1]) or OF_STORE > 1
+    assert names == list(statements()) or OF_STORE > 1
     classes = [class_of(name) for name in names]
     sizes = {kind: classes.count(key) for key, kind in CLASSES.items()}
     assert all(sizes.values()) and exported.table() == [
@@ -111,8 +105,9 @@ def test_every_statement_of_the_store_is_written_holds() -> None:
     assert len(heads) == len(set(heads)) > len(names)
 
 
+@pytest.mark.exhaust
 def test_a_store_with_one_statement_of_each_class_compiles(tmp_path: Path, prelude: Coq) -> None:
-    small = export(stored()[0], {smallest(*case) for case in CASES})
+    small = export(STORE, {smallest(*case) for case in CASES})
     write(small, tmp_path, files=1)
     assert small.reasons == {} and set(small.classes.values()) == set(CLASSES.values())
     assert {path.name for path in tmp_path.iterdir()} == {"Prelude.v", "Part01.v"}
@@ -130,7 +125,7 @@ def coq_of(prelude: Coq, text: str) -> Answer:
 
 def written(name: str, changed: Any = None) -> str:
     """The lemmas of a stored statement, of another certificate where one is given."""
-    return lemmas(stored()[1][name], changed or certificate(name), stored()[1])
+    return lemmas(statements()[name], changed or certificate(name), statements())
 
 
 BOUNDS = [("x^2 - x", {"x": (0, 1)}), ("(x*y - 1/3)^2 + x", {"x": (-1, 1), "y": (0, 2)})]
@@ -319,20 +314,20 @@ def test_rejects_the_proof_of_another_statement(
 
 def test_rejects_a_root_that_is_not_the_only_one(tmp_path: Path) -> None:
     name = smallest("sharp", "", "number")
-    text = stored()[0].texts[name]
-    ((_, (poly, low, high)),) = stored()[1][name].get("number")
+    text = STORE.texts[name]
+    ((_, (poly, low, high)),) = statements()[name].get("number")
     wide = text.replace(", 0, 1)", ", -100, 100)")
     assert wide != text
     statement = checker.read_statements(f"{wide}")[name]
     with pytest.raises(NotWritten, match="no polynomial is negative on a part of a box"):
-        lemmas(statement, certificate(name), stored()[1])
+        lemmas(statement, certificate(name), statements())
 
 
 def test_what_is_not_written_is_counted_by_class(tmp_path: Path) -> None:
     folder = tmp_path / "store"
     folder.mkdir()
     name = "s4.3.1-DK-negative/main"
-    (folder / "statements.txt").write_text(stored()[0].texts[name] + "\n")
+    (folder / "statements.txt").write_text(STORE.texts[name] + "\n")
     unknown = json.dumps([name, {"unknown": "too hard"}])
     (folder / "certificates.jsonl").write_text(unknown + "\n")
     left_out = export(Store(folder))
@@ -341,7 +336,7 @@ def test_what_is_not_written_is_counted_by_class(tmp_path: Path) -> None:
 
 
 def test_a_share_is_a_part_of_the_store_holds() -> None:
-    names = list(stored()[0].texts)
+    names = list(STORE.texts)
     share = share_of(names, 12)
     assert len(names) / 24 < len(share) < len(names) / 6 and set(share) < set(names)
     assert share_of(reversed(names), 12) == share[::-1] and share_of(names, 1) == names

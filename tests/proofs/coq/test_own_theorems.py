@@ -1,7 +1,7 @@
 """Theorems on the orbits of one's own maps, and statements of one's own stores, as files that coqc
-accepts by themselves; what is forged or changed it refuses.  `make test` compiles a theorem of each
-kind and tries a share of its changes; with JUGGLEPROOF_MUTANTS=many (make exhaust) it
-compiles all theorems and tries a larger share.
+accepts by themselves; what is forged or changed it refuses.  `make test` reads what they say,
+and compiles the statements; `make exhaust` compiles a theorem of each kind and tries a share of its
+changes, and with JUGGLEPROOF_MUTANTS=many all theorems and a larger share.
 """
 
 from __future__ import annotations
@@ -9,8 +9,10 @@ from __future__ import annotations
 import copy
 import hashlib
 import re
+import shutil
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -27,6 +29,7 @@ from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import REALS, Answer, Coq, axioms, compiled
 from tests.proofs.coq.maps import WORDS
+from tests.rows import each_row
 from tests.share import MANY, share
 
 SHARE = share(4, 2)
@@ -36,7 +39,7 @@ TURNED, LARGE, CYCLE = "turned/exactly", "falling/all", "cycle/away"
 INPUT, EITHER = "pushed/all", "switched/all"
 COUNTED, WALKED, DRAWN, NAMED = "counted/exactly", "walked/all", "drawn/all", "named/all"
 PARTED, NEARER, RETURNED = "parted/ends", "nearer/ends", "returned/orbits"
-ALONE = SHARP  # compiled as it is written, in each run of the tests
+ALONE = SHARP  # compiled as it is written
 
 
 def settles(point: str, of: str = "a", what: str = "", words: str = "Map.space {} Map.f") -> str:
@@ -92,10 +95,20 @@ def share(changes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
 
 
 @cache
+def searched() -> tuple[TemporaryDirectory[str], Path]:
+    """A folder, which ends with the process, and in it the maps with their store."""
+    folder = TemporaryDirectory()
+    path = Path(shutil.copy(MAPS, folder.name))
+    assert run(["certify", str(path), "--routes", "exact", "--jobs", "1"]) == 0
+    return folder, path
+
+
+@cache
 def judged() -> tuple[dict[str, str], dict[str, Any]]:
     """The texts of the statements of the maps, and their certificates."""
-    claims = claims_of_file(MAPS)
-    judgements = judge_some(claims, by_id(claims), MAPS.with_suffix(".certificates"))
+    path = searched()[1]
+    claims = claims_of_file(path)
+    judgements = judge_some(claims, by_id(claims), path.with_suffix(".certificates"))
     assert {word for one in judgements for word in one.outcomes.values()} == {"certified"}
     texts = {name: text for one in judgements for name, text in one.statements}
     return texts, {name: entry for one in judgements for name, entry in one.certificates.items()}
@@ -134,7 +147,7 @@ def taken(coq: Coq, text: str) -> Answer:
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder with a file for each theorem of the maps."""
     folder = tmp_path_factory.mktemp("theorems")
-    assert run(["export", "coq", str(MAPS), "-o", str(folder)]) == 0
+    assert run(["export", "coq", str(searched()[1]), "-o", str(folder)]) == 0
     return folder
 
 
@@ -168,6 +181,7 @@ def test_a_theorem_says_what_is_proved_and_admits_nothing_holds(name: str, files
     assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b(?!')", text)
 
 
+@pytest.mark.exhaust
 def test_coqc_accepts_a_theorem_as_it_is_written_holds(files: Path, tmp_path: Path) -> None:
     answer = alone(tmp_path, (files / f"S_{ALONE.replace('/', '_')}.v").read_text())
     assert answer.accepted and answer.output.startswith("Axioms:\n"), answer.output
@@ -360,13 +374,16 @@ def test_rejects_a_folder_without_statements(tmp_path: Path) -> None:
         export_coq([str(tmp_path / "none.certificates")], None)
 
 
-@pytest.mark.parametrize(
+def test_rejects_several_theorems_without_a_folder(tmp_path: Path) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(first_two())
+    with pytest.raises(ClaimError, match="several theorems, scaled/exactly, mixed/all; give -o"):
+        export_coq([str(own)], None)
+
+
+@each_row(
     "names, says",
     [
-        (
-            [str(MAPS)],
-            "several theorems, scaled/exactly, mixed/all,",
-        ),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
         (["none.smt2"], "none.smt2: no such file"),

@@ -18,6 +18,7 @@ from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import changes, load_register
 from juggleproof.proofs.reports import pages
+from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -77,7 +78,7 @@ def test_bare_checker_settles_every_stored_statement_holds() -> None:
     assert line and int(line[1]) == int(line[2]) + int(line[3]) == len(texts)
 
 
-@pytest.mark.parametrize("page", pages.PAGES)
+@each_row("page", pages.PAGES)
 def test_pages_show_the_register_holds(page: str) -> None:
     assert pages.regenerated(page) == (ROOT / page).read_text(encoding="utf-8"), (
         "run juggleproof certify --accept, which writes what is generated"

@@ -13,14 +13,13 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, Statement
 from juggleproof.proofs.claims import Claim, assertions, named_statements
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.edits import mutations
 from juggleproof.proofs.reading.meaning import read
+from tests.rows import each_row
 from tests.share import share
 
 # -------------------------------------------------------------------------------------------------
@@ -125,7 +124,7 @@ def unnoticed(claim: Claim) -> list[Change]:
     return same
 
 
-@pytest.mark.parametrize("claim_id", sorted(claims()))
+@each_row("claim_id", sorted(claims()))
 def test_every_token_of_the_print_matters_holds(claim_id: str) -> None:
     known = reviewed()
     left = [

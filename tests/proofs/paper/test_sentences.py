@@ -11,14 +11,13 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import formula_of, short_line, shortened
 from juggleproof.certificates.store import DEFAULT, Store, WrittenOut
 from juggleproof.proofs.claims import Argument, Claim, Following
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import definitions, sets
+from tests.rows import each_row
 
 EXCEPTIONS = Path(__file__).with_name("sentences.tsv")
 SETS_OF_RULES = ("space", "stage", "on")  # the lines of an orbit rule that are sets of states
@@ -188,7 +187,7 @@ def test_every_exception_has_a_reason_holds() -> None:
     assert all(reason.endswith(".") for reason in exceptions().values())
 
 
-@pytest.mark.parametrize("name", [row[0] for row in sets()])
+@each_row("name", [row[0] for row in sets()])
 def test_a_definition_of_a_set_stands_in_statements_and_for_words_holds(name: str) -> None:
     used = re.compile(rf"\b{name}\b")
     assert any(used.search(line) for lines in stored().shortened.values() for line in lines)
@@ -218,7 +217,7 @@ CHANGED = (
 )
 
 
-@pytest.mark.parametrize(("statement", "line", "other", "found"), CHANGED)
+@each_row(("statement", "line", "other", "found"), CHANGED)
 def test_rejects_a_statement_with_another_condition(
     statement: str, line: str, other: str, found: str
 ) -> None:
@@ -233,7 +232,7 @@ def test_rejects_a_statement_with_another_condition(
     assert after - before == {found}
 
 
-@pytest.mark.parametrize(("name", "words", "stands"), NAMES, ids=[row[0] for row in NAMES])
+@each_row(("name", "words", "stands"), NAMES)
 def test_rejects_a_statement_without_what_is_named(
     name: str, words: str, stands: tuple[str, ...]
 ) -> None:

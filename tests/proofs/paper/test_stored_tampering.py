@@ -24,17 +24,15 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import orbits, rules
-from juggleproof.certificates.store import DEFAULT, Store
 from tests.proofs.paper.independent import contradiction
 from tests.proofs.paper.statement_mutants import changes
 from tests.share import MANY, share
+from tests.stored import STORE, statements
 
 # one statement in so many; fields of its certificate; changes of each of its lines
 SHARE, FIELDS, LINES = share((18, 12, 1), (4, 100, 2))
 LONG = 30
 KEY = "the key itself"
-STORE = Store(DEFAULT)
-STATEMENTS = checker.read_statements("\n\n".join(STORE.texts.values()))
 Tally = tuple[int, int, list[str]]  # tried, rejected, what should not have been accepted
 
 
@@ -170,17 +168,16 @@ def nothing_twice() -> Iterator[None]:
 @cache
 def certified_before(name: str) -> dict[str, rules.Statement]:
     """What the checker knows when it comes to a stored statement."""
-    before = list(STATEMENTS)[: list(STATEMENTS).index(name)]
+    known = statements()
+    before = list(known)[: list(known).index(name)]
     return {
-        one: STATEMENTS[one]
-        for one in before
-        if "certified" in STORE.certificate(one, STORE.texts[one])
+        one: known[one] for one in before if "certified" in STORE.certificate(one, STORE.texts[one])
     }
 
 
 def outcome(statement: rules.Statement, certificate: Any) -> str:
     return str(
-        checker.check_one(statement, certificate, certified_before(statement.name), STATEMENTS)[0]
+        checker.check_one(statement, certificate, certified_before(statement.name), statements())[0]
     )
 
 
@@ -208,14 +205,14 @@ def claimed(certificate: Any) -> str:
 def tampered_certificate(name: str) -> Tally:
     good, text = STORE.certificate(name, STORE.texts[name]), STORE.texts[name]
     with nothing_twice():
-        before, wrong, tried, rejected = outcome(STATEMENTS[name], good), [], 0, 0
+        before, wrong, tried, rejected = outcome(statements()[name], good), [], 0, 0
         if before not in ("certified", "refuted"):
             wrong.append(f"{name}: its own certificate is {before}")
         paths = sorted(fields(good), key=lambda path: digest(name, path))[:FIELDS]
         told: set[str] = set()
         for path in paths:
             bad = changed(good, path, digest(path, name))
-            after = outcome(STATEMENTS[name], bad)
+            after = outcome(statements()[name], bad)
             tried, rejected = tried + 1, rejected + (after == "rejected")
             if after not in ("rejected", before):
                 wrong.append(f"{name}: {before} became {after} with {path} changed")

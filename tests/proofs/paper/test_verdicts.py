@@ -21,6 +21,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import B1, always, b, energy, f1
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.register import load_register
+from tests.rows import each_row
 
 REGISTER, STORE = load_register(), Store(DEFAULT)
 MOST_AMBIGUOUS = 12
@@ -63,7 +64,7 @@ def test_s4_1_Emax_maintain_says_one_impact_and_points_to_what_follows_it_holds(
     assert step["sharp"] == "in-step: alpha = (K - 1)/(K + 1) for a whole number K"
 
 
-@pytest.mark.parametrize("claim_id", ["s4.2-highest-B1plus", "s4.2-adding"])
+@each_row("claim_id", ["s4.2-highest-B1plus", "s4.2-adding"])
 def test_lost_names_are_told_as_restored_holds(claim_id: str) -> None:
     claim = claims()[claim_id]
     assert r"\ell" in claim.as_it_stands and r"\ell" not in claim.printed
@@ -80,7 +81,7 @@ def test_eq_38_is_refuted_by_the_corner_holds() -> None:
     assert "step of A.3.1 that does not follow" in remark("eq-38").text
 
 
-@pytest.mark.parametrize(
+@each_row(
     "claim_id, sharp",
     [
         ("s4.4-global", "0 < alpha < 1/3"),
@@ -107,7 +108,7 @@ def test_s3_5_3_locally_stable_fails_just_at_the_left_ends_holds() -> None:
     assert len(names) == 7 and {outcome(name) for name in names} == {"certified"}
 
 
-@pytest.mark.parametrize("claim_id", ["s4.3.1-plain-english", "s4.3.1-approach-constant"])
+@each_row("claim_id", ["s4.3.1-plain-english", "s4.3.1-approach-constant"])
 def test_s4_3_1_each_impact_is_told_of_the_relative_energy_only_holds(claim_id: str) -> None:
     assert "relative to e_1" in claims()[claim_id].says
     assert "closer" not in claims()[claim_id].says
@@ -119,7 +120,7 @@ def test_sB_3_f2_is_mended_in_names_that_its_section_binds_holds() -> None:
     assert outcome("sB.3-f2/corrected.main") == "certified"
 
 
-@pytest.mark.parametrize(
+@each_row(
     "claim_id, latex, unbound",
     [
         ("sB.3-f2", r"\overline{f}_2(\overline{b}_k) := A_T x - \alpha_T", ["x"]),
@@ -165,7 +166,7 @@ def test_s4_3_1_LaSalle_needs_continuity_and_would_prove_what_is_false_holds() -
     assert "range 2*alpha = 1" in STORE.texts["s4.3.1-LaSalle/remark.comes-back"]
 
 
-@pytest.mark.parametrize("claim_id", ["s4.2-count", "sA.4-count", "eq-26"])
+@each_row("claim_id", ["s4.2-count", "sA.4-count", "eq-26"])
 def test_counts_say_which_loss_they_use_holds(claim_id: str) -> None:
     assert "derived least loss" in claims()[claim_id].says
     assert "theorem-count" in remark(claim_id).by
@@ -202,7 +203,7 @@ def test_claims_of_our_own_have_one_reading_holds() -> None:
 SOME = Assertion((always(energy(f1(b)) >= 0, given=[B1(b)]),))
 
 
-@pytest.mark.parametrize(
+@each_row(
     "readings",
     [
         {},
@@ -231,7 +232,7 @@ def test_rejects_a_claim_whose_remark_is_false() -> None:
     )
 
 
-@pytest.mark.parametrize(
+@each_row(
     "claim_id",
     ["s2.2.2-newton", "sA.3-sup", "sB.1-collision", "sB.1-tau", "sB.1-period", "sB.7-C"],
 )
@@ -240,7 +241,7 @@ def test_what_is_clear_in_meaning_is_a_misprint_holds(claim_id: str) -> None:
     assert entry["verdict"] == "misprint" and entry["correction"]
 
 
-@pytest.mark.parametrize(
+@each_row(
     "claim_id",
     ["prop-1-B2-to-B1", "s4.2-less-energy-shorter", "sA.3.1-not-on-R0", "sA.4-not-on-boundary"],
 )

@@ -8,8 +8,6 @@ import sys
 from collections import Counter
 from fractions import Fraction
 
-import pytest
-
 from juggleproof.certificates.language import Formula
 from juggleproof.proofs.reading import evaluation, lexer, parser
 from juggleproof.proofs.reading.edits import ALTERNATIVES, mutations, one_mark_changes
@@ -17,6 +15,7 @@ from juggleproof.proofs.reading.lexer import PrintError
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.parser import parse
 from tests.proofs.reading.paper_names import ALL, KINETIC, PAPER, WIDE, value_at
+from tests.rows import each_row
 
 DROPPED = "_ is dropped with what it carries"
 SAME_CHANGE = r"\Delta E and \Delta_1 E have one meaning in these environments"
@@ -91,7 +90,7 @@ def test_every_token_that_means_something_is_changed() -> None:
     )
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "changed"),
     [
         (r"a + b", r"a - b"),
@@ -124,7 +123,7 @@ def test_the_alternatives_are_tokens_that_are_read() -> None:
             assert len(lexer.lex(text)) == 2
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("lost", "mended", "kind"),
     [
         (r"T = \frac{2\rho_0}{\gamma}", r"T = \frac{2\dot\rho_0}{\gamma}", "dot"),

@@ -7,13 +7,14 @@ from __future__ import annotations
 import pytest
 
 from juggleproof.proofs.reading.lexer import PrintError, lex
+from tests.rows import each_row
 
 
 def texts(latex: str) -> list[str]:
     return [token.text for token in lex(latex)[:-1]]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("spelled", "plain"),
     [
         (r"a \leq b", r"a\le b"),
@@ -43,7 +44,7 @@ def test_positions_are_those_of_the_print() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "lines"),
     [
         (r"a \\ = b", 0),
@@ -62,7 +63,7 @@ def test_a_line_end_separates_only_where_nothing_goes_on(latex: str, lines: int)
     assert sum(token.kind == "line" for token in lex(latex)) == lines
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "message"),
     [
         (r"\alpha + \foo", r"column 10: unknown command \foo"),

@@ -24,6 +24,7 @@ from juggleproof.proofs.reading.values import (
     Vector,
 )
 from tests.proofs.reading.paper_names import ALL, BETA, KINETIC, PAPER, POINTS, WIDE, V, value_at
+from tests.rows import each_row
 
 Q = Fraction
 POINT = {
@@ -37,7 +38,7 @@ def exact(latex: str, environment: Environment = PAPER) -> Any:
     return value_at(Printed(latex).value(environment), POINT)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "value"),
     [
         (r"T", 1),
@@ -89,7 +90,7 @@ def test_a_print_has_this_value_at_an_exact_point(latex: str, value: Any) -> Non
     assert exact(latex) == value
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "true"),
     [
         (r"0 < \alpha < \frac{1}{3}", True),
@@ -160,7 +161,7 @@ TWICE = Environment(
 )
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "text"),
     [
         ("a(x + y)", "a*(x + y)"),
@@ -182,7 +183,7 @@ def test_a_function_before_a_bracket_is_applied_and_all_else_is_a_product(
     assert str(read(latex).value(TWICE)) == text
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "message"),
     [
         ("a/x y", r"column 2: what / divides by is ambiguous: bracket it, or write \frac"),
@@ -279,7 +280,7 @@ def test_a_set_is_a_predicate_of_any_state() -> None:
     assert str(within(Vector((X, Y)))) == "x >= 0 and 2*r/g <= x/(r - y)"
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "message"),
     [
         (

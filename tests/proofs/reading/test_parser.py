@@ -33,19 +33,20 @@ from juggleproof.proofs.reading.tree import (
     Tree,
 )
 from tests.proofs.reading.paper_names import ALL, RESTORED
+from tests.rows import each_row
 
 B, F, X = Name("b"), Name("f"), Name("x")
 E = Name("E")
 B_BAR = Name("b", ("bar",))
 
 
-@pytest.mark.parametrize(("where", "latex"), ALL)
+@each_row(("where", "latex"), ALL)
 def test_every_display_of_the_paper_is_read(where: str, latex: str) -> None:
     parts = parse(latex)
     assert parts and all(part.at < len(latex) for part in parts)
 
 
-@pytest.mark.parametrize(("where", "garbled", "restored"), RESTORED)
+@each_row(("where", "garbled", "restored"), RESTORED)
 def test_a_garbled_display_is_refused_or_says_something_else(
     where: str, garbled: str, restored: str
 ) -> None:
@@ -55,7 +56,7 @@ def test_a_garbled_display_is_refused_or_says_something_else(
         assert refusal.column > 0
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("one", "other"),
     [
         (r"\dot{\overline{\beta}}", r"\overline{\dot{\beta}}"),
@@ -76,7 +77,7 @@ def test_the_same_name_in_two_spellings_is_one_tree(one: str, other: str) -> Non
     assert parse(one) == parse(other)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("one", "other"),
     [
         (r"\dot\beta", r"\overline\beta"),
@@ -97,7 +98,7 @@ def test_different_marks_are_different_trees(one: str, other: str) -> None:
     assert parse(one) != parse(other)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "tree"),
     [
         (r"-\alpha b + x", Binary("+", Negative(Juxtaposition((Name(r"\alpha"), B))), X)),
@@ -148,7 +149,7 @@ def test_a_formula_has_this_tree(latex: str, tree: Tree) -> None:
     assert parse(latex) == (tree,)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "parts"),
     [
         (r"0 < \alpha < 1 \\ \chi = x - y", 2),
@@ -162,7 +163,7 @@ def test_a_display_of_several_lines_has_its_parts(latex: str, parts: int) -> Non
     assert len(parse(latex)) == parts
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("latex", "message"),
     [
         (r"x = ", "column 5: expected a formula instead of the end of the print"),

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.command import formats, report
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports.contents import Contents, contents_of
@@ -68,6 +71,12 @@ def paper_run() -> tuple[Run, str]:
 def contents() -> Contents:
     """Of this run: what a report gathers, as the next is for."""
     return contents_of(paper_run()[0], load_register())
+
+
+def made_of(patch: pytest.MonkeyPatch, gathered: Callable[[], Contents]) -> None:
+    """The command makes reports of these contents, and has no store to check."""
+    patch.setattr(report, "check_store", list)
+    patch.setattr(formats, "gather", lambda checked: gathered())
 
 
 def paper(

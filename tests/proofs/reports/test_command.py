@@ -11,11 +11,11 @@ import pytest
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs import extras
-from juggleproof.proofs.command import formats, report
+from juggleproof.proofs.command import formats
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import page
 from juggleproof.proofs.reports.contents import Contents
-from tests.proofs.reports.runs import contents, drawn
+from tests.proofs.reports.runs import contents, drawn, made_of
 
 
 def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -28,7 +28,7 @@ def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
 def test_page_is_written_and_its_path_printed_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     monkeypatch.setattr(formats, "pictures", lambda contents: drawn())
     assert run(["report", "--format", "html", "-o", str(tmp_path / "new" / "folder")]) == 0
     path = tmp_path / "new" / "folder" / "juggleproof.html"
@@ -47,7 +47,7 @@ def test_several_formats_are_made_from_claims_judged_once_holds(
         judged.append(contents())
         return judged[-1]
 
-    monkeypatch.setattr(report, "gather", gathered)
+    made_of(monkeypatch, gathered)
     given = ["--format", "json", "--format", "badge", "--format", "markdown", "-o", str(tmp_path)]
     assert run(["report", *given]) == 0 and len(judged) == 1
     names = ["juggleproof.json", "juggleproof-badge.json", "juggleproof.md"]
@@ -71,7 +71,7 @@ def test_missing_library_is_named_and_nothing_written_holds(
     def absent(name: str) -> NoReturn:
         raise ImportError(name)
 
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     monkeypatch.setattr(formats, "pictures", lambda contents: ())
     monkeypatch.setattr(extras, "import_module", absent)
     assert "jinja2 is needed for this report" in fault(
@@ -83,7 +83,7 @@ def test_missing_library_is_named_and_nothing_written_holds(
 def test_figures_are_left_out_where_matplotlib_is_absent_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     monkeypatch.setattr(formats.importlib.util, "find_spec", lambda name: None)
     assert run(["report", "--format", "html", "-o", str(tmp_path)]) == 0
     assert "figures are left out" in capsys.readouterr().err

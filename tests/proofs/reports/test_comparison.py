@@ -11,9 +11,8 @@ from random import Random
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
+from juggleproof.proofs.reports.latex import latex_of
 from tests.proofs.reports.comparison import TEXTS, differences, drawn, read_latex, unknowns
 from tests.proofs.reports.nodes import (
     Arithmetic,
@@ -32,7 +31,6 @@ from tests.proofs.reports.nodes import (
     names_in,
 )
 from tests.proofs.reports.statement_text import evaluate_statement_text, read_statement_text
-from tests.proofs.reports.tiny_printer import printed
 
 # -------------------------------------------------------------------------------------------------
 # The evaluator of statement texts against Python's own evaluation of the same text, and what it
@@ -98,42 +96,6 @@ def has_the_value_that_python_finds(text: str) -> bool:
     return evaluate_statement_text(text, point) == by_python(text, point)
 
 
-SOME = st.sampled_from(("x", "w", "r", "2", "3", "alpha"))
-TERMS = st.recursive(
-    SOME,
-    lambda inner: (
-        st.tuples(inner, st.sampled_from((" + ", " - ", "*")), inner).map("".join)
-        | inner.map("-{}".format)
-        | inner.map("({})".format)
-        | st.tuples(SOME | inner.map("({})".format), st.sampled_from(("^0", "^2", "^3"))).map(
-            "".join
-        )
-    ),
-    max_leaves=8,
-)
-RELATED = st.tuples(
-    TERMS, st.sampled_from((" < ", " <= ", " = ", " != ", " > ", " >= ")), TERMS
-).map("".join)
-FORMULAS = st.recursive(
-    RELATED,
-    lambda inner: (
-        st.tuples(inner, st.sampled_from((" and ", " or ")), inner).map("".join)
-        | inner.map("not {}".format)
-        | inner.map("({})".format)
-        | st.tuples(st.sampled_from(("iff", "implies")), inner, inner).map(
-            lambda parts: f"{parts[0]}({parts[1]}, {parts[2]})"
-        )
-    ),
-    max_leaves=6,
-)
-
-
-@settings(deadline=None, max_examples=300)
-@given(TERMS | FORMULAS)
-def test_any_text_has_the_value_that_python_finds_holds(text: str) -> None:
-    assert evaluate_statement_text(text, VALUES) == by_python(text, VALUES)
-
-
 @pytest.mark.parametrize(
     "text",
     ["", "x +", "2x", "x w", "x(w)", "x^w", "x^-1", "x^2^3", "x == w", "x ** 2", "0.5", "(x", "x)",
@@ -153,8 +115,7 @@ def test_rejects_a_name_without_a_value() -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# The comparison agrees with every statement as it is printed, and notices what an edit of the LaTeX
-# changes.
+# The comparison notices what an edit of the exported LaTeX changes.
 #
 # Whether an edit changes the meaning is SymPy's to say: relations of cancelled differences, whose
 # order in `and` and `or` does not matter.
@@ -162,15 +123,6 @@ def test_rejects_a_name_without_a_value() -> None:
 EVERY = 6  # of the statements, for the edits
 EDITS_EACH = 4
 LONGEST = 160
-
-
-def print_of(text: str, style: int = 0) -> str:
-    return printed(read_statement_text(text), Random(f"{style} {text}"))
-
-
-def test_every_statement_agrees_with_its_print_holds() -> None:
-    assert len(TEXTS) > 700
-    assert differences((text, print_of(text, style)) for style, text in enumerate(TEXTS)) == []
 
 
 @pytest.mark.parametrize(
@@ -318,7 +270,10 @@ def sympy_of(node: Node, known: set[str]) -> sympy.Expr:
 def test_edits_of_the_print_are_noticed_holds() -> None:
     random, noticed, missed, refused, idle = Random(5), 0, [], 0, 0
     for text in [text for text in TEXTS if 8 < len(text) < LONGEST][::EVERY]:
-        latex, stated = print_of(text), read_statement_text(text)
+        stated = read_statement_text(text)
+        if isinstance(stated, Listed):
+            continue
+        latex = latex_of(text)
         known = {name.printed for name in names_in(stated)}
         before = meaning(stated, known)
         for _, edited in zip(range(EDITS_EACH), edits(latex, random)):

@@ -26,7 +26,7 @@ from juggleproof.proofs.reports.contents import (
     results_of,
 )
 from juggleproof.proofs.reports.results import Results
-from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
+from tests.proofs.reports.runs import FALSE, OPEN, contents, made_of, own, paper
 
 Document = dict[str, Any]  # as JSON has it
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
@@ -96,10 +96,6 @@ def test_sharp_ranges_stand_by_reading_holds() -> None:
         ) == one.sharp.replace("no alpha", ""), one.id
 
 
-def test_report_and_run_write_the_same_document_holds() -> None:
-    assert as_json(contents()) == as_json(paper())
-
-
 @pytest.mark.exhaust
 def test_report_gathers_what_a_run_comes_to_holds() -> None:
     """As the command gathers it, in processes of its own."""
@@ -122,7 +118,7 @@ def test_report_writes_what_a_run_would_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     assert report.report([wanted], tmp_path / "new") == 0
     assert [path.name for path in (tmp_path / "new").iterdir()] == [name] and (
         tmp_path / "new" / name

@@ -21,7 +21,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import contents, errata, pages
 from juggleproof.proofs.reports.contents import errata_text
-from juggleproof.proofs.reports.tree import theorem_line
+from juggleproof.proofs.reports.tree import STANDS, theorem_line
 from juggleproof.proofs.run import FINDINGS, judge_some
 from juggleproof.proofs.theorem import THEOREM
 
@@ -185,6 +185,34 @@ def test_what_is_wrong_is_told_in_words(
     entry: dict[str, str], sharp: dict[str, str], lines: list[str]
 ) -> None:
     assert errata.what_is_wrong(entry, sharp) == lines
+
+
+def test_all_that_is_told_was_checked_now_holds(everything: str) -> None:
+    assert STANDS in theorem_line(Store(DEFAULT), CHECKED) and len(JUDGED) > 100
+    for one in JUDGED.values():
+        assert one.outcomes == {name: CHECKED[name] for name in one.outcomes}, one.id
+
+
+@pytest.mark.parametrize("is_refuted", [False, True])
+def test_a_claim_that_holds_without_a_proof_in_the_store_is_judged_holds(
+    is_refuted: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, everything: str
+) -> None:
+    """Its proof is taken out, or replaced by a point at which it is said to be false."""
+    folder, asked = spoilt_store(tmp_path / "store", "eq-37/member"), set[str]()
+    if is_refuted:
+        lines = (folder / CERTIFICATES).read_text().splitlines(keepends=True)
+        line = json.dumps(["eq-37/member", {"refuted": ["point", {}, ["close"]]}]) + "\n"
+        (folder / CERTIFICATES).write_text("".join(sorted([*lines, line])))
+
+    def judged(some: Any, *_: Any) -> list[Judgement]:
+        asked.update(one.id for one in some)
+        return [JUDGED[one.id] for one in some if one.id != "eq-37"]
+
+    monkeypatch.setattr(contents, "DEFAULT", folder)
+    monkeypatch.setattr(contents, "outcomes_of", lambda *_: CHECKED)
+    monkeypatch.setattr(contents, "judge_some", judged)
+    errata_text()
+    assert "eq-37" not in JUDGED and asked == {*JUDGED, "eq-37"}
 
 
 def test_rejects_errata_without_a_register(monkeypatch: pytest.MonkeyPatch) -> None:

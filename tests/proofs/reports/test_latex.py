@@ -1,6 +1,6 @@
 """LaTeX: every formula that reports set is read back by a reader that shares nothing with the
-printer, and has the same values; fragments hold what they should, compile in one and in two columns
-without a fault, and bytes repeat.
+printer, and has the same values; fragments hold what they should, and compile in one and in two
+columns without a fault.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command import formats, report
+from juggleproof.proofs.command import formats
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.reading.meaning import read
@@ -28,7 +28,7 @@ from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
 from juggleproof.proofs.run import judge_some
 from tests.proofs.reports.comparison import differences, read_latex
-from tests.proofs.reports.runs import contents
+from tests.proofs.reports.runs import contents, made_of
 
 # -------------------------------------------------------------------------------------------------
 # Formulas.
@@ -237,10 +237,6 @@ def test_templates_hold_no_formula_of_the_paper_holds() -> None:
             ), (path.name, formula)
 
 
-def test_bytes_repeat_holds() -> None:
-    assert {name: content.decode() for name, content in files(contents()).items()} == made()
-
-
 def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
     text = equation(contents().entry("sB.3-f1"))
     assert (
@@ -387,7 +383,7 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(report, "gather", contents)
+    made_of(monkeypatch, contents)
     monkeypatch.setattr(formats, "saved", lambda contents, form: ())
     monkeypatch.setattr(shutil, "which", lambda name: None)
     assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
@@ -395,13 +391,3 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
         "latexmk and pdflatex are needed" in capsys.readouterr().err
         and (tmp_path / "out" / "juggleproof.tex").exists()
     )
-
-
-def test_rejects_an_unknown_format_and_a_folder_that_is_a_file(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(["report", "--format", "word"]) == 2
-    assert "--format word: choose from" in capsys.readouterr().err
-    (tmp_path / "file").write_text("")
-    assert run(["report", "--format", "latex", "-o", str(tmp_path / "file")]) == 2
-    assert "not a folder" in capsys.readouterr().err and (tmp_path / "file").read_text() == ""

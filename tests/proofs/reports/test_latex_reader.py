@@ -1,33 +1,15 @@
-"""The reader of LaTeX: what texts come to, what it refuses, and trees that are printed and read
-back.
-"""
+"""The reader of LaTeX: what texts come to, and what it refuses."""
 
 from __future__ import annotations
 
 from fractions import Fraction
-from random import Random
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.proofs.reports.latex_reader import NotRead, read, value
-from tests.proofs.reports.nodes import (
-    Arithmetic,
-    Formula,
-    Implied,
-    Joined,
-    Listed,
-    Name,
-    Neg,
-    Node,
-    Not,
-    Num,
-    Related,
-    Term,
-    Unary,
-)
-from tests.proofs.reports.tiny_printer import printed
+from tests.proofs.reports.nodes import Node
 
 VALUES = {
     name: Fraction(str(found))
@@ -446,58 +428,6 @@ def test_rejects_a_glyph_whose_meanings_both_have_values() -> None:
         value(read(r"\Delta_1 E"), {"change_1": Fraction(2), "dE_1": Fraction(3)})
 
 
-# ------------------------------------------------------------ printed and read back
-
-NAMES = (
-    "alpha beta v r g T x w tau K beta0 v0 E_max dE_max eps since size v_next change_1 z1 t_R"
-).split()
-LEAVES = st.builds(Num, st.integers(0, 120)) | st.sampled_from(NAMES).map(
-    lambda name: Name(name, (name,))
-)
-SMALL = st.integers(0, 4).map(Num)
-
-
-def terms_over(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
-    return (
-        st.builds(Arithmetic, st.sampled_from("+-*/"), inner, inner)
-        | st.builds(Arithmetic, st.just("^"), inner, SMALL)
-        | st.builds(Neg, inner)
-        | st.builds(Unary, st.sampled_from(("floor", "ceil")), inner)
-        | inner.map(lambda under: Unary("sqrt", Arithmetic("^", under, Num(2))))
-    )
-
-
-def formulas_over(inner: st.SearchStrategy[Formula]) -> st.SearchStrategy[Formula]:
-    return (
-        st.builds(Not, inner)
-        | st.builds(
-            Joined,
-            st.sampled_from(("and", "or")),
-            st.lists(inner, min_size=2, max_size=3).map(tuple),
-        )
-        | st.builds(Implied, st.sampled_from(("implies", "iff")), inner, inner)
-    )
-
-
-TREES = st.recursive(LEAVES, terms_over, max_leaves=12)
-RELATED = st.builds(Related, TREES, st.sampled_from(("<", "<=", ">", ">=", "=", "!=")), TREES)
-LISTS = st.lists(TREES, min_size=2, max_size=3).map(lambda entries: Listed(tuple(entries)))
-SAID = TREES | st.recursive(RELATED, formulas_over, max_leaves=6) | LISTS
-
-
-def value_or_reason(tree: Node) -> object:
-    try:
-        return value(tree, VALUES)
-    except NotRead as reason:
-        return str(reason)
-
-
-@settings(deadline=None, max_examples=400)
-@given(SAID, st.integers(0, 10**6))
-def test_what_is_printed_is_read_back_with_its_value_holds(tree: Node, style: int) -> None:
-    assert value_or_reason(read(printed(tree, Random(style)))) == value_or_reason(tree)
-
-
 PIECES = (
     r"\frac \sqrt { } ( ) [ ] \left \right \bigl ^ _ ' 1 2 x \bar \dot \beta \rho \alpha \Delta E -"
     r" + / \cdot , < \le = & \\ |".split()
@@ -515,16 +445,3 @@ def test_any_text_is_read_or_refused_holds(latex: str) -> None:
         assert refused.reason
     else:
         assert isinstance(tree, Node) and read(latex) == tree
-
-
-@settings(deadline=None, max_examples=200)
-@given(SAID, st.integers(0, 10**6), st.data())
-def test_a_print_cut_short_is_read_or_refused_holds(
-    tree: Node, style: int, data: st.DataObject
-) -> None:
-    latex = printed(tree, Random(style))
-    at = data.draw(st.integers(0, len(latex) - 1))
-    try:
-        assert isinstance(read(latex[:at] + latex[at + 1 :]), Node)
-    except NotRead as refused:
-        assert refused.reason

@@ -1,6 +1,4 @@
-"""The page tells all that is settled, is whole and well formed, fetches nothing, and is the same to
-the byte from run to run.
-"""
+"""The page tells all that is settled, is whole and well formed, and fetches nothing."""
 
 from __future__ import annotations
 
@@ -24,7 +22,7 @@ from juggleproof.proofs.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
 from tests.certificates.checker.test_returns import LOOP
 from tests.proofs.reports.browser import Element, NotNested, parts_of, read_html, read_whole
-from tests.proofs.reports.runs import contents, drawn, page
+from tests.proofs.reports.runs import contents, page
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -452,13 +450,6 @@ def test_each_letter_of_a_statement_has_a_meaning_holds() -> None:
             )
             wanted = {glyph(name) for names in listed for name in names.split()}
             assert wanted <= meant, (shown.name, wanted - meant)
-
-
-def test_page_is_the_same_from_run_to_run_holds() -> None:
-    """Of the same contents; `.ci/run` compares two whole runs of every report in processes of their
-    own.
-    """
-    assert build(contents(), drawn()) == page()
 
 
 def page_of(changed: Contents) -> Element:

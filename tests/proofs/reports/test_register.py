@@ -100,7 +100,7 @@ def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
         for case in suite
         if case.find("failure") is not None
     }
-    assert set(failures) == set(expected)
+    assert set(failures) == set(expected) and "eq-2/main fails at " in failures["eq-2"]
     assert all(
         f"verdict was {before}, is {after}" in failures[name]
         for name, (before, after) in expected.items()

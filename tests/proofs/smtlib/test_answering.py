@@ -10,6 +10,7 @@ import sys
 from collections import Counter
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from fractions import Fraction
+from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 from random import Random
@@ -32,15 +33,11 @@ from juggleproof.proofs.smtlib.answering import (
     question,
     settled,
 )
-from juggleproof.proofs.smtlib.script import problems_of_file, read_problems
+from juggleproof.proofs.smtlib.script import Problem, problems_of_file, read_problems
 from tests.proofs.command.running import ROOT, run, run_anew
 from tests.proofs.smtlib.evaluating import truth
+from tests.rows import each_row
 
-SET = {
-    problem.name: problem
-    for path in sorted((ROOT / "benchmarks" / "problems").glob("*.smt2"))
-    for problem in problems_of_file(path)
-}
 FAST = (
     "am-gm-3",
     "nesbitt",
@@ -62,6 +59,13 @@ SEVERAL = """(set-logic QF_NRA)(declare-const x Real)(declare-const b Bool)
 """
 
 
+@cache
+def problem_set() -> dict[str, Problem]:
+    """The problems of benchmarks by name."""
+    paths = sorted((ROOT / "benchmarks" / "problems").glob("*.smt2"))
+    return {problem.name: problem for path in paths for problem in problems_of_file(path)}
+
+
 def script(folder: Path, text: str, name: str = "mine") -> Path:
     path = folder / f"{name}.smt2"
     path.write_text(text, encoding="utf-8")
@@ -70,8 +74,11 @@ def script(folder: Path, text: str, name: str = "mine") -> Path:
 
 @pytest.mark.parametrize("name", FAST)
 def test_a_problem_is_answered_as_it_is_stated_holds(name: str, tmp_path: Path) -> None:
-    (one,) = answer_files([script(tmp_path, SET[name].script, name)], store=tmp_path)
-    assert SET[name].status in ("sat", "unsat") and one.answer.word == SET[name].status
+    (one,) = answer_files([script(tmp_path, problem_set()[name].script, name)], store=tmp_path)
+    assert (
+        problem_set()[name].status in ("sat", "unsat")
+        and one.answer.word == problem_set()[name].status
+    )
     results = checker.check_folder(str(tmp_path))
     assert [outcome for _, outcome, _ in results] == [
         "certified" if one.answer.word == "unsat" else "refuted"
@@ -202,7 +209,9 @@ def test_rejects_a_certificate_for_another_statement() -> None:
 
 
 def test_a_small_budget_leaves_a_problem_unknown_and_says_so(tmp_path: Path) -> None:
-    (found,) = certify(script(tmp_path, SET["minkowski-plane"].script), budget=2000, store=tmp_path)
+    (found,) = certify(
+        script(tmp_path, problem_set()["minkowski-plane"].script), budget=2000, store=tmp_path
+    )
     assert found.answer == "unknown"
     assert checker.check_folder(str(tmp_path))[0][1] == "unknown"
 
@@ -302,7 +311,7 @@ def test_rejects_what_is_neither_a_path_nor_claims() -> None:
 
 
 def test_the_command_answers_and_keeps_certificates_beside_the_script(tmp_path: Path) -> None:
-    path = script(tmp_path, SET["motzkin"].script)
+    path = script(tmp_path, problem_set()["motzkin"].script)
     done = run_anew("certify", str(path), "--json", str(tmp_path / "out.json"))
     assert done.returncode == 0, done.stderr
     assert (
@@ -347,7 +356,12 @@ def test_an_answer_that_the_script_states_otherwise_is_told_loudly(tmp_path: Pat
 
 
 def test_an_open_problem_gives_exit_code_1(tmp_path: Path) -> None:
-    done = run("certify", str(script(tmp_path, SET["minkowski-plane"].script)), "--budget", "2000")
+    done = run(
+        "certify",
+        str(script(tmp_path, problem_set()["minkowski-plane"].script)),
+        "--budget",
+        "2000",
+    )
     assert done.returncode == 1 and "1 problem: 0 unsat, 0 sat, 1 unknown" in done.stdout
 
 
@@ -397,7 +411,7 @@ def _formula(rng: Random, depth: int) -> str:
     return f"({sign} {' '.join(parts)})"
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_row("seed", range(3))
 def test_random_problems_with_divisions_by_anything_are_answered_as_by_z3_holds(seed: int) -> None:
     rng, words = Random(seed), Counter[str]()
     for _ in range(20):

@@ -11,6 +11,7 @@ import pytest
 from juggleproof.certificates.language import ClaimError, real
 from juggleproof.proofs.smtlib.script import problems_of_file, read_problems
 from juggleproof.proofs.smtlib.statements import statement_of
+from tests.rows import each_row
 
 XY = "(declare-const x Real)(declare-fun y () Real)"
 B = "(declare-const b Bool)"
@@ -58,7 +59,7 @@ ACCEPTED = [
 ]
 
 
-@pytest.mark.parametrize("body, shown", ACCEPTED)
+@each_row("body, shown", ACCEPTED)
 def test_a_script_is_read_as_this_statement_holds(body: str, shown: str | None) -> None:
     if shown is None:
         with pytest.raises(ClaimError, match="x is declared already"):
@@ -116,7 +117,7 @@ DIVISIONS = [
 ]
 
 
-@pytest.mark.parametrize("body, rows", DIVISIONS)
+@each_row("body, rows", DIVISIONS)
 def test_what_keeps_a_divisor_from_zero_stands_before_it_holds(body: str, rows: list[str]) -> None:
     (problem,) = read_problems(f"{XY}{body}(check-sat)", "f")
     assert statement_of(problem, "f/check").text().splitlines()[2:] == rows
@@ -184,7 +185,7 @@ REJECTED = [
 ]
 
 
-@pytest.mark.parametrize("body, line, told", REJECTED)
+@each_row("body, line, told", REJECTED)
 def test_rejects_what_is_not_understood_in_one_line(body: str, line: int, told: str) -> None:
     with pytest.raises(ClaimError) as caught:
         for problem in read_problems(f"{XY}\n{body}\n(check-sat)", "bad.smt2"):
@@ -303,7 +304,7 @@ def test_what_is_assumed_holds_for_one_question_and_global_names_outlive_their_s
         assert [said for _, said in alone.assertions] == [said for _, said in one.assertions]
 
 
-@pytest.mark.parametrize("name", ["ALL", "NRA", "LRA", "QF_UFNRA", "QF_NIRA"])
+@each_row("name", ["ALL", "NRA", "LRA", "QF_UFNRA", "QF_NIRA"])
 def test_the_content_of_a_script_is_read_whatever_its_logic_is_called_holds(name: str) -> None:
     (problem,) = read_problems(f"(set-logic {name}){XY}(assert (> x y))(check-sat)", "f")
     assert problem.assertions == ((1, real("x") > real("y")),)

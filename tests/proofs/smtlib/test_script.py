@@ -9,7 +9,6 @@ import zlib
 from fractions import Fraction
 from typing import Any
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -20,6 +19,7 @@ from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.smtlib.script import read_problems
 from tests.certificates.drawn import fractions
 from tests.proofs.smtlib.evaluating import differences, truth
+from tests.rows import each_row
 
 NAMES = ("x", "y", "z")
 numbers = fractions(-3, 3, 4)
@@ -150,7 +150,7 @@ def values_in(formula: Any, values: list[Fraction]) -> set[Fraction]:
     return {value for part in formula.parts for value in values_in(part, values)}
 
 
-@pytest.mark.parametrize("name", SAMPLE)
+@each_row("name", SAMPLE)
 def test_our_own_export_read_back_is_the_same_up_to_names_holds(name: str) -> None:
     statement = read_statement(STORE.texts[name])
     asked = questions(statement)

@@ -6,8 +6,6 @@ import random
 from fractions import Fraction
 from pathlib import Path
 
-import pytest
-
 from juggleproof.certificates.formulas import Formula, Term
 from juggleproof.certificates.language import Statement
 from juggleproof.proofs.smtlib.answering import answer, answer_files, question
@@ -15,6 +13,7 @@ from juggleproof.proofs.smtlib.script import Problem, read_problems
 from juggleproof.proofs.smtlib.statements import statement_of
 from juggleproof.proofs.smtlib.values import DEEPEST
 from tests.proofs.smtlib.evaluating import truth, value
+from tests.rows import each_row
 
 XY = "(declare-const x Real)(declare-const y Real)"
 MANY = 2000
@@ -79,7 +78,7 @@ SIZES = {
 }
 
 
-@pytest.mark.parametrize("kind", SIZES)
+@each_row("kind", SIZES)
 def test_what_is_large_is_answered_holds(kind: str) -> None:
     body, contrary = SIZES[kind]
     assert answered(body) == "sat"
@@ -114,7 +113,7 @@ def solutions(meaning: Formula, name: str, point: dict[str, Fraction]) -> list[F
     return [found for found in values if truth(meaning, {**point, name: found})]
 
 
-@pytest.mark.parametrize("seed", range(10))
+@each_row("seed", range(10))
 def test_names_change_no_meaning_holds(seed: int) -> None:
     """A chain of definitions, evaluated by itself, agrees with the statement at random points."""
     choose = random.Random(seed)

@@ -41,12 +41,16 @@ def between(low: Fraction | int, high: Fraction | int, largest: int) -> SearchSt
     """All fractions in [low, high] with denominators up to the largest: sooner drawn from a list
     than by `st.fractions`.
     """
-    found = {
-        Fraction(above, below)
-        for below in range(1, largest + 1)
-        for above in range(ceil(low * below), floor(high * below) + 1)
-    }
-    return st.sampled_from(sorted(found, key=lambda one: (one.denominator, abs(one), one)))
+
+    def listed() -> SearchStrategy[Fraction]:
+        found = {
+            Fraction(above, below)
+            for below in range(1, largest + 1)
+            for above in range(ceil(low * below), floor(high * below) + 1)
+        }
+        return st.sampled_from(sorted(found, key=lambda one: (one.denominator, abs(one), one)))
+
+    return st.deferred(listed)
 
 
 below_a_third = between(Fraction(1, 100), Fraction(33, 100), 100)

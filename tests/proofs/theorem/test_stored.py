@@ -6,10 +6,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
-
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import DEFAULT, Store
+from tests.rows import each_row
 
 Json = Any
 STORE = Store(DEFAULT)
@@ -68,9 +67,7 @@ def test_theorem_holds() -> None:
     assert len(NODES) >= 30
 
 
-@pytest.mark.parametrize(
-    ("name", "premise"), NODES, ids=[f"{name} {premise}" for name, premise in NODES]
-)
+@each_row(("name", "premise"), NODES)
 def test_theorem_fails_without_a_premise(name: str, premise: str) -> None:
     fewer = {key: proof for key, proof in CERTIFICATES[name]["certified"].items() if key != premise}
     found = results(TEXTS, {**CERTIFICATES, name: {"certified": fewer}})
@@ -81,7 +78,7 @@ def test_theorem_fails_without_a_premise(name: str, premise: str) -> None:
     assert found["theorem/exactly"][0] == "rejected"
 
 
-@pytest.mark.parametrize("name", list(TEXTS))
+@each_row("name", list(TEXTS))
 def test_theorem_fails_without_a_certificate(name: str) -> None:
     found = results(TEXTS, {key: one for key, one in CERTIFICATES.items() if key != name})
     assert found[name][0] == found["theorem/exactly"][0] == "rejected"
@@ -93,9 +90,7 @@ def test_theorem_fails_without_a_certificate(name: str) -> None:
     assert resting or name == "theorem/exactly"
 
 
-@pytest.mark.parametrize(
-    ("name", "old", "new"), WEAKENED, ids=[f"{name}: {new.strip()}" for name, _, new in WEAKENED]
-)
+@each_row(("name", "old", "new"), WEAKENED)
 def test_theorem_fails_with_a_weakened_line(name: str, old: str, new: str) -> None:
     if old not in TEXTS[name]:
         raise ValueError(f"{old!r} does not stand in {name}")

@@ -14,6 +14,7 @@ from juggleproof.scenes.figures.arcs import cut_at_the_bounce, images, margin
 from juggleproof.scenes.figures.lines import Arc
 from juggleproof.scenes.figures.paper import STEPS, boundary_image, torn_ends
 from juggleproof.symbolic.algebra import alpha, beta, g, r, v
+from tests.rows import each_row
 from tests.scenes.figures.drawn import points
 
 SETTING = {alpha: Rational(1, 4), r: 1, g: 1}
@@ -56,7 +57,7 @@ def of_the_arc(piece: Arc) -> bool:
     return piece.across[2] != 0
 
 
-@pytest.mark.parametrize("step", range(STEPS))
+@each_row("step", range(STEPS))
 def test_images_are_the_exact_images_holds(step: int) -> None:
     seen = 0
     for piece in boundary_image(step):
@@ -71,7 +72,7 @@ def test_images_are_the_exact_images_holds(step: int) -> None:
     assert seen >= 6
 
 
-@pytest.mark.parametrize("step", range(STEPS))
+@each_row("step", range(STEPS))
 def test_whole_boundary_is_mapped_holds(step: int) -> None:
     for whole in boundary_image(0):
         pieces = [one for one in boundary_image(step) if of_the_arc(one) == of_the_arc(whole)]
@@ -80,7 +81,7 @@ def test_whole_boundary_is_mapped_holds(step: int) -> None:
         assert (covered[0][0], covered[-1][1]) == tuple(sorted((whole.start, whole.stop)))
 
 
-@pytest.mark.parametrize("step", range(STEPS))
+@each_row("step", range(STEPS))
 def test_what_is_drawn_is_the_image_holds(step: int) -> None:
     pieces = [part for arc in boundary_image(step) for part in cut_at_the_bounce(arc)]
     for strikes, name in ((True, f"image-{step}-in-B1"), (False, f"image-{step}-in-B2")):

@@ -22,6 +22,7 @@ from juggleproof.scenes.figures.attractors import (
     joined_ranges,
 )
 from tests.proofs.reports.results_table import results
+from tests.rows import each_row
 from tests.scenes.figures.drawn import points
 
 TINY = Fraction(1, 10**9)
@@ -59,7 +60,7 @@ def test_shaded_ranges_are_those_of_the_claims_holds() -> None:
     assert {x for x, _ in shaded} == {float(low), float(high)}
 
 
-@pytest.mark.parametrize("claim", [SETTLED[3], "restitution-unequal-room"])
+@each_row("claim", [SETTLED[3], "restitution-unequal-room"])
 def test_rejects_a_claim_that_does_not_hold(claim: str) -> None:
     entries = [
         SimpleNamespace(

@@ -16,6 +16,7 @@ import pytest
 
 from juggleproof.scenes.figures import TABLE, drawing, entry, look
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, LOSS, PALETTE, Look, R
+from tests.rows import each_row
 from tests.scenes.figures.drawn import figure
 
 # -------------------------------------------------------------------------------------------------
@@ -80,7 +81,7 @@ def test_figures_of_the_paper_come_in_its_order_holds() -> None:
     ] and len(set(SLUGS)) == len(SLUGS)
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_words_beside_a_figure_are_sentences_holds(slug: str) -> None:
     one = entry(slug)
     for text in (one.alt, one.caption):
@@ -93,7 +94,7 @@ def test_words_beside_a_figure_are_sentences_holds(slug: str) -> None:
     assert one.title and not one.title.endswith(".") and one.alt != one.caption
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_file_is_well_formed_and_small_holds(slug: str) -> None:
     text = svg(slug)
     assert ElementTree.fromstring(text).tag == "{http://www.w3.org/2000/svg}svg"
@@ -103,7 +104,7 @@ def test_file_is_well_formed_and_small_holds(slug: str) -> None:
     assert pdf(slug).startswith(b"%PDF-")
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_same_bytes_again_holds(slug: str) -> None:
     again = drawing.svg(figure(slug), slug).decode("utf-8"), drawing.pdf(figure(slug))
     assert again == (svg(slug), pdf(slug))
@@ -132,7 +133,7 @@ def test_same_bytes_in_every_process_holds() -> None:
     assert pyplot == "False"  # it and its state are not used
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_no_date_and_no_version_is_told_holds(slug: str) -> None:
     assert not re.search(
         r"dc:date|Matplotlib|metadata|20\d\d-\d\d-\d\d",
@@ -147,14 +148,14 @@ def test_ids_do_not_collide_in_one_page_holds() -> None:
     assert all(name.startswith(("fig-",)) for name in found)
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_every_reference_has_its_target_in_the_same_figure_holds(slug: str) -> None:
     for text in (svg(slug), inline(slug)):
         used = set(re.findall(r'href="#([^"]*)"', text)) | set(re.findall(r"url\(#([^)]*)\)", text))
         assert used and used <= set(ids(text)) and all(name.startswith(f"{slug}-") for name in used)
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_inline_figure_is_named_and_takes_the_colour_of_the_page_holds(slug: str) -> None:
     text, one = inline(slug), entry(slug)
     root = ElementTree.fromstring(text)
@@ -170,7 +171,7 @@ def test_inline_figure_is_named_and_takes_the_colour_of_the_page_holds(slug: str
     )  # the name space
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_only_the_palette_and_the_ink_are_drawn_holds(slug: str) -> None:
     colours = {one.upper() for one in re.findall(r"#[0-9a-fA-F]{6}\b(?![^<]*\")", svg(slug))} | {
         one.upper() for one in re.findall(r"(?:fill|stroke): (#[0-9a-fA-F]{6})", svg(slug))
@@ -188,7 +189,7 @@ def test_rejects_what_is_no_svg() -> None:
         look.inline_svg("<p>", "fig-5", "title", "alt")
 
 
-@pytest.mark.parametrize("slug", SLUGS)
+@each_row("slug", SLUGS)
 def test_nothing_is_cut_off_or_overlaps_holds(slug: str) -> None:
     """Words stay inside the figure, and no two of them touch."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -324,20 +325,20 @@ def test_no_region_is_told_by_colour_alone_holds() -> None:
         assert (one.hatch, tuple(one.dashes)) != (other.hatch, tuple(other.dashes))
 
 
-@pytest.mark.parametrize(("one", "other"), MEET)
+@each_row(("one", "other"), MEET)
 def test_tints_that_meet_differ_in_grey_holds(one: list[Look], other: list[Look]) -> None:
     assert abs(lab(filled(*one))[0] - lab(filled(*other))[0]) > 5
 
 
-@pytest.mark.parametrize("deficiency", DEFICIENCIES)
-@pytest.mark.parametrize(("one", "other"), MEET)
+@each_row("deficiency", DEFICIENCIES)
+@each_row(("one", "other"), MEET)
 def test_tints_that_meet_differ_for_the_colour_blind_holds(
     one: list[Look], other: list[Look], deficiency: str
 ) -> None:
     assert apart(seen(filled(*one), deficiency), seen(filled(*other), deficiency)) > 9
 
 
-@pytest.mark.parametrize("deficiency", DEFICIENCIES)
+@each_row("deficiency", DEFICIENCIES)
 def test_lines_differ_for_the_colour_blind_holds(deficiency: str) -> None:
     for one, other in combinations(PALETTE.values(), 2):
         assert (

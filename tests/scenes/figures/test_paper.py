@@ -14,6 +14,7 @@ from juggleproof import symbolic
 from juggleproof.scenes.figures import TABLE
 from juggleproof.symbolic import State
 from juggleproof.symbolic.algebra import alpha, beta, g, r, t, v
+from tests.rows import each_row
 from tests.scenes.figures.drawn import curves, figure, points, states
 
 TOLERANCE = 1e-9
@@ -49,7 +50,7 @@ def at(expression: Expr, values: dict[Symbol, float]) -> float:
     return float(expression.subs(values))
 
 
-@pytest.mark.parametrize(("slug", "name"), WHERE)
+@each_row(("slug", "name"), WHERE)
 def test_curve_satisfies_its_equation_holds(slug: str, name: str) -> None:
     equation = VANISH[name]()
     for where in states(slug, name):
@@ -70,7 +71,7 @@ def test_levels_of_energy_are_levels_holds() -> None:
             assert abs(at(symbolic.total_energy(), where) - level) < TOLERANCE
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("slug", "name", "margins"),
     [
         ("fig-6", "B1", [symbolic.collision_margin]),
@@ -117,7 +118,7 @@ def test_band_beyond_B1_fails_without_small_epsilon() -> None:
         outline_band(1.5)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("slug", "name", "state"),
     [
         ("fig-13", "p", symbolic.point_p),

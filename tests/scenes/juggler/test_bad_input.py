@@ -25,6 +25,7 @@ from juggleproof.scenes.juggler import (
 from juggleproof.scenes.juggler.orbits import heights
 from juggleproof.scenes.juggler.periodic import exists_for, family, orbit_of
 from juggleproof.scenes.juggler.tables import as_arrays
+from tests.rows import each_row
 
 NAN, INF = float("nan"), float("inf")
 STARTS = point(0, 1)
@@ -158,7 +159,7 @@ def test_numbers_of_numpy_are_taken_exactly_holds() -> None:
     assert orbit(setting, steps=np.int64(3)).row(0).periods == 3
 
 
-@pytest.mark.parametrize("name", WRONG)
+@each_row("name", WRONG)
 def test_rejects_bad_input_in_one_line(name: str) -> None:
     wrong, message = WRONG[name]
     with pytest.raises(SceneError, match=message) as refused:

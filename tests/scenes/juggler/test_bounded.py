@@ -31,6 +31,7 @@ from juggleproof.scenes.juggler.bounded import Bounded, powers
 from juggleproof.scenes.juggler.given import N, nearest
 from juggleproof.scenes.juggler.starts import goal
 from juggleproof.scenes.juggler.tables import as_arrays
+from tests.rows import each_row
 
 FULL = st.floats(allow_nan=False, allow_infinity=False)
 SIZES = st.floats(0, 1e300) | st.sampled_from([0.0, 5e-324, 1e-310])
@@ -149,7 +150,7 @@ MILLION = {
 }
 
 
-@pytest.mark.parametrize("name", MILLION)
+@each_row("name", MILLION)
 def test_a_million_starts_are_not_made_before_they_are_asked_for_holds(name: str) -> None:
     MILLION[name]().block(0, 1)  # what is loaded once
     tracemalloc.start()

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,6 +24,7 @@ from juggleproof.scenes.juggler.exact import (
     shortened,
     strikes,
 )
+from tests.rows import each_row
 
 numbers = st.fractions(-50, 50, max_denominator=600)
 
@@ -77,7 +77,7 @@ def test_what_is_common_is_taken_out_holds(q: int, value: Fraction, k: int) -> N
     assert short.rest.gcd(powers.q) == 1
 
 
-@pytest.mark.parametrize(
+@each_row(
     "alpha, x, w, periods",
     [
         ("9/10", "1", "-4", 6000),
@@ -100,7 +100,7 @@ def test_long_orbits_are_those_of_fractions_holds(alpha: str, x: str, w: str, pe
     assert here[0].denominator.bit_length() > FEW_BITS
 
 
-@pytest.mark.parametrize("most_bits", [None, 2500])
+@each_row("most_bits", [None, 2500])
 def test_what_is_told_is_in_lowest_terms_holds(most_bits: int | None) -> None:
     found = orbit(scene("9/10", point(1, -4)), "exact", 9000, keep=True, most_bits=most_bits)
     track = found.tracks[0]
@@ -112,9 +112,7 @@ def test_what_is_told_is_in_lowest_terms_holds(most_bits: int | None) -> None:
     )
 
 
-@pytest.mark.parametrize(
-    "alpha, x, w", [("1/3", "0", "3"), ("1/2", "4/9", "8/3"), ("9/10", "180/361", "20/19")]
-)
+@each_row("alpha, x, w", [("1/3", "0", "3"), ("1/2", "4/9", "8/3"), ("9/10", "180/361", "20/19")])
 def test_periodic_orbits_stay_short_holds(alpha: str, x: str, w: str) -> None:
     found = orbit(scene(alpha, point(x, w)), "exact", 5000, keep=True)
     assert max(row.x.denominator.bit_length() for row in found.history(0)) < 20

@@ -17,12 +17,13 @@ from juggleproof.scenes.juggler.exact import impact
 from juggleproof.scenes.juggler.periodic import orbit_of
 from juggleproof.symbolic import normal_f1, normal_flight_power
 from juggleproof.symbolic.algebra import K, alpha, w, x
+from tests.rows import each_row
 from tests.scenes.juggler.reference import flights_of, word_of
 
 THIRD, HALF = Fraction(1, 3), Fraction(1, 2)
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("at", "words"),
     [("1/4", {1}), ("1/2", {1}), ("3/4", {1, 12}), ("17/20", {1, 6, 40})],
 )

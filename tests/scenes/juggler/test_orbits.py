@@ -18,6 +18,7 @@ from juggleproof.scenes.juggler.exact import as_fraction, flight
 from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.scenes.juggler.orbits import Row, heights
 from juggleproof.scenes.juggler.tables import in_units
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Four arithmetics, one orbit: exact, in balls, with digits, and in bounded floats.
@@ -237,7 +238,7 @@ def test_starts_are_the_same_in_every_block_holds(data: st.DataObject, low: int,
         )
 
 
-@pytest.mark.parametrize("kind", ["exact", "enclosed", "mp", "fast"])
+@each_row("kind", ["exact", "enclosed", "mp", "fast"])
 def test_no_steps_leave_the_start_holds(kind: str) -> None:
     row = orbit(scene("1/3", point("1/2", "-1/4")), kind, 0).row(0)
     assert (float(row.x), float(row.w), row.periods, row.end) == (

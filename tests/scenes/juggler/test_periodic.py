@@ -23,6 +23,7 @@ from juggleproof.scenes.juggler.periodic import (
     words,
 )
 from juggleproof.symbolic.algebra import alpha as symbol
+from tests.rows import each_row
 
 alphas = st.fractions(Fraction(1, 30), Fraction(29, 30), max_denominator=30)
 
@@ -39,7 +40,7 @@ def test_orbit_of_a_word_comes_back_exactly_holds(alpha: Fraction, word: tuple[i
     assert found.inside == all(row.x != row.w for row in kept) and found.radius < 1
 
 
-@pytest.mark.parametrize("K", range(1, 7))
+@each_row("K", range(1, 7))
 def test_e_K_exists_from_its_threshold_on_holds(K: int) -> None:
     start = Fraction(K - 1, K + 1)
     assert [str(one) for one in exists_for((K,))] == [

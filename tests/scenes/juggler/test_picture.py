@@ -15,6 +15,7 @@ import pytest
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import grid, listed, physical_grid, point, scene
 from juggleproof.scenes.juggler.limits import limits
+from tests.rows import each_row
 from tests.scenes.juggler.reference import word_of
 
 pytest.importorskip("matplotlib")
@@ -44,7 +45,7 @@ def nearest(pixel: np.ndarray, colours: dict[tuple[int, ...], str]) -> tuple[int
     return min(tints, key=lambda word: float(abs(tints[word] - pixel).sum()))
 
 
-@pytest.mark.parametrize("units", ["normal", "physical"])
+@each_row("units", ["normal", "physical"])
 def test_colours_of_a_basin_are_those_of_exact_orbits_holds(units: str) -> None:
     starts = (
         grid((0, 5, 40), (-3, 4, 40))

@@ -8,12 +8,12 @@ import math
 from functools import cache
 
 import numpy as np
-import pytest
 
 from juggleproof.scenes.part import body, fresh_notes, scene
 from juggleproof.scenes.part.flight import fly
 from juggleproof.scenes.part.setting import Array
 from juggleproof.scenes.part.strike import first_slide, mode_of, strike
+from tests.rows import each_row
 from tests.scenes.part.reference import Chatter, Event, State, dropped, reference_orbit, setting
 
 UNTIL = 0.2
@@ -90,7 +90,7 @@ def errors(which: int, tolerance: float) -> list[float]:
     ]
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_fast_has_the_impacts_of_the_reference_holds(which: int) -> None:
     events = by_reference(which)[1]
     ours = fast(which, 1e-12)

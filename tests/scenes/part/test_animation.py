@@ -24,6 +24,7 @@ from juggleproof.scenes.part.layout import ANGLES, lying
 from juggleproof.scenes.part.picture import as_in_figure_two
 from juggleproof.scenes.part.setting import Array
 from tests.proofs.reports.browser import Element, chromium, read_html, requests, resize
+from tests.rows import each_row
 
 if TYPE_CHECKING:
     from selenium.webdriver.chrome.webdriver import WebDriver
@@ -113,7 +114,7 @@ def test_nothing_is_fetched_holds() -> None:
     )
 
 
-@pytest.mark.parametrize("horizon", [0.0, -1.0, 61.0, nan])
+@each_row("horizon", [0.0, -1.0, 61.0, nan])
 def test_rejects_a_horizon_that_no_file_has_room_for(horizon: float) -> None:
     with pytest.raises(SceneError, match="^horizon"):
         made(horizon=horizon)

@@ -12,6 +12,7 @@ import pytest
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part.ensemble import CHUNK, WIDTH, ends_of, frames, no_vibration
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Frames show the orbit that is followed without stops.
@@ -23,7 +24,7 @@ STICKY = scene(e=0.3, mu=0.9, A_x=2e-3, f_x=15.0)
 ANGLES = np.radians(np.arange(91))
 
 
-@pytest.mark.parametrize("setting", [SHAKEN, STICKY], ids=["free", "held"])
+@each_row("setting", [SHAKEN, STICKY])
 def test_frames_are_of_the_orbit_without_stops_holds(setting: object) -> None:
     assert isinstance(setting, type(SHAKEN))
     times = [0.0, 0.05, 0.8, 0.8, 1.5]
@@ -59,7 +60,7 @@ def test_frames_do_not_depend_on_other_times_or_on_the_executor_holds() -> None:
     assert (seen[:, :, body.TIME] == np.linspace(0, 0.5, 31)[:, None]).all()
 
 
-@pytest.mark.parametrize("times", [[], [0.5, 0.2], [-1.0], [nan], [[0.1]], [1e9]])
+@each_row("times", [[], [0.5, 0.2], [-1.0], [nan], [[0.1]], [1e9]])
 def test_rejects_times_that_are_none(times: list[float]) -> None:
     with pytest.raises(SceneError, match="^times"):
         frames(SHAKEN, ANGLES, times)
@@ -120,7 +121,7 @@ def test_rejects_a_folder_that_cannot_be_made(tmp_path: Path) -> None:
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 
 
-@pytest.mark.parametrize(("e", "mu"), [(0.7, 0.08), (0.0, 0.0), (0.4, 1.0), (0.9, 0.3)])
+@each_row(("e", "mu"), [(0.7, 0.08), (0.0, 0.0), (0.4, 1.0), (0.9, 0.3)])
 def test_split_is_as_printed_and_at_the_exact_angle_holds(e: float, mu: float) -> None:
     found = no_vibration(scene(e=e, mu=mu, A_x=1e-3, f_x=30.0))
     assert found.as_printed() and 0 < found.lying - found.upright <= WIDTH

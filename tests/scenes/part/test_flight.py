@@ -13,6 +13,7 @@ from juggleproof.scenes.part import body, moving, scene
 from juggleproof.scenes.part.ensemble import fresh_notes
 from juggleproof.scenes.part.flight import fly, lands_after, safe_step
 from juggleproof.scenes.part.setting import Array, Scene
+from tests.rows import each_row
 from tests.scenes.part.reference import Flight, Model, State, first_crossing, setting
 
 UNTIL = 0.2
@@ -76,7 +77,7 @@ def flown(block: Scene, start: Array) -> tuple[Array, float]:
     return z, float(notes[body.LEAST_GAP])
 
 
-@pytest.mark.parametrize("tolerance", [1e-12, 1e-9, 1e-6])
+@each_row("tolerance", [1e-12, 1e-9, 1e-6])
 def test_no_corner_gets_below_the_table_holds(tolerance: float) -> None:
     landed = 0
     for block, start in flights(200, tolerance):
@@ -177,8 +178,8 @@ def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:
     assert flown(block, start)[1] < -1e-12
 
 
-@pytest.mark.parametrize("depth", [0.0, 0.5, 0.89])
-@pytest.mark.parametrize("hop", [1e-1, 1e-3, 1e-6])
+@each_row("depth", [0.0, 0.5, 0.89])
+@each_row("hop", [1e-1, 1e-3, 1e-6])
 def test_hop_below_the_tolerance_does_not_sink_the_corner_holds(depth: float, hop: float) -> None:
     """It comes down to the height from which it set out, as fast as it went up: hops that sank a
     little each went through the table in time.

@@ -17,6 +17,7 @@ from juggleproof.scenes.part.onsets import PAPER
 from juggleproof.scenes.part.rest import LANDS, LASTS, LETS_GO, SLIPS, STOPS, ending, pivot
 from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import strike
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Scenes that broke an earlier integrator, and drawn ones: every run ends, with finite states,
@@ -86,7 +87,7 @@ def check(block: Scene, states: Array, until: float) -> Array:
     return notes
 
 
-@pytest.mark.parametrize("seed", range(40))
+@each_row("seed", range(40))
 def test_drawn_scene_runs_to_its_end_holds(seed: int) -> None:
     block, states = drawn(seed)
     check(block, states, 0.4)
@@ -147,7 +148,7 @@ SCENES: dict[str, dict[str, float]] = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
+@each_row("name", SCENES)
 def test_scene_that_broke_an_integrator_runs_to_its_end_holds(name: str) -> None:
     block = scene(**SCENES[name])
     check(
@@ -157,7 +158,7 @@ def test_scene_that_broke_an_integrator_runs_to_its_end_holds(name: str) -> None
     )
 
 
-@pytest.mark.parametrize("mu", [0.5, 1.2, 1.3, 1.33333])
+@each_row("mu", [0.5, 1.2, 1.3, 1.33333])
 def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> None:
     """At mu = 4/3 the force at a sliding corner of a 1:2 block has no bound: steps must become
     shorter near it.
@@ -200,7 +201,7 @@ LONG: list[dict[str, float]] = [
 ]
 
 
-@pytest.mark.parametrize("given", LONG, ids=str)
+@each_row("given", LONG)
 def test_corners_of_a_long_block_do_not_sink_holds(given: dict[str, float]) -> None:
     block = scene(**{"mu": 0.5, "A_y": 0.0, **given})
     angles = LYING - 10.0 ** np.arange(-7.0, -1.0)
@@ -269,7 +270,7 @@ CHATTER: list[tuple[float, dict[str, float]]] = [
 ]
 
 
-@pytest.mark.parametrize(("angle", "given"), CHATTER, ids=str)
+@each_row(("angle", "given"), CHATTER)
 def test_chatter_on_a_still_table_ends_holds(angle: float, given: dict[str, float]) -> None:
     """No event adds energy, not even that of a rounding of the height, and few are needed."""
     block = scene(A_y=0.0, **given)
@@ -391,7 +392,7 @@ MIRRORED: list[dict[str, object]] = [
 ]
 
 
-@pytest.mark.parametrize("given", MIRRORED, ids=str)
+@each_row("given", MIRRORED)
 def test_mirrored_start_gives_the_mirrored_orbit_holds(given: dict[str, object]) -> None:
     numbers = {name: value for name, value in given.items() if name != "row"}
     frequency, amplitude, _ = PAPER[given["row"]]

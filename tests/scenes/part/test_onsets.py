@@ -8,11 +8,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import pytest
 
 from juggleproof.scenes.part import body, run, scene, standing, table_one
 from juggleproof.scenes.part.onsets import PAPER, jittered, jittered_phases, row_of
 from juggleproof.scenes.part.setting import Scene, changed
+from tests.rows import each_row
 
 HORIZON, ENSEMBLES = 6.0, 24
 SPLIT = math.degrees(math.atan(0.5))  # 26.56505...
@@ -55,7 +55,7 @@ def test_mean_exit_time_fails_without_the_same_friction() -> None:
     assert abs(here[0] - there[0]) > 3.5 * math.hypot(here[1], there[1])
 
 
-@pytest.mark.parametrize("e", [0.0, 0.5, 0.7, 0.9])
+@each_row("e", [0.0, 0.5, 0.7, 0.9])
 def test_without_vibration_blocks_part_at_the_diagonal_holds(e: float) -> None:
     for mu in (0.0, 0.08, 0.5, 1.2):
         block = scene(e=e, mu=mu, A_y=0.0)

@@ -19,6 +19,7 @@ from juggleproof.scenes.part import picture as p
 from juggleproof.scenes.part.layout import ANGLES, lying, pitch, place, rows
 from juggleproof.scenes.part.rest import side
 from juggleproof.scenes.part.setting import Array
+from tests.rows import each_row
 from tests.scenes.figures.test_drawing import DEFICIENCIES, apart, filled, lab, seen
 
 if TYPE_CHECKING:
@@ -136,7 +137,7 @@ def test_rejects_another_form() -> None:
         saved("png")
 
 
-@pytest.mark.parametrize("count", [0, 601])
+@each_row("count", [0, 601])
 def test_rejects_blocks_that_no_picture_shows(count: int) -> None:
     with pytest.raises(SceneError, match=r"outside 1 \.\. 600"):
         rows(count)

@@ -40,6 +40,7 @@ from juggleproof.scenes.part.readings import (
     sweep,
     watched,
 )
+from tests.rows import each_row
 
 LIKELY = Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92)
 HORIZON = 12.0
@@ -140,7 +141,7 @@ def test_a_sweep_does_not_depend_on_the_executor_holds() -> None:
         assert sweep(tasks, executor) == [point(task) for task in tasks]
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("tasks", "reason"),
     [
         ([], "a sweep of 0 points is outside 1 .. 10000"),

@@ -20,6 +20,7 @@ from sympy import Rational, Symbol
 
 import juggleproof.symbolic as s
 from juggleproof.scenes.errors import SceneError
+from tests.rows import each_row
 from tests.scenes.part.reference import (
     CORNERS,
     Chatter,
@@ -90,7 +91,7 @@ def energy(model: Model, state: State, frame: Vector = (0, 0)) -> mpf:
     return model.g * state.Y + (across**2 + up**2 + model.k2 * state.omega**2) / 2
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_flight_keeps_the_energy_holds(which: int) -> None:
     for flight, landed in flights(which):
         assert abs(energy(flight.model, landed) - energy(flight.model, flight.start)) < SMALL
@@ -104,7 +105,7 @@ def test_flight_skips_no_contact_holds(which: int) -> None:
             assert min(gap for gap, _ in flight.gaps(flight.start.t + lasted * part / 60)) > 0
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_flight_ends_with_one_corner_on_the_table_and_approaching_holds(which: int) -> None:
     model, _, events = followed(which)
     for (flight, landed), event in zip(flights(which), events):
@@ -113,7 +114,7 @@ def test_flight_ends_with_one_corner_on_the_table_and_approaching_holds(which: i
         assert all(gap > SMALL for corner, (gap, _) in enumerate(gaps) if corner != event.corner)
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_second_derivative_of_the_gaps_is_bounded_holds(which: int) -> None:
     step = MP.mpf(10) ** -20
     for flight, landed in flights(which):
@@ -123,7 +124,7 @@ def test_second_derivative_of_the_gaps_is_bounded_holds(which: int) -> None:
                 assert abs(late - early) / (2 * step) <= flight.bound()
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_impact_pushes_within_the_friction_cone_and_adds_no_energy_holds(which: int) -> None:
     model, _, events = followed(which)
     for event in events:
@@ -135,7 +136,7 @@ def test_impact_pushes_within_the_friction_cone_and_adds_no_energy_holds(which: 
         assert event.before[:4] == event.after[:4]
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_mirrored_start_gives_the_mirrored_orbit_holds(which: int) -> None:
     model, start, events = followed(which)
 
@@ -160,7 +161,7 @@ def test_mirrored_start_gives_the_mirrored_orbit_holds(which: int) -> None:
     ]
 
 
-@pytest.mark.parametrize("which", range(len(STARTS)))
+@each_row("which", range(len(STARTS)))
 def test_more_digits_give_the_same_orbit_holds(which: int) -> None:
     (_, _, coarse), (_, _, fine) = followed(which), followed(which, 70)
     assert [(event.corner, event.mode) for event in coarse] == [
@@ -449,7 +450,7 @@ def test_rejects_a_corner_that_stays_on_the_table() -> None:
     assert len(stopped.value.events) == 1 and isinstance(stopped.value, Stopped)
 
 
-@pytest.mark.parametrize(
+@each_row(
     "wrong, message",
     [
         ({"a": 0}, "a must be > 0"),

@@ -20,6 +20,7 @@ from juggleproof.scenes.part.motion import follow, follow_all
 from juggleproof.scenes.part.rest import lie, lift_off, pivot, slip_time, stop_time
 from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import lie_down
+from tests.rows import each_row
 
 Real: TypeAlias = float | mpf
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
@@ -74,7 +75,7 @@ def kinetic(block: Scene, z: Array) -> float:
     return float(z[body.V_X] ** 2 + z[body.V_Y] ** 2 + k2 * z[body.OMEGA] ** 2) / 2
 
 
-@pytest.mark.parametrize("tolerance", [1e-12, 1e-9])
+@each_row("tolerance", [1e-12, 1e-9])
 def test_sticking_pivot_on_a_still_table_keeps_the_energy_holds(tolerance: float) -> None:
     block = scene(e=0.5, mu=1.2, A_y=0.0, tolerance=tolerance)
     for i, theta, omega in ((0, 0.5, 0.0), (0, 0.4, -2.0), (1, -0.6, 1.0), (2, math.pi + 0.5, 0.0)):
@@ -134,7 +135,7 @@ def state_of(z: Array) -> Array:
     return np.array([z[body.X], z[body.V_X], z[body.THETA], z[body.OMEGA]])
 
 
-@pytest.mark.parametrize("slide", [1, -1])
+@each_row("slide", [1, -1])
 def test_sliding_pivot_is_that_of_newton_and_euler_holds(slide: int) -> None:
     block = scene(e=0.5, mu=0.2, A_x=1e-4, f_x=30.0, A_y=1e-5, f_y=60.0, phase_x=0.3)
     z = pivoting(block, 0, 0.6, -1.0, slide, slide * 0.3)
@@ -322,7 +323,7 @@ def test_coming_to_lie_adds_no_energy_and_takes_at_most_what_is_stated_holds() -
             )
 
 
-@pytest.mark.parametrize("tolerance, mu", [(1e-12, 0.08), (1e-12, 1.2), (1e-8, 0.3)])
+@each_row("tolerance, mu", [(1e-12, 0.08), (1e-12, 1.2), (1e-8, 0.3)])
 def test_blocks_in_contact_are_on_the_table_holds(tolerance: float, mu: float) -> None:
     block = scene(e=0.3, mu=mu, A_x=1e-3, f_x=30.0, A_y=5e-5, tolerance=tolerance)
     seen = set()

@@ -29,12 +29,13 @@ from juggleproof.scenes.part import (
 from juggleproof.scenes.part.drive import harmonics
 from juggleproof.scenes.part.ensemble import Job, advanced
 from juggleproof.scenes.part.setting import Array
+from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
 
 
-@pytest.mark.parametrize(
+@each_row(
     "wrong, message",
     [
         ({"mu": -0.1}, "mu = -0.1 is below 0"),
@@ -137,7 +138,7 @@ def same_as_alone(executor: Executor) -> bool:
     )
 
 
-@pytest.mark.parametrize("workers", [1, 2, 5])
+@each_row("workers", [1, 2, 5])
 def test_threads_give_the_same_bytes_holds(workers: int) -> None:
     with ThreadPoolExecutor(workers) as executor:
         assert same_as_alone(executor)
@@ -195,12 +196,11 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     assert "numba" in loaded_by("from juggleproof.scenes.part import scene")
 
 
-@pytest.mark.parametrize(
+@each_row(
     "first",
     [
         "import juggleproof.scenes.part.onsets",
         "from juggleproof.scenes.part import sweep, table_one",
-        "pass",
     ],
 )
 def test_names_of_the_door_mean_the_same_whatever_is_imported_first_holds(first: str) -> None:

@@ -27,6 +27,7 @@ from juggleproof.scenes.part import (
 from juggleproof.scenes.part import strike as striking
 from juggleproof.scenes.part.setting import Array
 from juggleproof.scenes.part.strike import first_slide, impulse, mode_of
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
@@ -160,7 +161,7 @@ def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds()
             assert S == 0 if sticks is not False else S * B3 < 0, (B3, mu, S)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
+@each_row("sign", [1, -1])
 def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
     for S0, C0, B1, B2, B3, e, mu in CASES[:300]:
         here, there = ((sign * S0, C0, B1, B2, sign * B3, e, mu) for sign in (sign, -sign))

@@ -19,6 +19,7 @@ from juggleproof.scenes.table.curves import (
     second_orbit,
 )
 from juggleproof.scenes.table.motion import Table, bounce_phase, events
+from tests.rows import each_row
 
 
 def first_impact(alpha: float, gamma: float, phase: float) -> float:
@@ -40,7 +41,7 @@ def test_curves_meet_and_cross_as_they_should() -> None:
     assert own_grazing(0.0) == pytest.approx((pi**2 + 1) ** 0.5, abs=1e-4)
 
 
-@pytest.mark.parametrize("alpha", [0.0, 0.05, 0.3])
+@each_row("alpha", [0.0, 0.05, 0.3])
 def test_g_is_that_of_gamma(alpha: float) -> None:
     assert g_of(alpha, birth(alpha)) == 0
     assert isclose(
@@ -49,7 +50,7 @@ def test_g_is_that_of_gamma(alpha: float) -> None:
     assert isclose(g_of(alpha, gamma_of(alpha, 0.2)), 0.2)
 
 
-@pytest.mark.parametrize("alpha", [0.03, 0.05, 0.098])
+@each_row("alpha", [0.03, 0.05, 0.098])
 def test_the_ball_of_the_second_orbit_touches_the_table_on_the_curve_holds(alpha: float) -> None:
     edge = grazing(alpha)
     flights = [
@@ -59,7 +60,7 @@ def test_the_ball_of_the_second_orbit_touches_the_table_on_the_curve_holds(alpha
     assert flights[0] == pytest.approx(1) and flights[1] < 0.9
 
 
-@pytest.mark.parametrize("alpha", [0.001, 0.002, 0.01])
+@each_row("alpha", [0.001, 0.002, 0.01])
 def test_the_ball_of_the_bounce_touches_the_table_on_the_curve_holds(alpha: float) -> None:
     edge = own_grazing(alpha)
     flights = [

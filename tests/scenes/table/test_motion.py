@@ -23,6 +23,7 @@ from juggleproof.scenes.table.motion import (
     landing,
     rested,
 )
+from tests.rows import each_row
 
 
 def heights(table: Table, start: float, velocity: float, times: np.ndarray) -> np.ndarray:
@@ -57,7 +58,7 @@ def test_flights_of_fast_balls_on_a_fast_table_end_holds() -> None:
     assert durations.max() > 1000 and speeds.max() > 500
 
 
-@pytest.mark.parametrize(("alpha", "gamma"), [(0.05, 3.1), (0.3, 1.8785), (0.0, 3.3)])
+@each_row(("alpha", "gamma"), [(0.05, 3.1), (0.3, 1.8785), (0.0, 3.3)])
 def test_the_bounce_of_one_period_is_an_orbit(alpha: float, gamma: float) -> None:
     table, phase = Table(alpha, gamma), bounce_phase(alpha, gamma)
     own = float(table.derivative(np.array(phase), 1))
@@ -91,7 +92,7 @@ def test_all_states_come_to_the_bounce_where_it_is_certified_and_not_where_it_is
     assert 0.05 < ((counts >= 0) & (counts <= 60)).mean() < 0.5
 
 
-@pytest.mark.parametrize(
+@each_row(
     ("alpha", "gamma", "wave"),
     [(1.0, 3.0, (1.0,)), (0.1, 0.0, (1.0,)), (0.1, 3.0, ()), (0.1, 3.0, (inf,))],
 )
