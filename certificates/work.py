@@ -102,7 +102,7 @@ class Unfolded(checker.Unfolding):
             self.after.append(_copied(self.__dict__))
         elif not self.lines_to_skip:
             last = self.after[-1]
-            last["context"].work.left = checker.MAX_WORK  # what others have spent is not its own
+            last["context"].work.refill(checker.MAX_WORK)  # what others have spent is not its own
             self.__dict__.update(_copied(last))
 
 

@@ -278,7 +278,9 @@ def judged(index: int, follow: bool) -> tuple[str, float]:
     if child == 0:
         try:
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-            signal.alarm(120)  # for one that waits
+            signal.alarm(
+                1200
+            )  # for one that waits; on a busy machine one that works may take minutes
             rows: Sequence[tuple[Case, Functions | None]]
             rows = followed() if follow else [(case, None) for case in cases()]
             try:

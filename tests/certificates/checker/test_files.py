@@ -5,6 +5,7 @@ wrong, whatever the files hold.
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import py_compile
@@ -12,6 +13,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 from importlib.util import cache_from_source
 from pathlib import Path
 
@@ -100,6 +102,18 @@ def test_exit_2_where_the_folder_cannot_be_used(tmp_path: Path) -> None:
         done = run(*arguments)
         assert (done.returncode, done.stdout) == (2, "")
         assert one_line(done.stderr).startswith("checker: ")
+
+
+def test_without_a_folder_the_store_beside_the_checker_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "store").mkdir()
+    check(tmp_path / "store", TRUE, GOOD)
+    module = sys.modules[checker.main.__module__]
+    monkeypatch.setattr(module, "__file__", str(tmp_path / "checker" / "settling.py"))
+    with redirect_stdout(io.StringIO()) as out:
+        assert checker.main([]) == 0
+    assert out.getvalue() == "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n"
 
 
 def test_both_ways_of_running_are_the_same_files(tmp_path: Path) -> None:

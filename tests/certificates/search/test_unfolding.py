@@ -70,7 +70,7 @@ def test_a_line_goes_on_fails_without_the_same_meaning() -> None:
 
 def test_statements_one_after_another_spend_their_own_work_holds() -> None:
     before = Unfolded(read(f"{FIRST}\nshow z > 0"))
-    before.context.work.left = 0
+    before.context.work.spend(before.context.work.left)
     assert len(Unfolded(read(f"{FIRST}\nshow z > y"), before=before).premises) == 2
 
 
