@@ -79,7 +79,7 @@ class Unfolded(checker.Unfolding):
         before: Unfolded | None = None,
     ) -> None:
         self.statement, self.sharp = statement, [*(sharp or [])]
-        # what was unfolded after each line, of which the first ones are those of the other
+        # what was unfolded after each line; the first ones are those of the other
         self.after: list[dict[str, Any]] = (
             [] if before is None else before.after[: self._shared(before)]
         )

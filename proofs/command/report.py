@@ -78,8 +78,9 @@ def check_store() -> Checked:
 def writer(
     wanted: Sequence[str], folder: Path | None, option: str = "--report"
 ) -> Callable[..., int]:
-    """What does the same with contents in hand, and keeps what it makes where it is told under
-    which key; an unknown format, what is no folder, and what lacks its library are refused at once.
+    """Return a function that does the same with contents in hand, and keeps what it makes under a
+    key where it has one.  An unknown format, a file in place of a folder, and a format without its
+    library are refused at once.
     """
     for one in wanted:
         if one not in LIBRARIES:

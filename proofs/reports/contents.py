@@ -229,9 +229,9 @@ def _entries(
 def errata_text() -> str:
     """Every claim that is not simply true, in groups; a heading with its number opens each.
 
-    What is told of a claim is judged now: the checker reads its statements and all on which they
-    rest, and no others.  A claim is judged unless the register lets it hold, and the store has a
-    proof of each of its statements, which says nothing of whether the checker takes these.  Raises
+    Each claim that is shown is judged now: the checker reads its statements and all on which they
+    rest, and no others.  A claim is left out where it is registered as `holds` and the store has a
+    proof of each of its statements; the checker is not asked about these proofs here.  Raises
     ClaimError, one line, where no verdict is registered yet, or the store cannot be read.
     """
     registers, claims, store = load_register(), paper.paper_claims(), Store(DEFAULT)

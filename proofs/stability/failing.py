@@ -34,8 +34,8 @@ COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.Not
 
 
 def complement(conditions: str) -> list[str]:
-    """Return formulas for the parameters at which the conditions fail, one of which holds: the
-    boundary and the strict outside of each condition.
+    """Return formulas for the boundary and the strict outside of each condition.  Where the
+    conditions fail, one of the formulas holds.
     """
     parts = []
     for condition in conjuncts(conditions):

@@ -60,7 +60,7 @@ def test_what_goes_on_from_another_statement_is_as_alone_holds(name: str) -> Non
 
 
 def test_a_line_goes_on_fails_without_the_same_meaning() -> None:
-    """The same text, of which a definition makes something else."""
+    """The text is the same; a definition makes something else of it."""
     lines = "forall x\ngiven f(x) > 0\nshow x > 0"
     one, other = (read(lines, f"define f(v) := {body}\n\n") for body in ("v + 1", "v - 1"))
     assert one.texts == other.texts
