@@ -5,13 +5,12 @@ python -m tests.exhaust.peers MODULE ..
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
-from pathlib import Path
 
 from tests.exhaust.sources import ROOT
 
@@ -21,20 +20,20 @@ INSTALLED = FOLDER / LOCK.name
 
 
 def install() -> None:
-    """Installs what the lock names, unless this lock was installed; aside, as two may install."""
+    """Installs what the lock names, unless this lock was installed.  One process at a time does so:
+    another waits, and finds it done.
+    """
     wanted = LOCK.read_bytes()
-    if INSTALLED.exists() and INSTALLED.read_bytes() == wanted:
-        return
     FOLDER.parent.mkdir(exist_ok=True)
-    aside = tempfile.mkdtemp(dir=FOLDER.parent)
-    pip = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check")
-    subprocess.run([sys.executable, *pip, "--target", aside, "-r", str(LOCK)], cwd=ROOT, check=True)
-    Path(aside, LOCK.name).write_bytes(wanted)
-    shutil.rmtree(FOLDER, ignore_errors=True)
-    try:
-        os.rename(aside, FOLDER)
-    except OSError:  # another has just done the same
-        shutil.rmtree(aside)
+    with FOLDER.with_suffix(".flock").open("w") as guard:
+        fcntl.flock(guard, fcntl.LOCK_EX)
+        if INSTALLED.exists() and INSTALLED.read_bytes() == wanted:
+            return
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        pip = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check")
+        into = ("--target", str(FOLDER), "-r", str(LOCK))
+        subprocess.run([sys.executable, *pip, *into], cwd=ROOT, check=True)
+        INSTALLED.write_bytes(wanted)
 
 
 def main(modules: Sequence[str]) -> int:

@@ -298,7 +298,7 @@ def presolve(matrix: Matrix, count: int, strict: Mask, budget: Budget) -> Keys |
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
     None if no strict one is left. Raises Exhausted where the budget ends.
 
-    Shapes, for n columns of which the first `count` are not free: `strict` (count,).
+    Shapes: `strict` (count,), for n columns; the first `count` are not free.
     """
     free = matrix.at_column >= count
     fixed = np.bincount(matrix.at_row[free], minlength=matrix.rows) > 0
