@@ -28,9 +28,9 @@ lint: $(VENV)/tools build/imports
 	@! git grep -nE '^(<{7}|>{7})( |$$)' || { echo "a conflict of a merge is left unsettled"; exit 1; }
 
 # The one import name as folders, for tools that read imports and do not ask Python: mypy, and editors.
-build/imports:
-	mkdir -p build/imports/juggleproof
-	for one in juggleproof/__init__.py juggleproof/py.typed benchmarks certificates proofs scenes symbolic; do \
+build/imports: juggleproof
+	rm -rf build/imports && mkdir -p build/imports/juggleproof
+	for one in juggleproof/* benchmarks certificates proofs symbolic; do \
 	  ln -s ../../../$$one build/imports/juggleproof; done
 
 # The Coq development, all of it and in order, compiled on copies so that nothing is left beside the sources.
@@ -44,7 +44,7 @@ coq:
 coq-store: $(VENV)/installed
 	@command -v coqc >/dev/null || { echo "coqc is needed: Debian's package is called coq"; exit 1; }
 	@rm -rf $(STORE)
-	$(BIN)/python -m juggleproof.certificates.coq $(STORE) --share $(SHARE) --place $(PLACE) --files $(FILES)
+	$(BIN)/python -m juggleproof.coq_store $(STORE) --share $(SHARE) --place $(PLACE) --files $(FILES)
 	@$(MAKE) --no-print-directory --keep-going -j $(JOBS) $$(ls $(STORE)/*.v | sed 's/v$$/vo/')
 
 $(STORE)/Part%.vo: $(STORE)/Part%.v $(STORE)/Prelude.vo

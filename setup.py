@@ -2,11 +2,11 @@
 
 from setuptools import find_packages, setup
 
-FOLDERS = ("benchmarks", "certificates", "proofs", "scenes", "symbolic")
+FOLDERS = ("benchmarks", "certificates", "proofs", "symbolic")
 
 setup(
     packages=[
-        "juggleproof",
+        *(name for name in find_packages() if name.split(".")[0] == "juggleproof"),
         *(
             f"juggleproof.{name}"
             for folder in FOLDERS

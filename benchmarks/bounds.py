@@ -25,8 +25,8 @@ from rich.table import Table
 
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates import checker
-from juggleproof.proofs.bounds import Enclosure, enclose_minimum
-from juggleproof.proofs.command.bound import box, number
+from juggleproof.command.bound import box, number
+from juggleproof.judging.bounds import Enclosure, enclose_minimum
 
 ROOT = Path(__file__).resolve().parents[1]
 HEART = (
@@ -121,7 +121,7 @@ def cold(polynomial: str, side: str, width: str) -> float:
         [
             sys.executable,
             "-m",
-            "juggleproof.proofs.command.main",
+            "juggleproof.command.main",
             "bound",
             polynomial,
             "--box",

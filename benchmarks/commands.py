@@ -24,14 +24,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from juggleproof.benchmarks.generated import DOCS, Generated
-from juggleproof.proofs.reports.tables import plain
+from juggleproof.reports.tables import plain
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = Generated(DOCS / "benchmarks.md", "commands")
 THEOREM = "--only theorem-roots --only theorem"
 UNIT = ("-c", "import sympy")  # takes 0.4 CPU seconds on a quiet machine
 TOO_MUCH = 2  # times the aim, from which on `--check` fails
-OWN = """from juggleproof.proofs import always, claim, reals
+OWN = """from juggleproof import always, claim, reals
 x, y = reals("x y")
 @claim("squares")
 def product_below_squares():
@@ -116,7 +116,7 @@ def measure(arguments: Sequence[str], kept: str = "off") -> tuple[float, float]:
 
 def arguments_of(command: str, folder: str) -> list[str]:
     """What is run for a command, in this environment."""
-    ours = [sys.executable, "-m", "juggleproof.proofs.command.main"]
+    ours = [sys.executable, "-m", "juggleproof.command.main"]
     head, *rest = shlex.split(command.replace("DIR", folder))
     return [*({"juggleproof": ours, "python": [sys.executable]}.get(head, [head])), *rest]
 

@@ -18,9 +18,9 @@ from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.certificates.sine.cells import Attraction
 from juggleproof.certificates.sine.checker import Rectangle, outcome
 from juggleproof.certificates.sine.flights import ONE, PI2, Interval
-from juggleproof.certificates.sine.stored import WIDE, boxes_in
-from juggleproof.proofs.command.sine import GRAVITY, interval
+from juggleproof.command.sine import GRAVITY, interval
 from juggleproof.scenes.table.curves import birth, doubling
+from juggleproof.sine.stored import WIDE, boxes_in
 
 TABLE = Generated(DOCS / "sine.md", "feeder")
 ALPHAS = (

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import write_file
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import write_file
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 

@@ -24,9 +24,9 @@ from rich.console import Console
 from juggleproof.benchmarks.generated import DOCS, Generated
 from juggleproof.benchmarks.peers.routes import Check, cvc5, z3
 from juggleproof.benchmarks.processes import each
-from juggleproof.proofs.reports.problems import draw, summary
-from juggleproof.proofs.smtlib.answering import Answered, answer_files
-from juggleproof.proofs.smtlib.script import Problem
+from juggleproof.reports.problems import draw, summary
+from juggleproof.smtlib.answering import Answered, answer_files
+from juggleproof.smtlib.script import Problem
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "benchmarks/problems"

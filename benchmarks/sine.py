@@ -17,14 +17,14 @@ from tempfile import TemporaryDirectory
 from juggleproof.benchmarks.commands import arguments_of, measure
 from juggleproof.benchmarks.figures import ABSENT, as_svg, can_plot, new_figure
 from juggleproof.benchmarks.generated import DOCS, Generated
-from juggleproof.certificates.processes import own_pool
 from juggleproof.certificates.sine.checker import check_line, read_statement
-from juggleproof.certificates.sine.cover import GRIDS, cover
 from juggleproof.certificates.sine.flights import Interval
-from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.store import write_file
-from juggleproof.proofs.reports.tables import plain
+from juggleproof.reports.tables import plain
 from juggleproof.scenes.table.curves import doubling, g_of, grazing
+from juggleproof.sine.cover import GRIDS, cover
+from juggleproof.sine.search import find_certificate, line_of
+from juggleproof.statements.processes import own_pool
+from juggleproof.statements.store import write_file
 
 TABLES = Generated(DOCS / "benchmarks.md", "sine")
 PLOT = DOCS / "img" / "sine-growth.svg"

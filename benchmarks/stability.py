@@ -23,9 +23,9 @@ import numpy as np
 
 from juggleproof.benchmarks.generated import DOCS, Generated
 from juggleproof.benchmarks.processes import cpu_seconds
-from juggleproof.certificates.cases import ANYWHERE, conjunction
-from juggleproof.proofs.stability.maps import Map, read_file
-from juggleproof.proofs.stability.samples import Floats, matrices_of, region
+from juggleproof.map_stability.maps import Map, read_file
+from juggleproof.map_stability.samples import Floats, matrices_of, region
+from juggleproof.statements.cases import ANYWHERE, conjunction
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "examples"
@@ -80,7 +80,7 @@ def outcome_of(printed: str) -> str:
 
 def settled(path: Path) -> Settled:
     """The example settled, its certificates read by the bare checker, its theorems compiled."""
-    ours = (sys.executable, "-m", "juggleproof.proofs.command.main")
+    ours = (sys.executable, "-m", "juggleproof.command.main")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         seconds, printed = ran(*ours, "stability", path, "-o", folder)

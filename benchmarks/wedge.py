@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 from juggleproof.benchmarks.generated import DOCS, Generated, in_columns
 from juggleproof.certificates.sine.checker import Box
-from juggleproof.certificates.sine.stored import WIDE, boxes_in
 from juggleproof.scenes.table.curves import doubling, gamma_of, grazing
+from juggleproof.sine.stored import WIDE, boxes_in
 
 TABLE = Generated(DOCS / "sine.md", "wedge")
 STEP = Fraction(1, 4000)  # of alpha

@@ -18,9 +18,9 @@ from itertools import islice
 from flint import fmpq
 
 from juggleproof import symbolic
+from juggleproof.algebra.numbers import exact
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.numbers import exact
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 
 Point = tuple[fmpq, fmpq]  # an impact (x, w)

@@ -1,8 +1,8 @@
 """A proof checker for one dynamical-systems paper, and for inequalities and maps of one's own.
 
-`symbolic` derives what the paper defines, `proofs` states what it says, `certificates` finds and
-checks certificates, `scenes` iterates the maps, `benchmarks` measures.  The folders stand beside
-this one in the checkout; setup.py maps them to one import name.
+This package is the tool.  `symbolic` derives what the paper defines, `proofs` states what it says,
+`certificates` checks certificates, `benchmarks` measures; these folders stand beside it in the
+checkout, and setup.py maps them to one import name.
 
 What users need can be imported from here; a name loads its file when first used (PEP 562), so that
 neither `import juggleproof` nor the checker loads any of it.
@@ -16,46 +16,61 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from juggleproof.certificates.language import ClaimError as ClaimError
-    from juggleproof.certificates.language import Iterates as Iterates
-    from juggleproof.certificates.language import MapRule as MapRule
-    from juggleproof.certificates.language import conjunction as conjunction
-    from juggleproof.certificates.language import different as different
-    from juggleproof.certificates.language import disjunction as disjunction
-    from juggleproof.certificates.language import equal as equal
-    from juggleproof.certificates.language import iff as iff
-    from juggleproof.certificates.language import implies as implies
-    from juggleproof.certificates.language import real as real
-    from juggleproof.certificates.language import reals as reals
-    from juggleproof.proofs.api import Result as Result
-    from juggleproof.proofs.api import certify as certify
-    from juggleproof.proofs.bounds import enclose_minimum as enclose_minimum
-    from juggleproof.proofs.claims import Claim as Claim
-    from juggleproof.proofs.claims import claim as claim
-    from juggleproof.proofs.claims import claims_of as claims_of
-    from juggleproof.proofs.forms import always as always
-    from juggleproof.proofs.forms import exists_some as exists_some
-    from juggleproof.proofs.stability.claiming import stability as stability
+    from juggleproof.api import Result as Result
+    from juggleproof.api import certify as certify
+    from juggleproof.judging.bounds import enclose_minimum as enclose_minimum
+    from juggleproof.judging.claims import Argument as Argument
+    from juggleproof.judging.claims import Assertion as Assertion
+    from juggleproof.judging.claims import Claim as Claim
+    from juggleproof.judging.claims import Following as Following
+    from juggleproof.judging.claims import NotFormalised as NotFormalised
+    from juggleproof.judging.claims import Reading as Reading
+    from juggleproof.judging.claims import Readings as Readings
+    from juggleproof.judging.claims import Remark as Remark
+    from juggleproof.judging.claims import Simulated as Simulated
+    from juggleproof.judging.claims import claim as claim
+    from juggleproof.judging.claims import claims_of as claims_of
+    from juggleproof.judging.forms import always as always
+    from juggleproof.judging.forms import exists_some as exists_some
+    from juggleproof.map_stability.claiming import stability as stability
     from juggleproof.scenes.errors import SceneError as SceneError
     from juggleproof.scenes.juggler.orbits import orbit as orbit
     from juggleproof.scenes.juggler.starts import point as point
     from juggleproof.scenes.juggler.starts import scene as scene
     from juggleproof.scenes.part import ensemble, setting
     from juggleproof.scenes.part.setting import standing as standing
+    from juggleproof.statements.language import ClaimError as ClaimError
+    from juggleproof.statements.language import Formula as Formula
+    from juggleproof.statements.language import Iterates as Iterates
+    from juggleproof.statements.language import MapRule as MapRule
+    from juggleproof.statements.language import Statement as Statement
+    from juggleproof.statements.language import Term as Term
+    from juggleproof.statements.language import conjunction as conjunction
+    from juggleproof.statements.language import different as different
+    from juggleproof.statements.language import disjunction as disjunction
+    from juggleproof.statements.language import equal as equal
+    from juggleproof.statements.language import iff as iff
+    from juggleproof.statements.language import implies as implies
+    from juggleproof.statements.language import real as real
+    from juggleproof.statements.language import reals as reals
+    from juggleproof.statements.language import term as term
 
     run_part, part_scene = ensemble.run, setting.scene
 
 else:
     PLACES = {  # the same once more, for whoever runs
-        "certificates.language": (
-            "ClaimError Iterates MapRule conjunction different disjunction equal iff implies real"
-            " reals"
+        "statements.language": (
+            "ClaimError Formula Iterates MapRule Statement Term conjunction different disjunction"
+            " equal iff implies real reals term"
         ),
-        "proofs.api": "Result certify",
-        "proofs.bounds": "enclose_minimum",
-        "proofs.claims": "Claim claim claims_of",
-        "proofs.forms": "always exists_some",
-        "proofs.stability.claiming": "stability",
+        "api": "Result certify",
+        "judging.bounds": "enclose_minimum",
+        "judging.claims": (
+            "Argument Assertion Claim Following NotFormalised Reading Readings Remark Simulated"
+            " claim claims_of"
+        ),
+        "judging.forms": "always exists_some",
+        "map_stability.claiming": "stability",
         "scenes.errors": "SceneError",
         "scenes.juggler.orbits": "orbit",
         "scenes.juggler.starts": "point scene",

@@ -1,78 +1,49 @@
-"""What the paper says, as claims; the command that derives, proves and checks them; and the
-language for claims of one's own.
+"""What the paper says, as claims, and what is proved beside it: content, no engine.
 
-In reading order, each importing those before it only:
+In reading order:
 
-- `reading`: a print's LaTeX becomes values and formulas.
-- `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
-- `encoding`: SymPy expressions as terms.
-- `correcting`: prints that may mend a refuted one.
-- `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
-- `conclusions`, `orbit_rules`: what a certified rule for orbits says; rules as a claim writes them.
-- `searches`: certificates, votes and sharp ranges are searched, which loads when first asked.
-- `rule_ranges`: the parameters for which the conclusion of a rule is proved.
-- `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
-  range.
-- `register`: the verdicts that stand.
-- `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
-- `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries
-  of the optional extras.
+- `paper`: the claims of the paper, section by section.
+- `theorem`: the theorem in place of its main result, and the page on it.
+- `restitution`, `part`, `sine`: claims about what the paper leaves open.
 - `simulations`: what simulations show, as it is kept, and as the scenes compute it.
-- `paper`, `theorem`, `part`, `sine`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
-- `reports`, `api`: what a run came to, in words, pages and data; the same from Python.
-- `command`, `pytest_plugin`, `pytest_items`: the command line; claims as test items.
+- `ledger`: what the paper prints, item by item, with the claims of each.
+- `opening`, `figures`: what reports show of the theorem: what moves, the proof, the figures.
+- `coq`: the development in Coq.
 
-A name loads its file when first used (PEP 562), so that no command loads what another needs.
+`PAPER` describes it to the tool.  Names for claims of one's own are those of `juggleproof`.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING
+from __future__ import annotations
 
-if TYPE_CHECKING:
-    from juggleproof.certificates.language import ClaimError as ClaimError
-    from juggleproof.certificates.language import Formula as Formula
-    from juggleproof.certificates.language import Iterates as Iterates
-    from juggleproof.certificates.language import MapRule as MapRule
-    from juggleproof.certificates.language import Statement as Statement
-    from juggleproof.certificates.language import Term as Term
-    from juggleproof.certificates.language import conjunction as conjunction
-    from juggleproof.certificates.language import different as different
-    from juggleproof.certificates.language import disjunction as disjunction
-    from juggleproof.certificates.language import equal as equal
-    from juggleproof.certificates.language import iff as iff
-    from juggleproof.certificates.language import implies as implies
-    from juggleproof.certificates.language import real as real
-    from juggleproof.certificates.language import reals as reals
-    from juggleproof.certificates.language import term as term
-    from juggleproof.proofs.claims import Argument as Argument
-    from juggleproof.proofs.claims import Assertion as Assertion
-    from juggleproof.proofs.claims import Claim as Claim
-    from juggleproof.proofs.claims import Following as Following
-    from juggleproof.proofs.claims import NotFormalised as NotFormalised
-    from juggleproof.proofs.claims import Reading as Reading
-    from juggleproof.proofs.claims import Readings as Readings
-    from juggleproof.proofs.claims import Remark as Remark
-    from juggleproof.proofs.claims import Simulated as Simulated
-    from juggleproof.proofs.claims import claim as claim
-    from juggleproof.proofs.forms import always as always
-    from juggleproof.proofs.forms import exists_some as exists_some
+from typing import Any
 
-else:
-    PLACES = {  # the same once more, for whoever runs
-        "certificates.language": (
-            "ClaimError Formula Iterates MapRule Statement Term conjunction different disjunction"
-            " equal iff implies real reals term"
-        ),
-        "proofs.claims": (
-            "Argument Assertion Claim Following NotFormalised Reading Readings Remark Simulated"
-            " claim"
-        ),
-        "proofs.forms": "always exists_some",
-    }
-    FILES = {name: file for file, names in PLACES.items() for name in names.split()}
-    __all__ = sorted(FILES)
+import juggleproof
+from juggleproof.papers.paper import Paper, Theorem
+from juggleproof.proofs import paper, part, restitution, sine, theorem
+from juggleproof.proofs.ledger.unprinted import UNPRINTED
 
-    def __getattr__(name):
-        if name not in FILES:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        return getattr(import_module(f"juggleproof.{FILES[name]}"), name)
+PAPER = Paper(
+    modules=tuple(
+        f"{package.__name__}.{section}"
+        for package in (paper, theorem, restitution, part, sine)
+        for section in package.SECTIONS
+    ),
+    checked_apart=(f"{sine.__name__}.everywhere",),
+    deriving=f"{__name__}.paper.deriving",
+    unprinted=UNPRINTED,
+    theorem=Theorem(theorem.THEOREM, theorem.DIGEST, theorem.SENTENCE),
+    hooks={
+        "explain-bounds": f"{__name__}.theorem.explaining:explain_bounds",
+        "explain-state": f"{__name__}.theorem.explaining:explain_state",
+        "motion": f"{__name__}.opening:motion",
+        "opening": f"{__name__}.opening:opening",
+        "proof-claim": f"{__name__}.opening:PROOF",
+        "figures": f"{__name__}.figures:TABLE",
+        "words": f"{__name__}.counterexample_words:BallAndTable",
+    },
+)
+
+
+def __getattr__(name: str) -> Any:
+    """A name of `juggleproof`, as claims written for earlier versions import it from here."""
+    return getattr(juggleproof, name)

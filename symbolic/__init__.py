@@ -25,7 +25,7 @@ beta*g + v**2/2
 
 from __future__ import annotations
 
-from juggleproof.symbolic.lazy import lazy_names
+from juggleproof.lazy import lazy_names
 
 NAMES = {
     ".algebra": (

@@ -53,15 +53,15 @@ def kept_records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 # What takes longest comes first, so that no process is left with it at the end.
 LONGEST = (
-    "tests/proofs/reports",
+    "tests/reports",
     "tests/proofs/coq",
     "tests/certificates/reader/test_reader.py",
     "tests/scenes/part",
     "tests/docs/test_commands.py",
 )
 # Folders whose tests judge the paper, begin Coq or compile kernels once for all of them.
-WHOLE = {"tests/proofs/reports", "tests/proofs/coq", "tests/scenes/part"}
-TOGETHER = {"tests/proofs/test_pytest_plugin.py": "tests/proofs/reports"}  # it asks for that run
+WHOLE = {"tests/reports", "tests/proofs/coq", "tests/scenes/part"}
+TOGETHER = {"tests/test_pytest_plugin.py": "tests/reports"}  # it asks for that run
 
 
 def scope_of(nodeid: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.statements.store import DEFAULT, Store
 
 STORE = Store(DEFAULT)
 

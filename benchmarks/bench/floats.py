@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.benchmarks.bench.answers import Answer, Problem
-from juggleproof.certificates.search.boxes.descent import FloatPolynomial
-from juggleproof.certificates.search.boxes.small import Terms
+from juggleproof.search.boxes.descent import FloatPolynomial
+from juggleproof.search.boxes.small import Terms
 
 Array = NDArray[np.float64]
 MOST, AT_ONCE = 10**7, 10**5  # samples

@@ -29,7 +29,7 @@ from juggleproof.benchmarks.bench.answers import (
     best_point,
 )
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.boxes.small import search_tree
+from juggleproof.search.boxes.small import search_tree
 
 # -------------------------------------------------------------------------------------------------
 # Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the time

@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Protocol, Union
 
 from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
-from juggleproof.certificates.search.boxes.small import Terms
+from juggleproof.search.boxes.small import Terms
 
 if TYPE_CHECKING:
     from flint import arb

@@ -20,11 +20,8 @@ import sympy
 
 from juggleproof import symbolic
 from juggleproof.benchmarks.bench.answers import Problem
-from juggleproof.certificates.language import ClaimError, Formula, Term, equal
-from juggleproof.certificates.votes.questions import questions as solver_questions
-from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.smtlib import question_text
-from juggleproof.proofs.encoding import from_sympy
+from juggleproof.encoding import from_sympy
+from juggleproof.statements.language import ClaimError, Formula, Term, equal
 from juggleproof.symbolic.algebra import (
     alpha,
     lowest_terms,
@@ -35,6 +32,9 @@ from juggleproof.symbolic.algebra import (
     x,
 )
 from juggleproof.symbolic.energy import scaled
+from juggleproof.votes.questions import questions as solver_questions
+from juggleproof.votes.questions import read_statement
+from juggleproof.votes.smtlib import question_text
 
 # 2 (1 + alpha) is the square of 3/2 and of 8/5, so that the corner of R is rational at both ends
 ALPHAS = (Fraction(1, 8), Fraction(7, 25))

@@ -31,8 +31,8 @@ from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS
 from juggleproof.benchmarks.bench.questions import ALPHAS, VARIABLE_WIDTH, balls, questions
 from juggleproof.benchmarks.figures import ABSENT, can_plot
 from juggleproof.benchmarks.processes import STALLED, end_with_children
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import write_file
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import write_file
 
 # -------------------------------------------------------------------------------------------------
 # One answer, in a process of its own, which is ended with its children when its seconds are over.

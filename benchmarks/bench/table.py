@@ -13,7 +13,7 @@ from typing import Literal
 from juggleproof.benchmarks.bench.answers import Answer, Measured
 from juggleproof.benchmarks.bench.methods import Method
 from juggleproof.benchmarks.figures import as_svg, new_figure
-from juggleproof.proofs.reports.tables import plain
+from juggleproof.reports.tables import plain
 
 Time = Literal["cold", "seconds"]
 AIM = 10

@@ -18,8 +18,8 @@ from pathlib import Path
 from juggleproof.benchmarks.classes.classes import CLASSES, Made, every_problem
 from juggleproof.benchmarks.classes.measuring import Measured, measured, ratios, table
 from juggleproof.benchmarks.generated import DOCS, Generated
-from juggleproof.certificates.coq import share_of
-from juggleproof.certificates.store import write_file
+from juggleproof.coq_store import share_of
+from juggleproof.statements.store import write_file
 
 TABLE = Generated(DOCS / "benchmarks.md", "classes")
 

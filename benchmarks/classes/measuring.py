@@ -19,11 +19,11 @@ from z3 import Context, Z3_eval_smtlib2_string, Z3Exception, set_param
 from juggleproof.benchmarks.classes.classes import Made
 from juggleproof.benchmarks.peers.routes import reader_of_cvc5
 from juggleproof.benchmarks.processes import Timed, children_seconds, each, output_of
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.store import certificate_lines, write_store
-from juggleproof.proofs.smtlib.answering import answer, question
-from juggleproof.proofs.smtlib.script import read_problems
+from juggleproof.smtlib.answering import answer, question
+from juggleproof.smtlib.script import read_problems
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.nodes import Certificate
+from juggleproof.statements.store import certificate_lines, write_store
 
 ROOT = Path(__file__).resolve().parents[2]
 CHECKER = ROOT / "certificates/checker"

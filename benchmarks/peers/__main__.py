@@ -13,6 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from juggleproof import coq_store as coq
 from juggleproof.benchmarks.figures import ABSENT, can_plot
 from juggleproof.benchmarks.peers.routes import (
     Problem,
@@ -23,8 +24,7 @@ from juggleproof.benchmarks.peers.routes import (
 )
 from juggleproof.benchmarks.peers.table import Measured, notes, plot, ratios, table, wrong
 from juggleproof.benchmarks.processes import children_seconds
-from juggleproof.certificates import coq
-from juggleproof.certificates.store import DEFAULT, Store, write_file
+from juggleproof.statements.store import DEFAULT, Store, write_file
 
 PLOT = Path("build/peers.svg")
 NOTES = """\

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from flint import fmpz_mpoly
 
-from juggleproof.certificates.votes.questions import Atom, Formula, Question, join
+from juggleproof.votes.questions import Atom, Formula, Question, join
 
 # -------------------------------------------------------------------------------------------------
 # Formulas in the notation of a program.
@@ -83,7 +83,7 @@ def goal(question: Question, tactic: str = "nra") -> str | None:
     """The question as a goal; p <> 0 is p < 0 or p > 0, since nra does not read it; None where it
     has integers or quantifiers.
 
-    >>> from juggleproof.certificates.votes.questions import questions, read_statement
+    >>> from juggleproof.votes.questions import questions, read_statement
     >>> text = "statement a/b\\nforall x\\ngiven x != 0\\nshow x^2/2 > 0"
     >>> print(goal(questions(read_statement(text))[0]))
     Goal forall v0 : R, (v0 < 0 \\/ v0 > 0) -> - v0*v0 >= 0 -> False.
@@ -115,7 +115,7 @@ def prenex(question: Question) -> str | None:
     """The input for one question; None where it has integers, or a second alternation of
     quantifiers.
 
-    >>> from juggleproof.certificates.votes.questions import questions, read_statement
+    >>> from juggleproof.votes.questions import questions, read_statement
     >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nshow y^2 = x/2"
     >>> asked = questions(read_statement(text))
     >>> print(prenex(asked[0]))

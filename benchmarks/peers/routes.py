@@ -16,6 +16,7 @@ from typing import Literal, NamedTuple
 
 from z3 import Context, SolverFor, Z3Exception
 
+from juggleproof import coq_store as coq
 from juggleproof.benchmarks.peers.notation import HEAD, goal, prenex
 from juggleproof.benchmarks.processes import (
     UNCOUNTED,
@@ -26,14 +27,14 @@ from juggleproof.benchmarks.processes import (
     kill_with_children,
     output_of,
 )
-from juggleproof.certificates import checker, coq
-from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.search.certificate import search_certificate, search_premises
-from juggleproof.certificates.search.sharp import search_sharp
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.votes.questions import Question, questions
-from juggleproof.certificates.votes.smtlib import script
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates import checker
+from juggleproof.search.certificate import search_certificate, search_premises
+from juggleproof.search.sharp import search_sharp
+from juggleproof.statements.nodes import Certificate
+from juggleproof.statements.store import DEFAULT, Store
+from juggleproof.statements.work import Budget
+from juggleproof.votes.questions import Question, questions
+from juggleproof.votes.smtlib import script
 
 Word = Literal["holds", "fails", "gave up", "not taken"]
 Known = Mapping[str, checker.Statement]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from juggleproof.benchmarks.figures import as_svg, new_figure
 from juggleproof.benchmarks.peers.routes import Problem, Result, Route
-from juggleproof.proofs.reports.tables import plain
+from juggleproof.reports.tables import plain
 
 
 class Measured(NamedTuple):

@@ -1,9 +1,10 @@
 """The ledger: what the paper prints, item by item, and the claim or the reason that settles each
 item.
 
-    ledger          the reasons, the list of items rebuilt from the paper, and the ledger checked
-    rows.tsv        the items in order
-    index           the claims in order, as `list` prints them, each with its module; index.json
-    indexed_claims  the claims by id, loaded when they are asked for
-    derived         what SymPy derives for the claims, as text, so that they are stated without it
+    rows.tsv       the items in order
+    index.json     the claims in order, as `list` prints them, each with its module
+    derived.json   what SymPy derives for the claims, as text
+    names.tsv      the meanings of names, by section
+    citations.tsv  what is cited, and the remarks on it
+    unprinted      the claims that no item of the paper carries
 """

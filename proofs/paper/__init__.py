@@ -19,35 +19,7 @@ a1_a2_energy          the energy that impacts sustain, and its greatest change
 a3_a4_supremum        the least loss outside R, and the count of impacts
 b_summary             the summary of appendix B
 inclusions            the inclusions of regions that section 4 rests on
-
-What derives the paper's terms loads SymPy; of this package it is loaded when first used, so that
-claims of one's own are judged without.
 """
-
-from __future__ import annotations
-
-from collections.abc import Mapping
-from functools import cache
-from typing import TYPE_CHECKING
-
-from juggleproof.proofs import part, restitution, sine, theorem
-from juggleproof.proofs.claims import Claim, claims_in
-from juggleproof.proofs.ledger.indexed_claims import IndexedClaims
-from juggleproof.symbolic.lazy import lazy_names
-
-if TYPE_CHECKING:
-    from juggleproof.proofs.paper.derivations import behind as behind
-    from juggleproof.proofs.paper.derivations import derivations_of as derivations_of
-    from juggleproof.proofs.paper.derivations import derived as derived
-    from juggleproof.proofs.paper.derivations import derived_vector as derived_vector
-    from juggleproof.proofs.paper.names import collide as collide
-    from juggleproof.proofs.paper.names import definitions as definitions
-else:
-    LAZY = {  # the same once more, for whoever runs
-        ".derivations": "behind derivations_of derived derived_vector",
-        ".names": "collide definitions",
-    }
-    _, __getattr__, __dir__ = lazy_names(__name__, LAZY)
 
 SECTIONS = (
     "s0_s2_1_setting",
@@ -65,28 +37,3 @@ SECTIONS = (
     "b_summary",
     "inclusions",
 )
-
-
-def modules_of_claims() -> list[str]:
-    """The modules of the paper's claims in the paper's order; those of the theorem, of the part and
-    of the table that moves as a sine come after them.
-    """
-    packages = (
-        (__name__, SECTIONS),
-        (theorem.__name__, theorem.SECTIONS),
-        (restitution.__name__, restitution.SECTIONS),
-        (part.__name__, part.SECTIONS),
-        (sine.__name__, sine.SECTIONS),
-    )
-    return [f"{package}.{section}" for package, sections in packages for section in sections]
-
-
-@cache
-def claims_by_id() -> Mapping[str, Claim]:
-    """The claims of the paper by id, in its order; each loads its module when it is first used."""
-    return IndexedClaims(modules_of_claims())
-
-
-def paper_claims() -> list[Claim]:
-    """The claims of the paper in its order."""
-    return claims_in(modules_of_claims())

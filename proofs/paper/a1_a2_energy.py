@@ -4,18 +4,7 @@ of the energy change of an impact.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Number,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    equal,
-    iff,
-    reals,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion
+from juggleproof.judging.claims import Argument, Assertion
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -67,8 +56,19 @@ from juggleproof.proofs.paper.states import (
     dE_max,
     place,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Vector, scalar
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import Vector, scalar
+from juggleproof.statements.language import (
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    iff,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Appendix A.1: the velocity that impacts can sustain, and the energy that goes with it.

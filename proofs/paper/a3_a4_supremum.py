@@ -4,17 +4,7 @@ and how many impacts lead into R.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Formula,
-    Statement,
-    Term,
-    conjunction,
-    equal,
-    iff,
-    reals,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion, Readings, Remark
+from juggleproof.judging.claims import Argument, Assertion, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_OUTSIDE,
@@ -78,9 +68,19 @@ from juggleproof.proofs.paper.states import (
     dR_dv,
     with_slopes,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.parser import parse_name
-from juggleproof.proofs.reading.values import Region, Value, Vector, scalar
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.parser import parse_name
+from juggleproof.reading.values import Region, Value, Vector, scalar
+from juggleproof.statements.language import (
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Appendix A.3: how little an impact takes outside the region R, at least.

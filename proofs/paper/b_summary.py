@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Statement, different, equal, iff, reals
-from juggleproof.proofs.claims import Argument, Assertion, Following
+from juggleproof.judging.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -67,8 +66,8 @@ from juggleproof.proofs.paper.states import (
     tells_b1,
     tells_b2,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import (
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import (
     Matrix,
     ShapeError,
     StateFunction,
@@ -76,6 +75,7 @@ from juggleproof.proofs.reading.values import (
     Vector,
     scalar,
 )
+from juggleproof.statements.language import Statement, different, equal, iff, reals
 
 # -------------------------------------------------------------------------------------------------
 # Appendices B.1 and B.2: the time to collision, the table's period, and the regions, summed up.

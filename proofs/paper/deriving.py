@@ -28,9 +28,9 @@ from sympy import (
 )
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import ClaimError, Formula, Term, names_in, real, term
-from juggleproof.proofs.encoding import from_sympy, positive, signed_sum, tidy
-from juggleproof.proofs.reading.values import Matrix, Vector
+from juggleproof.encoding import from_sympy, positive, signed_sum, tidy
+from juggleproof.reading.values import Matrix, Vector
+from juggleproof.statements.language import ClaimError, Formula, Term, names_in, real, term
 
 RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
 VARYING = ("x", "beta", "z1", "tau", "t", "v", "z2", "w", "u", "s")

@@ -6,7 +6,6 @@ Each is stated for the range (21) of the paper; how far it really goes is found 
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Statement, equal, iff, term
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -51,7 +50,8 @@ from juggleproof.proofs.paper.states import (
     RANGE_21,
     narrow_band_stays,
 )
-from juggleproof.proofs.reading.values import Region, Vector
+from juggleproof.reading.values import Region, Vector
+from juggleproof.statements.language import Statement, equal, iff, term
 
 TRAP = B1 & Region(lambda state: alpha * (r - speed(state)) < r)
 

@@ -10,8 +10,33 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import TypeVar
 
-from juggleproof.certificates.definitions import Definition
-from juggleproof.certificates.language import (
+from juggleproof.judging import claims, forms
+from juggleproof.judging.forms import Vocabulary
+from juggleproof.papers.derivations import (
+    Origin,
+    derived_value,
+    from_deriving,
+    made_by,
+    sentence,
+)
+from juggleproof.papers.derivations import derived as derived
+from juggleproof.papers.derivations import derived_matrix as derived_matrix
+from juggleproof.papers.derivations import derived_vector as derived_vector
+from juggleproof.papers.derived import derived_by
+from juggleproof.reading.evaluation import Environment, relate
+from juggleproof.reading.meaning import Meaning, Printed
+from juggleproof.reading.values import (
+    Matrix,
+    Region,
+    Result,
+    Scalar,
+    ShapeError,
+    StateFunction,
+    Value,
+    Vector,
+)
+from juggleproof.statements.definitions import Definition
+from juggleproof.statements.language import (
     Formula,
     Number,
     Term,
@@ -23,31 +48,6 @@ from juggleproof.certificates.language import (
     reals,
     substitute,
     term,
-)
-from juggleproof.proofs import claims, forms
-from juggleproof.proofs.forms import Vocabulary
-from juggleproof.proofs.ledger.derived import derived_by
-from juggleproof.proofs.paper.derivations import (
-    DERIVING,
-    Origin,
-    derived_value,
-    made_by,
-    sentence,
-)
-from juggleproof.proofs.paper.derivations import derived as derived
-from juggleproof.proofs.paper.derivations import derived_matrix as derived_matrix
-from juggleproof.proofs.paper.derivations import derived_vector as derived_vector
-from juggleproof.proofs.reading.evaluation import Environment, relate
-from juggleproof.proofs.reading.meaning import Meaning, Printed
-from juggleproof.proofs.reading.values import (
-    Matrix,
-    Region,
-    Result,
-    Scalar,
-    ShapeError,
-    StateFunction,
-    Value,
-    Vector,
 )
 
 # -------------------------------------------------------------------------------------------------
@@ -157,7 +157,7 @@ def collide(table: Vector) -> StateFunction[Vector]:
 
     def after(ball: Vector) -> Vector:
         names = ("ball_height", "ball_speed", "table_height", "table_speed")
-        image = made_by(Origin("impact_map"), derived_by(Vector, f"{DERIVING}.struck"))
+        image = made_by(Origin("impact_map"), derived_by(Vector, from_deriving("struck")))
         values = dict(zip(names, (term(entry) for entry in (*ball.entries, *table.entries))))
         return at(image, values)
 

@@ -7,19 +7,8 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from juggleproof.certificates.language import (
-    ClaimError,
-    Formula,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    equal,
-    reals,
-    term,
-)
-from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Assertion
+from juggleproof.judging import forms
+from juggleproof.judging.claims import Assertion
 from juggleproof.proofs.paper.names import (
     B1_OUTSIDE,
     CLOSED_B1,
@@ -52,10 +41,21 @@ from juggleproof.proofs.paper.names import (
     v,
     value_of,
 )
-from juggleproof.proofs.reading import tree
-from juggleproof.proofs.reading.evaluation import Environment
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Vector, scalar
+from juggleproof.reading import tree
+from juggleproof.reading.evaluation import Environment
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import Vector, scalar
+from juggleproof.statements.language import (
+    ClaimError,
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    reals,
+    term,
+)
 
 beta0, v0, u, tau_w, dE_sup, n, m, j, tau, launch = reals(
     "beta0 v0 u tau_w dE_sup n m j tau launch"

@@ -4,7 +4,12 @@ of which much is simulated and not proved.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
+from juggleproof.judging import forms
+from juggleproof.judging.claims import Following, NotFormalised, Remark, Simulated
+from juggleproof.proofs.paper.names import alpha, always, claim, g
+from juggleproof.proofs.paper.states import STABILITY
+from juggleproof.proofs.simulations.figures import Onset, figures
+from juggleproof.statements.language import (
     Formula,
     Statement,
     Term,
@@ -14,11 +19,6 @@ from juggleproof.certificates.language import (
     real,
     reals,
 )
-from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Following, NotFormalised, Remark, Simulated
-from juggleproof.proofs.paper.names import alpha, always, claim, g
-from juggleproof.proofs.paper.states import STABILITY
-from juggleproof.proofs.simulations.figures import Onset, figures
 from juggleproof.symbolic import MODES
 
 

@@ -4,19 +4,7 @@ from one impact to the next.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Formula,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    equal,
-    iff,
-    real,
-    reals,
-    term,
-)
-from juggleproof.proofs.claims import Assertion, Reading, Readings, Remark
+from juggleproof.judging.claims import Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -65,8 +53,20 @@ from juggleproof.proofs.paper.states import (
     line_of_equal_times,
     strikes_from_region,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import ShapeError, StateFunction, Vector
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import ShapeError, StateFunction, Vector
+from juggleproof.statements.language import (
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    iff,
+    real,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Section 2.2.1: the regions H, B1 and B2, the line between them, and the curve on which an impact

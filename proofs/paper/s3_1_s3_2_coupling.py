@@ -6,17 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from juggleproof.certificates.language import (
-    Formula,
-    Statement,
-    Term,
-    different,
-    equal,
-    iff,
-    real,
-    reals,
-)
-from juggleproof.proofs.claims import NotFormalised
+from juggleproof.judging.claims import NotFormalised
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -59,9 +49,19 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.regions import pieces
 from juggleproof.proofs.paper.s0_s2_1_setting import CLOSED_FORM
 from juggleproof.proofs.paper.states import is_the_period, strikes_from_region
-from juggleproof.proofs.reading.evaluation import Environment
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import ShapeError, StateFunction, Vector, scalar
+from juggleproof.reading.evaluation import Environment
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import ShapeError, StateFunction, Vector, scalar
+from juggleproof.statements.language import (
+    Formula,
+    Statement,
+    Term,
+    different,
+    equal,
+    iff,
+    real,
+    reals,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Section 3 and 3.1: the table, a point mass that bounces on the ground without loss.

@@ -2,18 +2,7 @@
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Formula,
-    Statement,
-    Term,
-    different,
-    equal,
-    iff,
-    real,
-    reals,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion, Following
+from juggleproof.judging.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -60,8 +49,19 @@ from juggleproof.proofs.paper.states import (
     strikes_from,
     within,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Region, Vector
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import Region, Vector
+from juggleproof.statements.language import (
+    Formula,
+    Statement,
+    Term,
+    different,
+    equal,
+    iff,
+    real,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Section 3.3: the map of a period with an impact, its fixed point e_1, and the neighbourhood that

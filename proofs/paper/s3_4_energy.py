@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Statement, equal, reals
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -24,9 +23,10 @@ from juggleproof.proofs.paper.names import (
     t,
 )
 from juggleproof.proofs.paper.states import next_bounce, strikes_from, struck
-from juggleproof.proofs.reading.evaluation import Environment
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import StateFunction, Value, Vector
+from juggleproof.reading.evaluation import Environment
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import StateFunction, Value, Vector
+from juggleproof.statements.language import Statement, equal, reals
 
 tau, change, change_1, change_2 = reals("tau change change_1 change_2")
 b_0, image = Vector(reals("beta0 v0")), Vector(reals("beta1 v1"))

@@ -6,24 +6,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    ClaimError,
-    Formula,
-    Iterates,
-    Number,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    disjunction,
-    equal,
-    iff,
-    reals,
-    substitute,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings, Remark
+from juggleproof.judging.claims import Argument, Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -77,11 +60,28 @@ from juggleproof.proofs.paper.states import (
     struck,
     within,
 )
-from juggleproof.proofs.reading.evaluation import Environment, relate
-from juggleproof.proofs.reading.lexer import PrintError
-from juggleproof.proofs.reading.meaning import Meaning, Printed
-from juggleproof.proofs.reading.tree import Chain
-from juggleproof.proofs.reading.values import ExtremalValue, Matrix, Region, Vector, scalar
+from juggleproof.reading.evaluation import Environment, relate
+from juggleproof.reading.lexer import PrintError
+from juggleproof.reading.meaning import Meaning, Printed
+from juggleproof.reading.tree import Chain
+from juggleproof.reading.values import ExtremalValue, Matrix, Region, Vector, scalar
+from juggleproof.statements.language import (
+    AnyStatement,
+    ClaimError,
+    Formula,
+    Iterates,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    disjunction,
+    equal,
+    iff,
+    reals,
+    substitute,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Section 3.5.1: fixed points of f and of its composites, what they ask of ball and table, and for

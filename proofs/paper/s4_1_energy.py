@@ -4,17 +4,7 @@ R.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Statement,
-    Term,
-    conjunction,
-    different,
-    equal,
-    iff,
-    real,
-    term,
-)
-from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark
+from juggleproof.judging.claims import Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -59,7 +49,17 @@ from juggleproof.proofs.paper.states import (
     keeps_energy,
     place,
 )
-from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.reading.meaning import Printed
+from juggleproof.statements.language import (
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    iff,
+    real,
+    term,
+)
 
 
 def speed_of_no_change() -> Term:

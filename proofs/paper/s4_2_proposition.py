@@ -4,8 +4,7 @@ sentence of its proof.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Formula, Statement, different, equal, real, term
-from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark, Simulated
+from juggleproof.judging.claims import Assertion, Following, Reading, Readings, Remark, Simulated
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -64,9 +63,10 @@ from juggleproof.proofs.paper.regions import (
     worst_wait,
 )
 from juggleproof.proofs.paper.states import place
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import scalar
 from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import scalar
+from juggleproof.statements.language import Formula, Statement, different, equal, real, term
 
 t_R = real("t_R")
 

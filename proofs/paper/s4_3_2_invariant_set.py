@@ -4,17 +4,7 @@ attracts.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    Formula,
-    Statement,
-    Term,
-    different,
-    equal,
-    iff,
-    reals,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, Readings, Remark
+from juggleproof.judging.claims import Argument, Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -60,8 +50,18 @@ from juggleproof.proofs.paper.states import (
     within,
     z,
 )
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import StateFunction, Vector
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import StateFunction, Vector
+from juggleproof.statements.language import (
+    Formula,
+    Statement,
+    Term,
+    different,
+    equal,
+    iff,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and

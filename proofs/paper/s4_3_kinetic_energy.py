@@ -4,17 +4,7 @@ decreases in R.
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import (
-    ClaimError,
-    Statement,
-    Term,
-    conjunction,
-    equal,
-    iff,
-    real,
-    term,
-)
-from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, Readings, Remark
+from juggleproof.judging.claims import Argument, Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -53,9 +43,19 @@ from juggleproof.proofs.paper.states import (
     relative_step,
     z,
 )
-from juggleproof.proofs.reading.evaluation import relate
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import LimitValue, Matrix, Vector, scalar
+from juggleproof.reading.evaluation import relate
+from juggleproof.reading.meaning import Printed
+from juggleproof.reading.values import LimitValue, Matrix, Vector, scalar
+from juggleproof.statements.language import (
+    ClaimError,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    real,
+    term,
+)
 
 d = real("d")
 ORIGIN = Vector((0, 0))

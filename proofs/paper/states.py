@@ -8,22 +8,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from juggleproof.certificates.language import (
-    ClaimError,
-    Formula,
-    Number,
-    Statement,
-    Term,
-    conjunction,
-    different,
-    equal,
-    iff,
-    real,
-    reals,
-    term,
-)
-from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Remark
+from juggleproof.judging import forms
+from juggleproof.judging.claims import Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_PLUS,
@@ -76,9 +62,23 @@ from juggleproof.proofs.paper.names import (
     v,
     vector,
 )
-from juggleproof.proofs.reading.evaluation import Environment
-from juggleproof.proofs.reading.meaning import Meaning, Printed
-from juggleproof.proofs.reading.values import Matrix, StateFunction, Value, Vector
+from juggleproof.reading.evaluation import Environment
+from juggleproof.reading.meaning import Meaning, Printed
+from juggleproof.reading.values import Matrix, StateFunction, Value, Vector
+from juggleproof.statements.language import (
+    ClaimError,
+    Formula,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    iff,
+    real,
+    reals,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Impacts that gain, keep or lose energy, the greatest energies that go with them, and how the

@@ -9,7 +9,12 @@ from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
-from juggleproof.certificates.language import (
+from juggleproof.judging import claims
+from juggleproof.judging.claims import ClaimHints
+from juggleproof.judging.forms import Vocabulary, always
+from juggleproof.proofs.paper.names import derived, derived_vector
+from juggleproof.search.closing import Hints
+from juggleproof.statements.language import (
     Formula,
     Number,
     Statement,
@@ -21,11 +26,6 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs import claims
-from juggleproof.proofs.claims import ClaimHints
-from juggleproof.proofs.forms import Vocabulary, always
-from juggleproof.proofs.paper.names import derived, derived_vector
 
 # -------------------------------------------------------------------------------------------------
 # What the claims about a corner's impact have in common: names, hypotheses, the five modes and

@@ -8,22 +8,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from juggleproof.certificates.language import (
-    Formula,
-    Number,
-    Statement,
-    Term,
-    conjunction,
-    disjunction,
-    equal,
-    iff,
-    real,
-    reals,
-    substitute,
-    term,
-)
-from juggleproof.proofs.claims import Remark
-from juggleproof.proofs.forms import always, exists_some
+from juggleproof.judging.claims import Remark
+from juggleproof.judging.forms import always, exists_some
 from juggleproof.proofs.part.corner import (
     APPROACH,
     B1,
@@ -62,6 +48,20 @@ from juggleproof.proofs.part.corner import (
     work_of,
 )
 from juggleproof.proofs.theorem.definition import value_of
+from juggleproof.statements.language import (
+    Formula,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    disjunction,
+    equal,
+    iff,
+    real,
+    reals,
+    substitute,
+    term,
+)
 from juggleproof.symbolic import MODES
 
 # -------------------------------------------------------------------------------------------------

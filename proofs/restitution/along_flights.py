@@ -11,9 +11,9 @@ from fractions import Fraction
 from sympy import Expr, factor_list, fraction, together
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import Formula
-from juggleproof.proofs.encoding import positive, tidy
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.encoding import positive, tidy
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import Formula
 from juggleproof.symbolic.algebra import lowest_terms
 
 HALF = Fraction(1, 2)  # a restitution at which signs are read off

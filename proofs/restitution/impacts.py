@@ -10,20 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    Formula,
-    Statement,
-    Term,
-    conjunction,
-    equal,
-    iff,
-    reals,
-    term,
-)
-from juggleproof.proofs.paper.derivations import tidied
+from juggleproof.papers.derivations import tidied
 from juggleproof.proofs.paper.names import alpha, at, claim, equals, w, x
-from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
     NORMAL,
     PIECES,
@@ -45,6 +33,18 @@ from juggleproof.proofs.theorem.orbits import (
     n,
     next_impact,
     strikes,
+)
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    AnyStatement,
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    reals,
+    term,
 )
 
 THERE: Vector = tidied("normal_impact_fixed_point")  # e_K at its impact

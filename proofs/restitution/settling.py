@@ -12,19 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    Formula,
-    MapRule,
-    conjunction,
-    equal,
-    iff,
-    term,
-)
-from juggleproof.proofs.ledger.derived import derived_by
-from juggleproof.proofs.paper.derivations import tidied
+from juggleproof.papers.derivations import tidied
+from juggleproof.papers.derived import derived_by
 from juggleproof.proofs.paper.names import alpha, always, at, claim, derived_vector, w
-from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import RADIUS, WEIGHTS
 from juggleproof.proofs.restitution.unequal import (
     ALONG,
@@ -50,6 +40,16 @@ from juggleproof.proofs.theorem.definition import (
 )
 from juggleproof.proofs.theorem.orbits import strikes
 from juggleproof.proofs.theorem.stability import is_none_of
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    AnyStatement,
+    Formula,
+    MapRule,
+    conjunction,
+    equal,
+    iff,
+    term,
+)
 
 STRUCK, FLOWN = PIECES
 

@@ -10,17 +10,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    Formula,
-    MapRule,
-    conjunction,
-    equal,
-    term,
-)
-from juggleproof.proofs.paper.derivations import tidied
+from juggleproof.papers.derivations import tidied
 from juggleproof.proofs.paper.names import alpha, claim, derived_vector, w
-from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import from_here
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
@@ -38,6 +29,15 @@ from juggleproof.proofs.theorem.definition import (
 )
 from juggleproof.proofs.theorem.orbits import HERE, strikes
 from juggleproof.proofs.theorem.stability import is_none_of
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    AnyStatement,
+    Formula,
+    MapRule,
+    conjunction,
+    equal,
+    term,
+)
 
 FAST = 5  # the closing speed from which on impacts are led on by f
 LONGEST = 3  # periods that a flight after a slower impact lasts

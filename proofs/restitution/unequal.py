@@ -11,20 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    Formula,
-    Statement,
-    Term,
-    conjunction,
-    equal,
-    reals,
-    term,
-)
-from juggleproof.proofs.ledger.derived import derived_by
-from juggleproof.proofs.paper.derivations import Origin, made_by
+from juggleproof.papers.derivations import Origin, made_by
+from juggleproof.papers.derived import derived_by
 from juggleproof.proofs.paper.names import alpha, always, claim, equals, w, x
-from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.restitution.impacts import is_impact
 from juggleproof.proofs.theorem.definition import (
     NORMAL,
@@ -37,6 +26,17 @@ from juggleproof.proofs.theorem.definition import (
     the_map,
 )
 from juggleproof.proofs.theorem.orbits import strikes
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    AnyStatement,
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    reals,
+    term,
+)
 
 ALONG = "juggleproof.proofs.restitution.along_flights"  # the module that loads SymPy
 FLIGHTS = (1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 2, 2)  # their periods

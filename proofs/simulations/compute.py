@@ -14,7 +14,6 @@ from math import ceil, floor, isinf, pi, sqrt
 from operator import ne
 from statistics import median
 
-from juggleproof.certificates.store import write_file
 from juggleproof.proofs.simulations.figures import (
     HEIGHTS,
     RECORD,
@@ -41,6 +40,7 @@ from juggleproof.scenes.part.onsets import (
 )
 from juggleproof.scenes.part.readings import Reading, chosen, recorded
 from juggleproof.scenes.part.setting import Scene
+from juggleproof.statements.store import write_file
 from juggleproof.symbolic import delta_E_sup
 from juggleproof.symbolic.algebra import alpha as restitution
 from juggleproof.symbolic.algebra import r

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import TypedDict
 
-from juggleproof.certificates.language import ClaimError
+from juggleproof.statements.language import ClaimError
 
 RECORD = Path(__file__).with_suffix(".json")
 HEIGHTS, SPEEDS = (0, 20), (-10, 10)  # x and w of the starts outside R

@@ -10,7 +10,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import partial
 
-from juggleproof.certificates.language import (
+from juggleproof.judging import claims, forms
+from juggleproof.judging.forms import Vocabulary
+from juggleproof.papers.derivations import derived, derived_matrix, derived_vector
+from juggleproof.statements.language import (
     Formula,
     Number,
     Statement,
@@ -21,9 +24,6 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs import claims, forms
-from juggleproof.proofs.forms import Vocabulary
-from juggleproof.proofs.paper.derivations import derived, derived_matrix, derived_vector
 
 alpha, pi, Gamma, G, cosine, sine, V = reals("alpha pi Gamma G cosine sine V")
 m, k, p, q = reals("m k p q")

@@ -4,8 +4,8 @@ it.
 
 from __future__ import annotations
 
-from juggleproof.certificates.sine.stored import STATEMENT, stored_outcomes
-from juggleproof.proofs.claims import CheckedApart, claim
+from juggleproof.judging.claims import CheckedApart, claim
+from juggleproof.sine.stored import STATEMENT, stored_outcomes
 
 CHECKER = "the second checker"
 BELIEVED = (

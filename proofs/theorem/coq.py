@@ -11,14 +11,14 @@ from pathlib import Path
 from string import Template
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq.text import without_primes
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import write_file
-from juggleproof.proofs.encoding import from_sympy, written
+from juggleproof.coq_orbits.terms import ATOM, coq_formula, coq_term, names_in, term_of
+from juggleproof.coq_store.text import without_primes
+from juggleproof.encoding import from_sympy, written
 from juggleproof.proofs.theorem import definition as chosen
 from juggleproof.proofs.theorem.coq_templates import HEADER, PINS, THEOREMS
-from juggleproof.proofs.theorem.coq_terms import ATOM, coq_formula, coq_term, names_in, term_of
 from juggleproof.proofs.theorem.definition import NORMAL, PHYSICAL, Setting
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import write_file
 from juggleproof.symbolic.algebra import DerivationError, alpha, lowest_terms, r
 from juggleproof.symbolic.bounds import E_max
 from juggleproof.symbolic.energy import scaling, total_energy

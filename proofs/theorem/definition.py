@@ -11,20 +11,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import Union
 
-from juggleproof.certificates.language import (
-    ClaimError,
-    Formula,
-    MapRule,
-    Number,
-    Statement,
-    Term,
-    conjunction,
-    real,
-    reals,
-    substitute,
-    term,
-)
-from juggleproof.proofs.paper.derivations import tidied, where_positive
+from juggleproof.papers.derivations import tidied, where_positive
 from juggleproof.proofs.paper.names import (
     H,
     Placed,
@@ -39,13 +26,26 @@ from juggleproof.proofs.paper.names import (
     w,
     x,
 )
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    ClaimError,
+    Formula,
+    MapRule,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    real,
+    reals,
+    substitute,
+    term,
+)
 
 
 def opposite(strict: Formula) -> Formula:
     """The other side of a strict inequality.
 
-    >>> from juggleproof.certificates.language import reals
+    >>> from juggleproof.statements.language import reals
     >>> x, w = reals("x w")
     >>> str(opposite(x < w))
     'w <= x'
@@ -172,7 +172,7 @@ _RELATIONS: dict[str, Callable[..., bool]] = {
 def value_of(expression: Term, point: Point) -> Fraction:
     """The value of a term where its variables have these values.
 
-    >>> from juggleproof.certificates.language import reals
+    >>> from juggleproof.statements.language import reals
     >>> x, w = reals("x w")
     >>> value_of((x - w**2) / 3, {"x": Fraction(1), "w": Fraction(1, 2)})
     Fraction(1, 4)

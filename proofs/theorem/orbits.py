@@ -11,20 +11,7 @@ from functools import partial
 from importlib import import_module
 from types import ModuleType
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    ClaimError,
-    Formula,
-    Iterates,
-    Term,
-    conjunction,
-    equal,
-    iff,
-    implies,
-    reals,
-    term,
-)
-from juggleproof.proofs import forms
+from juggleproof.judging import forms
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -48,8 +35,6 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.names import always as always_real
 from juggleproof.proofs.paper.names import exists_some as exists_real
 from juggleproof.proofs.paper.regions import LEVEL, PRINTED_SUPREMUM
-from juggleproof.proofs.reading.meaning import read
-from juggleproof.proofs.reading.values import Vector, scalar
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     BELOW_A_THIRD,
@@ -67,6 +52,21 @@ from juggleproof.proofs.theorem.definition import (
     the_map,
     u,
     value_of,
+)
+from juggleproof.reading.meaning import read
+from juggleproof.reading.values import Vector, scalar
+from juggleproof.statements.language import (
+    AnyStatement,
+    ClaimError,
+    Formula,
+    Iterates,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    implies,
+    reals,
+    term,
 )
 
 # -------------------------------------------------------------------------------------------------

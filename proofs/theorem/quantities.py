@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.proofs.paper.names import derived
 from juggleproof.proofs.paper.regions import worst_wait
 from juggleproof.proofs.theorem.definition import (
@@ -42,6 +41,7 @@ from juggleproof.proofs.theorem.orbits import (
     moves,
 )
 from juggleproof.proofs.theorem.stability import EXCEPTIONS, FACTOR, OTHERS, THIRD, TO_THE_REGION
+from juggleproof.statements.language import ClaimError, Term, real
 
 # -------------------------------------------------------------------------------------------------
 # What the theorem certifies of one state, in exact numbers: steps into the trap and to within 1 of

@@ -6,17 +6,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from juggleproof.certificates.language import (
-    AnyStatement,
-    Formula,
-    Statement,
-    conjunction,
-    different,
-    equal,
-    reals,
-    substitute,
-    term,
-)
 from juggleproof.proofs.paper.names import (
     Placed,
     R,
@@ -31,7 +20,6 @@ from juggleproof.proofs.paper.names import (
     w,
     x,
 )
-from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     BELOW_A_THIRD,
@@ -62,6 +50,18 @@ from juggleproof.proofs.theorem.definition import (
 )
 from juggleproof.proofs.theorem.definition import BELOW_A_THIRD as BELOW
 from juggleproof.proofs.theorem.definition import FROM_A_THIRD as FROM
+from juggleproof.reading.values import Vector
+from juggleproof.statements.language import (
+    AnyStatement,
+    Formula,
+    Statement,
+    conjunction,
+    different,
+    equal,
+    reals,
+    substitute,
+    term,
+)
 
 # -------------------------------------------------------------------------------------------------
 # The theorem in normal form and in the paper's units: e_1 is globally asymptotically stable exactly

@@ -49,8 +49,7 @@ class Runner:
         self.tool("python", f"exec '{sys.executable}' \"$@\"", self.venv)
         self.tool(
             "juggleproof",
-            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m"
-            ' juggleproof.proofs.command.main "$@"',
+            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m juggleproof.command.main \"$@\"",
             self.venv,
         )
 

@@ -17,11 +17,11 @@ from typing import Any
 import pytest
 import yaml
 
-from juggleproof.certificates.store import DEFAULT
-from juggleproof.proofs.claims import VERDICTS
-from juggleproof.proofs.register import load_register
+from juggleproof.judging.claims import VERDICTS
+from juggleproof.judging.register import load_register
+from juggleproof.statements.store import DEFAULT
 from tests.action.runner import ACTION, ROOT, SCRIPTS, Runner
-from tests.proofs.reports.runs import FALSE, HOLDS, file_with
+from tests.reports.runs import FALSE, HOLDS, file_with
 from tests.rows import each_row
 from tests.share import MANY
 
@@ -283,7 +283,7 @@ def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_pa
     runner.tool(
         "juggleproof",
         f"command=$1; shift\nPYTHONPATH='{ROOT}' exec '{sys.executable}' -P"
-        " -m juggleproof.proofs.command.main"
+        " -m juggleproof.command.main"
         f' "$command" --store \'{tmp_path / "store"}\' "$@"',
         runner.venv,
     )

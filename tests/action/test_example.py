@@ -55,7 +55,7 @@ def by_suite(runner: Runner) -> int:
         **{name: text for name, text in os.environ.items() if name != "PYTEST_ADDOPTS"},
         "PYTHONPATH": str(ROOT),
         "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
-        "PYTEST_PLUGINS": "juggleproof.proofs.pytest_plugin",
+        "PYTEST_PLUGINS": "juggleproof.pytest_plugin",
     }
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-v"],

@@ -12,8 +12,8 @@ from juggleproof.benchmarks.classes.classes import CLASSES, SEEDS, Made, every_p
 from juggleproof.benchmarks.classes.polynomials import FORMS
 from juggleproof.benchmarks.classes.writing import variables
 from juggleproof.benchmarks.processes import Timed
-from juggleproof.certificates.coq import share_of
-from juggleproof.proofs.smtlib.script import problems_of_file
+from juggleproof.coq_store import share_of
+from juggleproof.smtlib.script import problems_of_file
 
 
 @pytest.fixture(scope="module", name="every")

@@ -10,7 +10,7 @@ import pytest
 
 from juggleproof.benchmarks import commands
 from juggleproof.benchmarks.commands import COMMANDS, TABLE
-from juggleproof.proofs.command.main import build_parser
+from juggleproof.command.main import build_parser
 
 
 def test_every_command_is_timed_holds() -> None:
@@ -47,4 +47,4 @@ def test_rejects_a_command_that_takes_over_twice_its_aim(
 
 def last_words(words: Sequence[str]) -> str:
     """What is run, without the interpreter and the module."""
-    return " ".join(words).rpartition("juggleproof.proofs.command.main ")[2].rpartition("-c ")[2]
+    return " ".join(words).rpartition("juggleproof.command.main ")[2].rpartition("-c ")[2]

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from juggleproof.benchmarks import feeder
 from juggleproof.certificates.sine.checker import Rectangle, outcome
-from juggleproof.certificates.sine.stored import boxes_in
-from juggleproof.proofs.command.sine import SineOptions, interval, rectangle_of
+from juggleproof.command.sine import SineOptions, interval, rectangle_of
+from juggleproof.sine.stored import boxes_in
 from tests.rows import each_row
 
 ROWS = [

@@ -18,11 +18,11 @@ from juggleproof.benchmarks.peers import __main__ as peers
 from juggleproof.benchmarks.peers import notation, routes, table
 from juggleproof.benchmarks.peers.routes import Answer, Problem, Result, Route
 from juggleproof.benchmarks.processes import children_seconds, each, output_of
-from juggleproof.certificates.coq import share_of
-from juggleproof.certificates.store import DEFAULT, Store, write_store
-from juggleproof.certificates.votes.questions import questions, read_statement
-from tests.certificates.votes.corpus import FALSE, TRUE
+from juggleproof.coq_store import share_of
+from juggleproof.statements.store import DEFAULT, Store, write_store
+from juggleproof.votes.questions import questions, read_statement
 from tests.rows import each_row
+from tests.votes.corpus import FALSE, TRUE
 
 SECONDS = 60.0  # of CPU, far more than any of them takes
 HOLD = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")

@@ -10,7 +10,7 @@ import zlib
 import pytest
 
 from juggleproof.benchmarks import problems
-from juggleproof.proofs.smtlib.script import Problem, problems_of_file, read_problems
+from juggleproof.smtlib.script import Problem, problems_of_file, read_problems
 
 SCRIPTS = problems.scripts()
 SAMPLE_SCRIPTS = [path for path in SCRIPTS if path.stem in ("cases", "radicals", "roots")]

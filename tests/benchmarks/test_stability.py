@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 
 from juggleproof.benchmarks import stability
-from juggleproof.proofs.searches import claim_search
-from juggleproof.proofs.stability.findings import MapVerdict
-from tests.proofs.command import running
+from juggleproof.judging.searches import claim_search
+from juggleproof.map_stability.findings import MapVerdict
+from tests.command import running
 from tests.proofs.coq.development import coqc
 from tests.rows import each_row
 from tests.share import MANY

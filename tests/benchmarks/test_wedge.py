@@ -9,8 +9,8 @@ import pytest
 
 from juggleproof.benchmarks import wedge
 from juggleproof.certificates.sine.checker import Rectangle, outcome
-from juggleproof.certificates.sine.stored import boxes_in
 from juggleproof.scenes.table.curves import doubling, grazing
+from juggleproof.sine.stored import boxes_in
 
 POINTS = 400
 PROVED = boxes_in(wedge.WIDE)

@@ -16,10 +16,10 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.certificates.store import DEFAULT
+from juggleproof.statements.store import DEFAULT
+from tests.command import running
+from tests.command.running import Done
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
-from tests.proofs.command import running
-from tests.proofs.command.running import Done
 
 PROGRAMS = {  # juggleproof itself is run in this process, which has loaded it
     "python": [sys.executable],
@@ -30,7 +30,7 @@ VARIABLES = {
     "NO_COLOR": "1",
     "COLUMNS": "80",
     "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
-    "PYTEST_PLUGINS": "juggleproof.proofs.pytest_plugin",
+    "PYTEST_PLUGINS": "juggleproof.pytest_plugin",
 }
 # What is appended to commands that begin so: the last of two equal options counts.
 SMALLER = {
@@ -61,14 +61,14 @@ ELSEWHERE = {
         for form in ("html", "latex", "markdown", "json", "figures", "pdf")
     },
     "pytest --juggleproof": (
-        "tests/proofs/test_pytest_plugin.py",
+        "tests/test_pytest_plugin.py",
         'runpytest_inprocess("--juggleproof", "-v", "-s")',
     ),
     "pytest --juggleproof juggleproof::eq-37": (
-        "tests/proofs/test_pytest_plugin.py",
+        "tests/test_pytest_plugin.py",
         '"--juggleproof", "juggleproof::eq-37"',
     ),
-    "juggleproof check": ("tests/proofs/command/test_check.py", "check(None)"),
+    "juggleproof check": ("tests/command/test_check.py", "check(None)"),
     "python -I -S certificates/sine certificates/sine/wide": (
         ".ci/run",
         '"$python" -I -S certificates/sine certificates/sine/wide',
@@ -78,7 +78,7 @@ ELSEWHERE = {
         '"-I", "-S", "certificates/checker"',
     ),
     "juggleproof certify --json F --junit G --markdown H": (
-        "tests/proofs/reports/test_register.py",
+        "tests/reports/test_register.py",
         'for option in ("json", "junit", "markdown")',
     ),
     "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
@@ -89,11 +89,11 @@ ELSEWHERE = {
         "tests/scenes/table/test_attractors.py",
         '"--picture", "attractors"',
     ),
-    "juggleproof errata": ("tests/proofs/command/test_show.py", 'running.run("errata")'),
+    "juggleproof errata": ("tests/command/test_show.py", 'running.run("errata")'),
     "juggleproof bench": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof bench --quick": ("tests/benchmarks/bench/test_bench.py", '"--quick",'),
     "juggleproof certify --only eq-37": (
-        "tests/proofs/reports/test_register.py",
+        "tests/reports/test_register.py",
         'command("--only", ',
     ),
     "juggleproof explain theorem --premises": (
@@ -101,15 +101,15 @@ ELSEWHERE = {
         'run(["explain", "theorem", "--premises"]) == 0',
     ),
     "pytest --juggleproof-claims mine.py": (
-        "tests/proofs/test_pytest_plugin.py",
+        "tests/test_pytest_plugin.py",
         'runpytest_subprocess("--juggleproof-claims", str(path), "-v")',
     ),
     "juggleproof certify --only eq-36": (
-        "tests/proofs/reports/test_register.py",
+        "tests/reports/test_register.py",
         'command("--only", ',
     ),
     "juggleproof certify --only eq-36 --accept": (
-        "tests/proofs/reports/test_register.py",
+        "tests/reports/test_register.py",
         "--accept",
     ),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
@@ -121,8 +121,8 @@ ELSEWHERE = {
         '"juggleproof.benchmarks.problems", "--votes"',
     ),
     "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
-    "juggleproof simulate part --sweep readings -o scenes/part/sweep.json": (
-        "tests/proofs/command/test_simulate_part.py",
+    "juggleproof simulate part --sweep readings -o juggleproof/scenes/part/sweep.json": (
+        "tests/command/test_simulate_part.py",
         '"--sweep", "readings", "-o", str(path)',
     ),
     "python -m juggleproof.benchmarks.engines": (

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import algebra, language, orbits, rules, settling, text
-from juggleproof.certificates.store import DEFAULT
+from juggleproof.statements.store import DEFAULT
 from tests.certificates.checker.maps import ASKED
 from tests.docs.pages import PAGES, ROOT, code, text_of
 from tests.rows import each_row

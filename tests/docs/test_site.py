@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
 from tests.docs.pages import PAGES, ROOT, code, text_of
-from tests.proofs.reports.browser import chromium, requests, resize, scheme
-from tests.scenes.figures.drawn import figure
+from tests.proofs.figures.drawn import figure
+from tests.reports.browser import chromium, requests, resize, scheme
 from tests.share import MANY
 
 # -------------------------------------------------------------------------------------------------
@@ -86,7 +86,7 @@ def test_pages_fit_a_phone_and_follow_the_readers_colours_holds(site: Path) -> N
 @pytest.mark.parametrize("slug", ["fig-trap", "fig-attractors"])
 def test_figures_of_the_report_are_what_the_program_draws_holds(slug: str) -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-    from juggleproof.scenes.figures import drawing
+    from juggleproof.drawing import drawing
 
     drawn = drawing.svg(figure(slug), slug).decode()
     on_white = drawn.replace("fill: none", "fill: #ffffff", 1)

@@ -16,11 +16,11 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from juggleproof.certificates.store import DEFAULT
-from juggleproof.proofs.claims import claims_in
-from juggleproof.proofs.judgement import Judgement
-from juggleproof.proofs.register import differences, load_register, registered
-from juggleproof.proofs.run import Options, run
+from juggleproof.judging.claims import claims_in
+from juggleproof.judging.judgement import Judgement
+from juggleproof.judging.register import differences, load_register, registered
+from juggleproof.judging.run import Options, run
+from juggleproof.statements.store import DEFAULT
 from tests.exhaust.sources import Sources
 from tests.exhaust.stages import Stages
 

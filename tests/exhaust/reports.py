@@ -11,8 +11,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from juggleproof.proofs import kept
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
+from juggleproof.judging import kept
 
 
 def made(form: str, folder: Path) -> dict[str, bytes]:

@@ -2,7 +2,7 @@
 modules' imports, and the data that stands beside them or that they name.
 
 Every import counts, wherever it stands.  A module that is only named in a string counts as well:
-whole ("juggleproof.proofs.run", also inside a longer text), or in parts where the file imports by
+whole ("juggleproof.judging.run", also inside a longer text), or in parts where the file imports by
 name or is a package ("run" or ".run").  More is found than is loaded, and nothing less; a test
 watches what a stage opens.  Prose is never among it: the pages of docs, what ends in .md, and in a
 module its comments and the docstrings of what has no decorator.
@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "juggleproof"
-PACKAGES = ("symbolic", "certificates", "scenes", "proofs", "benchmarks")
+PACKAGES = ("symbolic", "certificates", "proofs", "benchmarks")
 NAMED = re.compile(rf"\b(?:{NAME}|tests)(?:\.\w+)+")
 MARK = "pytest.mark.exhaust"
 DEFINED = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
@@ -201,8 +201,8 @@ def is_prose(file: str) -> bool:
 def module_of(file: str) -> str:
     """The name under which a file of the tree is imported; "" where it is no module of ours.
 
-    >>> module_of("proofs/reading/__init__.py"), module_of("juggleproof/__init__.py")
-    ('juggleproof.proofs.reading', 'juggleproof')
+    >>> module_of("juggleproof/reading/__init__.py"), module_of("juggleproof/__init__.py")
+    ('juggleproof.reading', 'juggleproof')
     >>> module_of("tests/share.py"), module_of("examples/skew-tent.py")
     ('tests.share', '')
     """

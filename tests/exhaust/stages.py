@@ -13,7 +13,7 @@ from tests.exhaust.sources import Sources
 STORE = "certificates/store"
 INDEX = "proofs/ledger/index.json"
 DERIVED = "proofs/ledger/derived.json"
-REGISTER = "proofs/register.json"
+REGISTER = "juggleproof/judging/register.json"
 LOCKS = ("requirements.lock",)
 TEST_LOCKS = (*LOCKS, "requirements-report.lock", "requirements-test.lock", "pyproject.toml")
 PEERS_LOCKS = (*TEST_LOCKS, "requirements-peers.lock")
@@ -28,12 +28,12 @@ WITH_PEERS = (  # tests of what needs other solvers and engines
     "tests.benchmarks.test_peers",
     "tests.benchmarks.test_problems",
     "tests.certificates.sine.test_cover",
-    "tests.certificates.votes.test_smtlib",
-    "tests.proofs.command.test_show",
-    "tests.proofs.smtlib.test_answering",
+    "tests.votes.test_smtlib",
+    "tests.command.test_show",
+    "tests.smtlib.test_answering",
     "tests.scenes.part.test_setting",
 )
-SEARCH = ("juggleproof.proofs.run", "juggleproof.proofs.register")
+SEARCH = ("juggleproof.judging.run", "juggleproof.judging.register")
 FRESH, MUTANTS = "fresh/", "mutants/checker/"
 NEW_CLAIM = 20  # CPU seconds that CI grants to a claim that no line tells of
 STATEMENT = re.compile(r"[\w.+-]+/[\w.+-]+")
@@ -215,9 +215,9 @@ class Stages:
 
     def coq(self) -> Iterator[Stage]:
         """The stored statements as lemmas of Coq, in shares by the digest of their names."""
-        from juggleproof.certificates.coq.files import share_of  # what searches claims does without
+        from juggleproof.coq_store.files import share_of  # what searches claims does without
 
-        _, every = self.sources.closure(["juggleproof.certificates.coq.__main__"])
+        _, every = self.sources.closure(["juggleproof.coq_store.__main__"])
         files = sorted({*(self.sources.modules[one] for one in every), "Makefile", *LOCKS})
         for place in range(SHARES):
             names = self.reached(set(share_of(self.store, SHARES, place)))

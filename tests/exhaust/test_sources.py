@@ -82,7 +82,7 @@ def test_a_module_leads_to_all_that_it_imports_or_names_holds() -> None:
 
 def test_lazy_packages_and_packages_on_the_way_are_told_apart_holds(sources: Sources) -> None:
     named, every = sources.closure(["juggleproof.symbolic"])
-    assert {"juggleproof.symbolic.corner_impact", "juggleproof.symbolic.lazy"} <= named
+    assert {"juggleproof.symbolic.corner_impact", "juggleproof.lazy"} <= named
     named, every = sources.closure(["juggleproof.proofs.paper.s3_3_local"])
     assert "juggleproof.proofs.theorem" in every - named  # loaded by the package, no more
     assert "juggleproof.proofs.theorem.orbits" not in every
@@ -105,15 +105,15 @@ CHECKERS = (
     ("file", "more", "all_of", "none_of"),
     [
         ("certificates/checker/rules.py", "x = 1", CHECKERS, ()),
-        ("certificates/votes/spans.py", "x = 1", ("fresh/*",), ("mutants/*", "coq-store/*")),
+        ("juggleproof/votes/spans.py", "x = 1", ("fresh/*",), ("mutants/*", "coq-store/*")),
         (
-            "certificates/search/certificate.py",
+            "juggleproof/search/certificate.py",
             "x = 1",
             ("fresh/*", "mutants/checker/*", "problems"),
             ("mutants/sine/*", "coq-store/*"),
         ),
         (
-            "certificates/sine/search.py",
+            "juggleproof/sine/search.py",
             "x = 1",
             ("sine-wide/*",),
             ("mutants/checker/*", "fresh/eq*"),
@@ -261,7 +261,11 @@ def test_a_fresh_search_opens_nothing_else_holds(sources: Sources, stages: Stage
     seen = opened(sources, "__main__", "tests.exhaust.fresh", "eq-3")
     told = {f"{STORE}/{name}" for name in ("statements.txt", "certificates.jsonl", "findings")}
     around = {name for name in sources.files if name.startswith("tests/exhaust/")}
-    loaded = {sources.modules[stages.claims["eq-3"]], "proofs/judging.py", "certificates/store.py"}
+    loaded = {
+        sources.modules[stages.claims["eq-3"]],
+        "juggleproof/judging/judging.py",
+        "juggleproof/statements/store.py",
+    }
     assert loaded <= seen
     assert seen - set(stages.all[f"{FRESH}eq-3"].files) <= told | around | {INDEX, REGISTER}
 
@@ -272,7 +276,7 @@ def test_a_fresh_search_opens_nothing_else_holds(sources: Sources, stages: Stage
         ("tests.certificates.checker.mutate", "mutants/checker/rules"),
         ("tests.certificates.sine.mutants", "mutants/sine/cells"),
         ("juggleproof.benchmarks.problems", "problems"),
-        ("juggleproof.certificates.coq.__main__", "coq-store/1"),
+        ("juggleproof.coq_store.__main__", "coq-store/1"),
     ],
 )
 def test_loading_a_stage_opens_nothing_else_holds(

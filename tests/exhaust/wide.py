@@ -16,9 +16,9 @@ from unittest import mock
 
 from juggleproof.certificates.sine import cover
 from juggleproof.certificates.sine.checker import CERTIFICATES, STATEMENTS, check_line
-from juggleproof.certificates.sine.cover import Tried, box_of, try_box
-from juggleproof.certificates.sine.search import find_certificate
-from juggleproof.certificates.sine.stored import WIDE, wide_rectangles
+from juggleproof.sine.cover import Tried, box_of, try_box
+from juggleproof.sine.search import find_certificate
+from juggleproof.sine.stored import WIDE, wide_rectangles
 
 
 def stored_lines() -> list[str]:

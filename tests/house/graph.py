@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "juggleproof"  # the one import name that holds the folders
-PACKAGES = ("symbolic", "certificates", "scenes", "proofs", "benchmarks")
+PACKAGES = ("symbolic", "certificates", "juggleproof", "proofs", "benchmarks")
 Graph = Mapping[str, frozenset[str]]
 
 
@@ -21,9 +21,20 @@ def files(package: str) -> list[Path]:
 
 
 def module_of(path: Path) -> str:
-    """The name under which a file is imported, such as `juggleproof.proofs.run`."""
+    """The name under which a file is imported, such as `juggleproof.judging.run`."""
     parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join((NAME, *(parts[:-1] if parts[-1] == "__init__" else parts)))
+    inner = parts[1:] if parts[0] == NAME else parts
+    return ".".join((NAME, *(inner[:-1] if inner[-1] == "__init__" else inner)))
+
+
+def package_of(module: str) -> str:
+    """The folder at the top in which a module stands.
+
+    >>> package_of("juggleproof.judging.run"), package_of("juggleproof.proofs.paper.names")
+    ('juggleproof', 'proofs')
+    """
+    first = [*module.split("."), ""][1]
+    return first if first in PACKAGES else NAME
 
 
 @cache
@@ -100,7 +111,7 @@ def graph() -> Graph:
         absolute = (here + name if name[0] == "." else name for name in names_of(path))
         named = {*absolute, *loaded_by_name(path)}
         ends = {name if name in paths else name.rpartition(".")[0] for name in named}
-        found[module] = frozenset((ends & set(paths)) - {module})
+        found[module] = frozenset((ends & set(paths)) - {module, NAME})
     return found
 
 

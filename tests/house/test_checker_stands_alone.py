@@ -124,7 +124,7 @@ def test_its_states_and_rules_are_asked_for_in_one_place_holds() -> None:
     assert not {"settle", "ORBIT_RULES"} & set(checker.__all__)
     users = {str(path.relative_to(ROOT)): parts_used(tree_of(path)) for path in others()}
     assert {path: parts for path, parts in users.items() if parts} == {
-        "certificates/states.py": PARTS
+        "juggleproof/statements/states.py": PARTS
     }
 
 

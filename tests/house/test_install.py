@@ -19,17 +19,17 @@ from typing import NamedTuple
 
 import pytest
 
-from juggleproof.proofs.command.main import build_parser
+from juggleproof.command.main import build_parser
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("benchmarks", "certificates", "proofs", "scenes", "symbolic")
+FOLDERS = ("benchmarks", "certificates", "proofs", "symbolic")
 NEEDED = [line.partition("==")[0] for line in (ROOT / "requirements.lock").read_text().split()]
 FOR_PYTEST = ["pytest", "iniconfig", "packaging", "pluggy"]
 EXTRAS = ("jinja2", "matplotlib", "numba", "latex2mathml", "hypothesis", "mypy", "selenium")
 PYTHONS = ("3.11", "3.12", "3.13")
 RUNNING = ".".join(map(str, sys.version_info[:2]))
 CLAIM = """
-from juggleproof.proofs import always, claim, reals
+from juggleproof import always, claim, reals
 
 x, y = reals("x y")
 
@@ -40,11 +40,11 @@ def squares():
     return always(x * y <= (x**2 + y**2) / 2)
 """
 OWN = """
-import benchmarks, certificates, proofs, scenes, symbolic, tests
+import benchmarks, certificates, proofs, symbolic, tests
 
 
 def test_the_project_has_its_own_folders():
-    for folder in (benchmarks, certificates, proofs, scenes, symbolic, tests):
+    for folder in (benchmarks, certificates, proofs, symbolic, tests):
         assert folder.WHOSE == "the project"
 """
 API = """
@@ -260,7 +260,7 @@ def test_types_beside_a_project_hold(
         env=path,
     )
     types = [line.partition("Revealed type is ")[2] for line in seen.splitlines()[:2]]
-    assert types[0].startswith('"def (what: ') and "list[juggleproof.proofs.api.Result]" in types[0]
+    assert types[0].startswith('"def (what: ') and "list[juggleproof.api.Result]" in types[0]
     assert types[1].startswith('"def (setting: juggleproof.scenes.part.setting.Scene')
 
 
@@ -299,12 +299,9 @@ def test_the_sdist_has_all_that_is_committed_holds(sdist: Path) -> None:
 def test_all_sources_and_data_are_in_the_wheel_holds(wheel: Path) -> None:
     held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
     wanted = {
-        f"juggleproof/{path.relative_to(ROOT).as_posix()}"
-        for folder in FOLDERS
+        f"juggleproof/{path.relative_to(ROOT).as_posix().removeprefix('juggleproof/')}"
+        for folder in (*FOLDERS, "juggleproof")
         for path in (ROOT / folder).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".smt2"
-    }
-    wanted |= {
-        f"juggleproof/{path.name}" for path in (ROOT / "juggleproof").iterdir() if path.is_file()
     }
     assert held == wanted

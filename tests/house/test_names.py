@@ -13,7 +13,7 @@ from importlib import import_module
 import pytest
 
 import juggleproof
-from juggleproof.proofs.extras import EXTRAS
+from juggleproof.judging.extras import EXTRAS
 from tests.house.graph import NAME, ROOT, tree_of
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]

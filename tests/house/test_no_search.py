@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.certificates.store import DEFAULT
+from juggleproof.statements.store import DEFAULT
 from tests.house.graph import ROOT
 
-SEARCHES = ("juggleproof.certificates.search", "juggleproof.certificates.votes")
+SEARCHES = ("juggleproof.search", "juggleproof.votes")
 TOOLS = {"z3", "highspy", "flint", "numpy", "mpmath", "sympy"}
 CODE = """
 import json, pathlib, sys
-from juggleproof.proofs import paper
-from juggleproof.proofs.run import judge_some
-claims = paper.claims_by_id()
+from juggleproof.papers.paper import opened
+from juggleproof.judging.run import judge_some
+claims = opened().claims_by_id
 (judged,) = judge_some([claims["eq-37"]], claims, pathlib.Path(sys.argv[1]))
 print(json.dumps([judged.verdict.word, sorted(sys.modules)]))
 """

@@ -8,11 +8,7 @@ from fractions import Fraction
 from functools import cache
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import term
-from juggleproof.certificates.search.certificate import search_certificate
-from juggleproof.certificates.work import Budget, read
-from juggleproof.proofs.judgement import DEFAULT_BUDGET
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.judging.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
 from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
@@ -25,6 +21,10 @@ from juggleproof.proofs.restitution.unequal import (
 )
 from juggleproof.proofs.theorem.definition import holds_at, value_of
 from juggleproof.proofs.theorem.orbits import State, step
+from juggleproof.reading.values import Vector
+from juggleproof.search.certificate import search_certificate
+from juggleproof.statements.language import term
+from juggleproof.statements.work import Budget, read
 from tests.rows import each_row
 from tests.stored import STORE, statements
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.simulations import figures as module
 from juggleproof.proofs.simulations.compute import (
     ALPHAS,
@@ -20,7 +19,8 @@ from juggleproof.proofs.simulations.compute import (
 from juggleproof.proofs.simulations.figures import Figures, figures
 from juggleproof.scenes.part.onsets import table_one
 from juggleproof.scenes.part.readings import Reading, chosen, recorded
-from tests.proofs.conftest import Loaded
+from juggleproof.statements.language import ClaimError
+from tests.judging.loading import loaded_anew
 
 ENSEMBLES = 4  # of the 24 that are kept
 
@@ -73,9 +73,10 @@ def test_table_1_is_within_its_scatter_holds(kept: Figures, reading: Reading) ->
         assert low <= median <= high
 
 
-def test_reading_the_figures_loads_no_scene_holds(loaded_anew: Loaded) -> None:
-    assert "juggleproof.proofs.simulations.figures" in loaded_anew.modules
-    assert not [name for name in loaded_anew.modules if name == "numba" or "scenes.part" in name]
+def test_reading_the_figures_loads_no_scene_holds() -> None:
+    loaded = loaded_anew()
+    assert "juggleproof.proofs.simulations.figures" in loaded.modules
+    assert not [name for name in loaded.modules if name == "numba" or "scenes.part" in name]
 
 
 @pytest.mark.parametrize("text", [None, "", "{"])

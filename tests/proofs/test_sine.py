@@ -14,18 +14,18 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.sine import stored
-from juggleproof.certificates.sine.stored import STATEMENT, STORE, stored_outcomes
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.work import Budget, read
-from juggleproof.proofs.claims import CheckedApart, claims_in
-from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement, Resources
-from juggleproof.proofs.judging import judge
-from juggleproof.proofs.reports.results import results_of_run
+from juggleproof.judging.claims import CheckedApart, claims_in
+from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, Resources
+from juggleproof.judging.judging import judge
 from juggleproof.proofs.sine import everywhere
-from tests.proofs.command.running import run
-from tests.proofs.stores import part_of_store
+from juggleproof.reports.results import results_of_run
+from juggleproof.search.certificate import search_certificate
+from juggleproof.sine.stored import STATEMENT, STORE, stored_outcomes
+from juggleproof.statements.store import DEFAULT, Store
+from juggleproof.statements.work import Budget, read
+from tests.command.running import run
+from tests.judging.stores import part_of_store
 from tests.rows import each_row
 
 (CLAIM,) = claims_in([everywhere.__name__])
@@ -149,7 +149,7 @@ def test_certify_and_check_tell_a_tampered_store_holds(
     store: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = part_of_store(tmp_path / "store", lambda claim: claim.startswith("sine-"))
-    monkeypatch.setattr("juggleproof.proofs.command.check.DEFAULT", own)
+    monkeypatch.setattr("juggleproof.command.check.DEFAULT", own)
     arguments = ("certify", "--only", "sine", "--jobs", "1", "--store", str(own), "--json")
     done = run(*arguments, str(tmp_path / "true.json"))
     assert done.returncode == 0 and f"sine: certified by the second checker: {STATEMENT}" in (

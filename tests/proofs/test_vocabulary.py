@@ -11,7 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import (
+from juggleproof.judging.claims import Assertion, CheckedApart, Claim
+from juggleproof.judging.forms import Vocabulary, always, domains_of
+from juggleproof.judging.judgement import Judgement, Resources
+from juggleproof.judging.judging import judge
+from juggleproof.papers.paper import opened
+from juggleproof.proofs.paper.names import STANDING
+from juggleproof.search.scales import with_scales
+from juggleproof.statements.language import (
     NO_ROLES,
     Formula,
     Roles,
@@ -20,13 +27,6 @@ from juggleproof.certificates.language import (
     equal,
     reals,
 )
-from juggleproof.certificates.search.scales import with_scales
-from juggleproof.proofs.claims import Assertion, CheckedApart, Claim
-from juggleproof.proofs.forms import Vocabulary, always, domains_of
-from juggleproof.proofs.judgement import Judgement, Resources
-from juggleproof.proofs.judging import judge
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.names import STANDING
 from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -176,7 +176,7 @@ def test_vocabulary_says_the_domain_holds() -> None:
 
 
 def test_every_claim_of_the_paper_has_the_papers_parameter_holds() -> None:
-    for claim in paper_claims():
+    for claim in opened().claims():
         roles = claim.roles([])
         # the part of section 2.1 has no restitution alpha, what another checker reads no statement
         other = claim.section in ("part", "2.1") or isinstance(claim.body(), CheckedApart)

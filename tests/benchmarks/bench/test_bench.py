@@ -48,8 +48,8 @@ from juggleproof.benchmarks.bench.questions import (
 from juggleproof.benchmarks.bench.run import measure
 from juggleproof.benchmarks.bench.solvers import goal
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.command.main import run as command
+from juggleproof.command.main import run as command
+from juggleproof.statements.language import ClaimError
 from juggleproof.symbolic.algebra import alpha, r, w, x
 from tests.rows import each_row
 
@@ -125,8 +125,8 @@ def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Frac
         (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False),
     ):
         from juggleproof.benchmarks.peers.routes import answer_of, checks, z3
-        from juggleproof.certificates.votes.questions import read_statement
-        from juggleproof.certificates.votes.smtlib import script
+        from juggleproof.votes.questions import read_statement
+        from juggleproof.votes.smtlib import script
 
         answer = answer_of(z3(), checks(script(read_statement(text))))
         assert answer.word == ("holds" if holds else "fails")

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import settling
-from juggleproof.certificates.store import certificate_lines
+from juggleproof.statements.store import certificate_lines
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, searched
 from tests.certificates.checker.rules import TABLES
 

@@ -8,10 +8,10 @@ from functools import cache
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import NO_ROLES
-from juggleproof.certificates.search.certificate import search_premises
-from juggleproof.certificates.search.ranges import Violation
-from juggleproof.certificates.work import Budget
+from juggleproof.search.certificate import search_premises
+from juggleproof.search.ranges import Violation
+from juggleproof.statements.language import NO_ROLES
+from juggleproof.statements.work import Budget
 
 Json = Any
 BUDGET = 40_000

@@ -32,7 +32,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT
+from juggleproof.statements.store import DEFAULT
 from tests.certificates.checker import (
     test_definitions,
     test_files,

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from juggleproof.certificates import checker
 from tests.certificates.checker.evaluator import term_at
 from tests.certificates.checker.harness import lines, proof, verdict
-from tests.certificates.drawn import fractions
+from tests.statements.drawn import fractions
 
 NAMES = ("x", "y", "z")
 MANY = settings(max_examples=60, deadline=None, derandomize=True)

@@ -17,7 +17,7 @@ from tests.certificates.checker.evaluator import formula_at, term_at
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused, refuted, verdict
 from tests.certificates.checker.maps import DOUBLE, NEST, PUSH, SUBTRACT, checked, edited, searched
 from tests.certificates.checker.rules import sharp
-from tests.certificates.drawn import fractions
+from tests.statements.drawn import fractions
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
 small = fractions(-3, 3, 4)

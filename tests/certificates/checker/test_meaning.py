@@ -27,7 +27,7 @@ from tests.certificates.checker.harness import (
     verdict,
 )
 from tests.certificates.checker.rules.sharp import EARLIER, SHARP, VALID, over
-from tests.certificates.drawn import fractions
+from tests.statements.drawn import fractions
 
 NAMES = ("x", "y", "z")
 FEW = settings(max_examples=25, deadline=None, derandomize=True)

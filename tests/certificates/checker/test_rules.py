@@ -10,7 +10,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
-from juggleproof.certificates.states import closes, finds, proves
+from juggleproof.statements.states import closes, finds, proves
 from tests.certificates.checker.harness import CLOSE, Case, judge, lines, refused
 from tests.certificates.checker.rules import TABLES
 

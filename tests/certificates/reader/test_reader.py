@@ -19,7 +19,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT
+from juggleproof.statements.store import DEFAULT
 from tests.certificates.checker.harness import Case
 from tests.certificates.checker.maps import (
     ASKED,

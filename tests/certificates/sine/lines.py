@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from juggleproof.certificates.sine.search import find_certificate, line_of
+from juggleproof.sine.search import find_certificate, line_of
 
 Q = Fraction
 Line = dict[str, Any]

@@ -18,10 +18,10 @@ from juggleproof.certificates.sine.checker import (
     outcome,
     read_statement,
 )
-from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
 from juggleproof.scenes.table.curves import gamma_of
 from juggleproof.scenes.table.motion import Table, bounce_phase, flights_to_bounce
+from juggleproof.sine.search import find_certificate, line_of
 from tests.certificates.sine.states import STEPS
 
 Q = Fraction

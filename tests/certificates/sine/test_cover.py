@@ -11,7 +11,6 @@ from typing import Any
 
 import pytest
 
-from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.sine import cover as covering
 from juggleproof.certificates.sine.cells import Attraction
 from juggleproof.certificates.sine.checker import (
@@ -22,10 +21,11 @@ from juggleproof.certificates.sine.checker import (
     read_line,
     read_statement,
 )
-from juggleproof.certificates.sine.cover import Covered, cover, first_boxes, halves, kept
-from juggleproof.certificates.sine.search import find_certificate, line_of
-from juggleproof.certificates.sine.stored import STATEMENT, STORE, WIDE, boxes_in
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
+from juggleproof.sine.cover import Covered, cover, first_boxes, halves, kept
+from juggleproof.sine.search import find_certificate, line_of
+from juggleproof.sine.stored import STATEMENT, STORE, WIDE, boxes_in
+from juggleproof.statements.language import ClaimError
 from tests.rows import each_row
 
 WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
@@ -245,7 +245,7 @@ def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
 ) -> None:
     ends = ("[1/20, 1/20] and Gamma in [31/10, 31/10]", "[1/10, 1/10] and g in [11/50, 11/50]")
     (tmp_path / "statements.txt").write_text("".join(f"{WORDS} {one}\n" for one in ends))
-    monkeypatch.setattr("juggleproof.certificates.sine.stored.WIDE", tmp_path)
+    monkeypatch.setattr("juggleproof.sine.stored.WIDE", tmp_path)
     assert run(["certify", "sine", "--jobs", "1", "--store", str(tmp_path / "found")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[::2][:2] == [f"certified: {WORDS} {one}" for one in ends]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from juggleproof.certificates.coq import PRELUDE
+from juggleproof.coq_store import PRELUDE
 from tests.proofs.coq.development import Coq, build
 
 

@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.states import State
+from juggleproof.statements.states import State
 from tests.certificates.checker.harness import Json
 
 HEAD = """From Coq Require Import QArith List Bool.

@@ -16,11 +16,11 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, NotWritten, export, lemmas, share_of, write
-from juggleproof.certificates.coq.files import CLASSES, HEADER
-from juggleproof.certificates.store import Store
-from juggleproof.proofs.bounds import LOWER, enclose_minimum
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
+from juggleproof.coq_store import PRELUDE, NotWritten, export, lemmas, share_of, write
+from juggleproof.coq_store.files import CLASSES, HEADER
+from juggleproof.judging.bounds import LOWER, enclose_minimum
+from juggleproof.statements.store import Store
 from tests.proofs.coq.development import Answer, Coq, compiled, coqc
 from tests.share import share
 from tests.stored import STORE, statements

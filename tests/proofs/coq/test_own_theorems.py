@@ -18,14 +18,14 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, NotWritten
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.command.main import run
-from juggleproof.proofs.command.show import export_coq
-from juggleproof.proofs.run import by_id, claims_of_file, judge_some
-from juggleproof.proofs.theorem import coq_rules
-from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from juggleproof.command.main import run
+from juggleproof.command.show import export_coq
+from juggleproof.coq_orbits import rules as coq_rules
+from juggleproof.coq_orbits.rules import theorem, theorems_in
+from juggleproof.coq_store import PRELUDE, NotWritten
+from juggleproof.judging.run import by_id, claims_of_file, judge_some
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import DEFAULT, Store
 from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import REALS, Answer, Coq, axioms, compiled
 from tests.proofs.coq.maps import WORDS

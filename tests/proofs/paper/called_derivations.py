@@ -15,11 +15,11 @@ from typing import Any
 from sympy import Expr, MatrixBase
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import origins_in
-from juggleproof.proofs.judgement import statements_of
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import Origin
+from juggleproof.judging.judgement import statements_of
+from juggleproof.papers.derivations import Origin
+from juggleproof.papers.paper import opened
 from juggleproof.proofs.paper.deriving import result
+from juggleproof.statements.language import origins_in
 
 calls: dict[str, set[str]] = {}
 working: list[str] = []
@@ -65,7 +65,7 @@ def called_derivations() -> dict[str, list[str]]:
     """For every derivation behind a claim those that it calls; for a process that ends with this,
     since `symbolic` stays changed.
     """
-    statements = [statements_of(claim) for claim in paper_claims()]
+    statements = [statements_of(claim) for claim in opened().claims()]
     origins = [one for one in dict.fromkeys(origins_in(statements)) if isinstance(one, Origin)]
     nodes = {name for name in dir(symbolic) if is_derivation(getattr(symbolic, name))}
     modules = [module for name, module in sys.modules.items() if "juggleproof.symbolic" in name]

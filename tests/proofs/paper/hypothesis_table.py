@@ -24,11 +24,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import reals
-from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.paper import names
 from juggleproof.proofs.paper import states as orbits
 from juggleproof.proofs.sine.bounces import TABLE as TABLE_VOCABULARY
+from juggleproof.statements.language import reals
+from juggleproof.statements.store import DEFAULT, Store
 from tests.proofs.paper.search_needs import (
     LICENSES,
     NEEDED,

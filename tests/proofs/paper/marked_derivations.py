@@ -15,12 +15,12 @@ from typing import Any
 from sympy import Expr, MatrixBase, Symbol
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import Term
-from juggleproof.certificates.store import DEFAULT
-from juggleproof.proofs.judgement import statements_of
-from juggleproof.proofs.ledger.derived import derive_again
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.run import findings_in
+from juggleproof.judging.judgement import statements_of
+from juggleproof.judging.run import findings_in
+from juggleproof.papers.derived import derive_again
+from juggleproof.papers.paper import opened
+from juggleproof.statements.language import Term
+from juggleproof.statements.store import DEFAULT
 
 NAMED = {"collide": "impact_map"}  # the impact of two states is a value of the derived impact map
 marks: list[str] = []
@@ -77,7 +77,7 @@ def main() -> None:
                 setattr(symbolic, name, marking(name, function))
     count_marks_as_zero()
     found, findings = {}, findings_in(DEFAULT)
-    for claim in paper_claims():
+    for claim in opened().claims():
         correction = findings.get(claim.id, {}).get("correction")
         texts = [part.text() for part in statements_of(claim, correction)]
         numbers = re.findall(r"\bmark_(\d+)\b", "\n".join(texts))

@@ -14,15 +14,15 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
+from juggleproof.algebra.conditions import Condition, ring_of
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.conditions import Condition, ring_of
-from juggleproof.certificates.language import Roles
-from juggleproof.certificates.search.certificate import point_or_counterexample, search_proof
-from juggleproof.certificates.search.points import assignments, values_of_assignment
-from juggleproof.certificates.states import State
-from juggleproof.certificates.votes.z3 import vote
-from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.paper.names import STANDING
+from juggleproof.search.certificate import point_or_counterexample, search_proof
+from juggleproof.search.points import assignments, values_of_assignment
+from juggleproof.statements.language import Roles
+from juggleproof.statements.states import State
+from juggleproof.statements.work import Budget, Exhausted
+from juggleproof.votes.z3 import vote
 
 NEEDED, LICENSES, NOT_NEEDED, UNDECIDED = "needed", "licenses a division", "not needed", "undecided"
 BUDGET = 2_000_000

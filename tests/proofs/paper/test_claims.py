@@ -10,26 +10,26 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.claims import NOT_FORMALISED, VERDICTS
-from juggleproof.proofs.command import explain
-from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import changes, load_register
-from juggleproof.proofs.reports import pages
+from juggleproof.command import explain
+from juggleproof.judging.claims import NOT_FORMALISED, VERDICTS
+from juggleproof.judging.register import changes, load_register
+from juggleproof.papers.ledger import check_claims, load_ledger
+from juggleproof.papers.paper import opened
+from juggleproof.reports import pages
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import DEFAULT, Store
 from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[3]
 
 
 def test_ledger_names_the_claims_there_are_holds() -> None:
-    check_claims(load_ledger(), {claim.id for claim in paper_claims()})
+    check_claims(load_ledger(), {claim.id for claim in opened().claims()}, opened().unprinted)
 
 
 def test_register_has_every_claim_holds() -> None:
     register = load_register()
-    assert set(register) == {claim.id for claim in paper_claims()}
+    assert set(register) == {claim.id for claim in opened().claims()}
     assert {entry["verdict"] for entry in register.values()} <= set(VERDICTS)
 
 
@@ -97,7 +97,7 @@ def test_rejects_a_page_without_marks(
 
 def test_repeated_prints_name_an_earlier_claim_holds() -> None:
     seen: set[str] = set()
-    for claim in paper_claims():
+    for claim in opened().claims():
         assert not claim.repeats or claim.repeats in seen, (
             f"{claim.id} repeats {claim.repeats}, which is no earlier claim"
         )
@@ -114,14 +114,14 @@ def test_change_of_verdict_shows_before_and_after_holds() -> None:
 
 
 def test_no_sentence_of_a_claim_names_a_verdict_holds() -> None:
-    for claim in paper_claims():
+    for claim in opened().claims():
         assert claim.says.endswith((".", "?", ")")), claim.id
 
 
 def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[str]) -> None:
     for claim in [
-        *paper_claims()[::20],
-        *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3")),
+        *opened().claims()[::20],
+        *(c for c in opened().claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3")),
     ]:
         assert explain.explain(claim.id) == 0
         told = capsys.readouterr().out

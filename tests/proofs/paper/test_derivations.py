@@ -12,18 +12,18 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
-from juggleproof.certificates.language import origins_in, reals, substitute
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.judgement import Correction, statements_of
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import (
+from juggleproof.judging.judgement import Correction, statements_of
+from juggleproof.judging.run import findings_in
+from juggleproof.papers.derivations import (
     Origin,
     derivations_of,
     derived,
     derived_vector,
 )
+from juggleproof.papers.paper import opened
 from juggleproof.proofs.paper.deriving import made_from
-from juggleproof.proofs.run import findings_in
+from juggleproof.statements.language import origins_in, reals, substitute
+from juggleproof.statements.store import DEFAULT, Store
 from tests.proofs.paper.called_derivations import called_derivations
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -55,7 +55,7 @@ def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None
         claim.id: sorted(
             one.function for one in derivations_of(statements_of(claim, mended.get(claim.id)))
         )
-        for claim in paper_claims()
+        for claim in opened().claims()
     }
     assert sum(map(bool, listed.values())) > 200
     assert listed == marked()
@@ -69,7 +69,7 @@ def test_derivations_are_of_the_statements_that_were_judged_holds() -> None:
         _, _, lines = text.partition("\n")
         if not lines.startswith("sharp "):
             stored.setdefault(name.split("/")[0], set()).add(lines)
-    for claim in paper_claims():
+    for claim in opened().claims():
         own = statements_of(claim, mended.get(claim.id))
         assert {one.text().partition("\n")[2] for one in own} == stored.get(claim.id, set())
 
@@ -86,7 +86,7 @@ def test_corrections_and_remarks_are_derived_too_holds() -> None:
     """The correction of s3.3-e1-closed has the time epsilon_1, and not xi_1; the remark of eq-30
     speaks of the kinetic energy.
     """
-    claims = {claim.id: claim for claim in paper_claims()}
+    claims = {claim.id: claim for claim in opened().claims()}
     closed, remarked = claims["s3.3-e1-closed"], claims["eq-30"]
     mended = derivations_of(statements_of(closed, corrections()[closed.id]))
     before = {one.function for one in derivations_of(statements_of(closed))}
@@ -98,7 +98,7 @@ def test_corrections_and_remarks_are_derived_too_holds() -> None:
 
 
 def test_the_energy_gain_lists_what_it_states_holds() -> None:
-    (claim,) = (claim for claim in paper_claims() if claim.id == "eq-37")
+    (claim,) = (claim for claim in opened().claims() if claim.id == "eq-37")
     names = [one.function for one in derivations_of(statements_of(claim))]
     assert names == ["total_energy", "f1", "largest_energy_change"]
 

@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError, Statement
-from juggleproof.proofs.claims import Claim, assertions, named_statements
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.reading.edits import mutations
-from juggleproof.proofs.reading.meaning import read
+from juggleproof.judging.claims import Claim, assertions, named_statements
+from juggleproof.papers.paper import opened
+from juggleproof.reading.edits import mutations
+from juggleproof.reading.meaning import read
+from juggleproof.statements.language import ClaimError, Statement
 from tests.rows import each_row
 from tests.share import share
 
@@ -85,7 +85,7 @@ REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 
 @cache
 def claims() -> dict[str, Claim]:
-    return {claim.id: claim for claim in paper_claims() if claim.printed}
+    return {claim.id: claim for claim in opened().claims() if claim.printed}
 
 
 def reviewed() -> set[tuple[str, str]]:

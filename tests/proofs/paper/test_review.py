@@ -8,9 +8,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from juggleproof.proofs.claims import Claim, stated_texts
-from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
+from juggleproof.judging.claims import Claim, stated_texts
+from juggleproof.judging.register import load_register
+from juggleproof.papers.paper import opened
 
 TABLE = Path(__file__).with_name("review.tsv")
 HEAD = ["claim", "digest", "the print asserts", "certified", "judgement"]
@@ -33,7 +33,7 @@ def test_every_claim_that_holds_was_compared_with_its_print_as_it_is_now_holds()
     register = load_register()
     held = {
         claim.id: digest(claim)
-        for claim in paper_claims()
+        for claim in opened().claims()
         if register[claim.id]["verdict"] == "holds"
     }
     assert {claim: read for claim, read, *_ in rows()} == held

@@ -12,11 +12,11 @@ from functools import cache
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.definitions import formula_of, short_line, shortened
-from juggleproof.certificates.store import DEFAULT, Store, WrittenOut
-from juggleproof.proofs.claims import Argument, Claim, Following
-from juggleproof.proofs.paper import paper_claims
+from juggleproof.judging.claims import Argument, Claim, Following
+from juggleproof.papers.paper import opened
 from juggleproof.proofs.paper.names import definitions, sets
+from juggleproof.statements.definitions import formula_of, short_line, shortened
+from juggleproof.statements.store import DEFAULT, Store, WrittenOut
 from tests.rows import each_row
 
 EXCEPTIONS = Path(__file__).with_name("sentences.tsv")
@@ -161,7 +161,7 @@ def test_what_a_sentence_names_is_defined_in_its_statements_holds() -> None:
     """No sentence is listed that has what it names: an exception that is not needed fails too."""
     found = {
         (claim.id, name)
-        for claim in paper_claims()
+        for claim in opened().claims()
         for text in [statements(claim)]
         if text
         for name in missing(claim.says, text)
@@ -171,7 +171,7 @@ def test_what_a_sentence_names_is_defined_in_its_statements_holds() -> None:
 
 def test_a_sentence_says_what_narrows_its_statements_holds() -> None:
     found = {
-        claim.id: unsaid(claim.says, statements(claim, rules=False)) for claim in paper_claims()
+        claim.id: unsaid(claim.says, statements(claim, rules=False)) for claim in opened().claims()
     }
     assert {claim: names for claim, names in found.items() if names} == {}
 
@@ -221,7 +221,7 @@ CHANGED = (
 def test_rejects_a_statement_with_another_condition(
     statement: str, line: str, other: str, found: str
 ) -> None:
-    (claim,) = (one for one in paper_claims() if one.id == statement.split("/")[0])
+    (claim,) = (one for one in opened().claims() if one.id == statement.split("/")[0])
     rows = stored()[statement].split("\n")
     assert line in rows
     changed = [other if row == line else row for row in rows]
@@ -238,7 +238,9 @@ def test_rejects_a_statement_without_what_is_named(
 ) -> None:
     """Some claim names it, and the statements of that claim do not without it."""
     claims = [
-        claim for claim in paper_claims() if name in dict(named(claim.says)) and statements(claim)
+        claim
+        for claim in opened().claims()
+        if name in dict(named(claim.says)) and statements(claim)
     ]
     assert claims
     without = re.compile("|".join(rf"(?<!\w)(?:{one})(?![\w'])" for one in stands))

@@ -17,10 +17,10 @@ from multiprocessing import get_context
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.certificate import search_certificate
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.votes.z3 import vote
-from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.search.certificate import search_certificate
+from juggleproof.statements.store import DEFAULT, Store
+from juggleproof.statements.work import Budget, Exhausted
+from juggleproof.votes.z3 import vote
 from tests.proofs.paper.independent import Independent, iterates_contradiction
 from tests.proofs.paper.statement_mutants import mutants
 from tests.share import MANY, share

@@ -10,17 +10,17 @@ from functools import cache
 
 import pytest
 
-from juggleproof.certificates.language import ClaimError, reals
-from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.claims import Assertion, Claim, Reading, Readings, Remark
-from juggleproof.proofs.correcting import Candidate, coefficients_on_printed_terms, differences
-from juggleproof.proofs.judgement import Resources
-from juggleproof.proofs.judging import judge
-from juggleproof.proofs.ledger.ledger import UNPRINTED
-from juggleproof.proofs.paper import paper_claims
+from juggleproof.judging.claims import Assertion, Claim, Reading, Readings, Remark
+from juggleproof.judging.correcting import Candidate, coefficients_on_printed_terms, differences
+from juggleproof.judging.judgement import Resources
+from juggleproof.judging.judging import judge
+from juggleproof.judging.register import load_register
+from juggleproof.papers.paper import opened
+from juggleproof.proofs.ledger.unprinted import UNPRINTED
 from juggleproof.proofs.paper.names import B1, always, b, energy, f1
-from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.register import load_register
+from juggleproof.reading.meaning import Printed
+from juggleproof.statements.language import ClaimError, reals
+from juggleproof.statements.store import DEFAULT, Store
 from tests.rows import each_row
 
 REGISTER, STORE = load_register(), Store(DEFAULT)
@@ -29,7 +29,7 @@ MOST_AMBIGUOUS = 12
 
 @cache
 def claims() -> dict[str, Claim]:
-    return {claim.id: claim for claim in paper_claims()}
+    return {claim.id: claim for claim in opened().claims()}
 
 
 def outcome(name: str) -> str:

@@ -10,10 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from juggleproof.certificates.language import ClaimError, reals
-from juggleproof.proofs.command import theorem
-from juggleproof.proofs.command.main import run
-from juggleproof.proofs.reports.tables import exact, shown
+from juggleproof.command import theorem
+from juggleproof.command.main import run
 from juggleproof.proofs.theorem import quantities
 from juggleproof.proofs.theorem.definition import (
     CORE,
@@ -33,6 +31,8 @@ from juggleproof.proofs.theorem.orbits import (
     step,
 )
 from juggleproof.proofs.theorem.quantities import Bound, bracket, entry_into_region, into_region
+from juggleproof.reports.tables import exact, shown
+from juggleproof.statements.language import ClaimError, reals
 
 THIRD = Fraction(1, 3)
 

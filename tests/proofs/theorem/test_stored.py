@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.statements.store import DEFAULT, Store
 from tests.rows import each_row
 
 Json = Any

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Symbol, sympify
 
-from juggleproof.certificates.language import term
-from juggleproof.proofs.command.main import run
+from juggleproof.command.main import run
 from juggleproof.proofs.theorem.definition import FIXED, PIECES, TRAP, holds_at, value_of
 from juggleproof.proofs.theorem.orbits import SHEARED, from_the_fixed_point
 from juggleproof.scenes.juggler.exact import flight, flight_length, impact, impact_power, strikes
 from juggleproof.scenes.juggler.given import formulas, region
+from juggleproof.statements.language import term
 from juggleproof.symbolic import (
     lowest_terms,
     normal_e_1,
@@ -131,7 +131,7 @@ def test_whole_flight_is_the_single_periods_holds(x: Fraction, w: Fraction, more
 # The trap of the scene, which holds for every alpha, is certified by the checker: it is mapped into
 # itself and every state of it strikes.
 
-CLAIM = '''from juggleproof.proofs import always, claim, reals
+CLAIM = '''from juggleproof import always, claim, reals
 
 a, x, w = reals("a x w")
 

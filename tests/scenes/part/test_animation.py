@@ -23,7 +23,7 @@ from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.layout import ANGLES, lying
 from juggleproof.scenes.part.picture import as_in_figure_two
 from juggleproof.scenes.part.setting import Array
-from tests.proofs.reports.browser import Element, chromium, read_html, requests, resize
+from tests.reports.browser import Element, chromium, read_html, requests, resize
 from tests.rows import each_row
 
 if TYPE_CHECKING:

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from juggleproof.drawing.look import Look
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.look import Look
 from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part import picture as p
 from juggleproof.scenes.part.layout import ANGLES, lying, pitch, place, rows
 from juggleproof.scenes.part.rest import side
 from juggleproof.scenes.part.setting import Array
+from tests.drawing.test_drawing import DEFICIENCIES, apart, filled, lab, seen
 from tests.rows import each_row
-from tests.scenes.figures.test_drawing import DEFICIENCIES, apart, filled, lab, seen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -172,8 +172,8 @@ def loaded_by(code: str) -> set[str]:
 def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds() -> None:
     loaded = loaded_by(  # none of them, so none of them alone
         "from juggleproof.scenes import juggler; juggler.orbit, juggler.scene\n"
-        "import juggleproof.proofs.command.main\n"
-        "import juggleproof.scenes.figures\n"
+        "import juggleproof.command.main\n"
+        "import juggleproof.proofs.figures\n"
         "import juggleproof.symbolic"
     )
     assert "numba" not in loaded and not [

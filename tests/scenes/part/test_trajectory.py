@@ -149,7 +149,7 @@ def test_a_picture_of_table_one_counts_what_has_no_onset_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     pytest.importorskip("matplotlib")
-    from juggleproof.scenes.figures.drawing import Plane
+    from juggleproof.drawing.drawing import Plane
 
     dots: dict[str, int] = {}
     words: list[str] = []

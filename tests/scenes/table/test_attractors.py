@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from juggleproof.proofs.command.main import run
-from juggleproof.proofs.command.sine import wide_boxes
+from juggleproof.command.main import run
+from juggleproof.command.sine import wide_boxes
 from juggleproof.scenes.table import attractors as many
 from juggleproof.scenes.table import cover
 from juggleproof.scenes.table.curves import birth, doubling, gamma_of

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from juggleproof.proofs.command import sine
-from juggleproof.proofs.command.main import run
+from juggleproof.command import sine
+from juggleproof.command.main import run
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.table.motion import (
     Table,

@@ -1,0 +1,236 @@
+"""`juggleproof certify`: claims of the paper, or of files."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from importlib import import_module
+from itertools import count
+from pathlib import Path
+
+from rich.console import Console
+
+from juggleproof.command.outputs import asked_of, now_and_then, refuse_unwritable
+from juggleproof.judging.claims import CheckedApart, Claim, one_line
+from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, statements_of
+from juggleproof.judging.register import PATH, Register, load_register, write_register
+from juggleproof.judging.run import Options, Progress, claims_of_files, findings_in, run, store_of
+from juggleproof.papers import derived
+from juggleproof.papers.derivations import behind, derivations_of
+from juggleproof.papers.index import write_index
+from juggleproof.papers.paper import opened
+from juggleproof.reports import pages
+from juggleproof.reports import results as table
+from juggleproof.reports.ci import as_junit, failing, markdown
+from juggleproof.reports.contents import Contents, as_json, contents_of
+from juggleproof.reports.results import Results, results_of_run, theorem_of_run
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import DEFAULT, write_file
+
+# -------------------------------------------------------------------------------------------------
+# `juggleproof certify`: judge every claim, store what was found, let the checker read the whole
+# store, compare with the register.
+
+
+class CertifyOptions(argparse.Namespace):
+    """What `juggleproof certify` takes; 0 is for the default."""
+
+    files: list[Path]
+    only: list[str] | None
+    routes: str
+    fresh: bool
+    rederive: bool
+    revote: bool
+    jobs: int
+    budget: int
+    accept: bool
+    store: Path | None
+    json: Path | None
+    junit: Path | None
+    markdown: Path | None
+    timings: Path | None
+    report: list[str]
+    output: Path | None
+    write_reports: Callable[[Contents], int] | None
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Judges claims; returns the exit code."""
+    return certify(CertifyOptions(**vars(parsed)))
+
+
+def certify(options: CertifyOptions, register: Path = PATH) -> int:
+    """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
+    every claim holds), else 1.
+    """
+    refuse_unwritable(options.files, asked_of(options))
+    _refuse_what_needs_the_paper(options)
+    before = None if options.files else load_register(register)
+    console = Console(highlight=False)
+    claims = claims_of_files(options.files) if options.files else opened().claims()
+    with _progress(console, len(options.only or claims)) as step:
+        done = run(claims, _options(options), step)
+    table.draw(done.claims, done.judgements, console)
+    print(table.summary(done.judgements))
+    theorem = "" if options.files else theorem_of_run(done)
+    print(theorem, end="\n" if theorem else "")
+    for claim, judged in zip(done.claims, done.judgements):
+        body = claim.body()
+        if isinstance(body, CheckedApart):
+            print(body.line(claim.id, judged.verdict))
+    for name in done.restated:
+        print(f"restated {name}: what was stored is not the statement of the sources")
+    for name, reason in done.rejected:
+        print(f"rejected by the checker: {name}: {reason}")
+    accepts = options.accept and not done.rejected
+    results = results_of_run(
+        done.claims,
+        done.judgements,
+        before,
+        theorem=theorem,
+        rejected=done.rejected,
+        partial=bool(options.only),
+        accepted=accepts,
+    )
+    for one in results.claims if options.files else ():
+        if one.verdict != "holds":
+            print(f"\n{one.id}: {failing(one)}".replace("\n", "\n    ").replace("\n    ", "\n", 1))
+    if results.own and results.exit:
+        files = " ".join(one_line(str(path)) for path in options.files)
+        print(f"\n`juggleproof explain ID {files}` shows a claim whole")
+    for change in results.changes:
+        print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
+    if before is not None and accepts:
+        _accept(results, before, options, register)
+    write_outputs(options, results, done.seconds)
+    if options.rederive and not _derives_what_is_kept():
+        return 1
+    if options.write_reports is None:
+        return results.exit
+    return results.exit | options.write_reports(contents_of(done, load_register(register)))
+
+
+def _derives_what_is_kept() -> bool:
+    """Whether the sources derive all that is kept, in as many words."""
+    _derive_everything()
+    kept = derived.kept()
+    otherwise = kept.otherwise()
+    if otherwise:
+        print(f"{derived.PATH.name}: kept otherwise than derived: {otherwise};", end=" ")
+        print("`juggleproof certify --accept` writes it anew")
+    else:
+        print(f"derived again: {len(kept.asked)} values, all as they are kept")
+    return not otherwise
+
+
+def _derive_everything() -> None:
+    """Asks for all that is derived of the paper's claims, as they are judged and as they are
+    shown.
+    """
+    found = findings_in(DEFAULT)
+    for claim in opened().claims():
+        correction = found.get(claim.id, {}).get("correction")
+        for one in behind(derivations_of(statements_of(claim, correction))):
+            one.shown()
+        if claim.derived is not None:
+            claim.derived()
+        if claim.true_nearby is not None:
+            claim.true_nearby[1]()
+
+
+def _refuse_what_needs_the_paper(options: CertifyOptions) -> None:
+    """Raises ClaimError, one line, for what goes with the paper's claims only, or with all of
+    them.
+    """
+    if options.rederive and options.files:
+        raise ClaimError("--rederive: for the paper's claims; leave out FILE")
+    if options.report and (options.files or options.only):
+        raise ClaimError("--report: shows all claims of the paper; leave out FILE and --only")
+    if options.output is not None and not options.report:
+        raise ClaimError("-o: where reports go; name one with --report")
+
+
+def _options(options: CertifyOptions) -> Options:
+    own = store_of(options.files) if options.files else None
+    return Options(
+        options.store or own or DEFAULT,
+        tuple(options.routes.split(",")),
+        options.budget or DEFAULT_BUDGET,
+        options.jobs,
+        options.fresh,
+        tuple(options.only or ()),
+        options.revote,
+    )
+
+
+@contextmanager
+def _progress(console: Console, total: int) -> Iterator[Progress]:
+    """Shows how far the run is: as a bar on a terminal, else as a line on standard error now and
+    then.
+    """
+    if not console.is_terminal:
+        yield _lines_of_progress(total)
+        return
+    bars = import_module("rich.progress")  # some hundredths of a second
+    columns = (
+        bars.TextColumn("{task.description:24}"),
+        bars.BarColumn(),
+        bars.MofNCompleteColumn(),
+        bars.TimeElapsedColumn(),
+    )
+    with bars.Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("judging", total=total)
+
+        def step(claim: Claim, judgement: Judgement) -> None:
+            bar.update(task, advance=1, description=f"{claim.id} {judgement.verdict.word}")
+
+        yield step
+
+
+def _lines_of_progress(total: int) -> Progress:
+    judged, tell = count(1), now_and_then()
+
+    def step(claim: Claim, judgement: Judgement) -> None:
+        tell(f"{next(judged)} of {total} claims judged")
+
+    return step
+
+
+def _accept(
+    results: Results,
+    before: Register,
+    options: CertifyOptions,
+    register: Path,
+) -> None:
+    """Writes the verdicts into the register, and what is generated into the pages where the
+    verdicts are those of the stored certificates.
+    """
+    after = {one.id: one.registered() for one in results.claims}
+    write_register({**before, **after} if options.only else after, register)
+    if options.store is None and register == PATH:
+        write_index(opened().modules)
+        _derive_everything()
+        derived.kept().write()
+        pages.update()
+
+
+# -------------------------------------------------------------------------------------------------
+# The files that it writes beside the store: refused before the run where they could not be written
+# after it.
+
+
+def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:
+    """Writes each file that was asked for."""
+    for option, path in asked_of(options).items():
+        write_file(path, _content(option, results, seconds if options.timings else {}))
+
+
+def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
+    if option == "json":
+        return as_json(results)
+    if option == "junit":
+        return as_junit(results, seconds)
+    if option == "markdown":
+        return markdown(results).encode()
+    return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()

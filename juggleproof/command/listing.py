@@ -1,0 +1,77 @@
+"""`juggleproof list`: the claims as the index and the register have them; none is loaded."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib import import_module
+
+from juggleproof.command.outputs import show
+from juggleproof.judging.claims import VERDICTS
+from juggleproof.judging.register import load_register
+from juggleproof.papers.index import load_index
+from juggleproof.papers.paper import opened
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import canonical
+
+TABLES = "juggleproof.reports.tables"  # a terminal alone needs it
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Prints the claims that are asked for; returns the exit code."""
+    return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
+
+
+def list_claims(
+    section: str = "", verdict: str = "", with_lines: bool = False, as_json: bool = False
+) -> int:
+    """One line a claim: id, place, registered verdict, what it says; a table on a terminal.
+
+    Only the claims of a section, such as 4.2, or A with all below it, and of one verdict, where
+    these are asked for; places are lines of the transcription where these are.  Raises ClaimError
+    for a section or verdict that is none.
+    """
+    register = load_register()
+    everything = [
+        {
+            "id": one["id"],
+            "section": one["section"],
+            "place": one["line" if with_lines else "place"],
+            "verdict": register[one["id"]]["verdict"] if one["id"] in register else "not judged",
+            "says": one["says"],
+        }
+        for one in load_index(opened().modules)
+    ]
+    listed = [
+        one
+        for one in everything
+        if (not section or in_section(one["section"], section))
+        and (not verdict or one["verdict"] == verdict)
+    ]
+    if verdict and verdict not in VERDICTS:
+        raise ClaimError(f"--verdict {verdict}: choose from {', '.join(VERDICTS)}")
+    if section and not any(in_section(one["section"], section) for one in everything):
+        raise ClaimError(f"--section {section}: no claim is of it; `juggleproof list` shows all")
+    if as_json:
+        print(canonical([*listed]).decode(), end="")
+        return 0
+    heads = {"id": "id", "place": "place", "verdict": "registered", "says": "says"}
+    rows = [tuple(one[key] for key in heads) for one in listed]
+    if sys.stdout.isatty():
+        console = import_module("rich.console").Console()
+        with console.capture() as captured:
+            import_module(TABLES).draw([*heads.values()], rows, console)
+        show(captured.get())
+        return 0
+    for name, place, word, says in rows:
+        print(f"{name:32} {place:34} {word:12} {says}")
+    return 0
+
+
+def in_section(own: str, wanted: str) -> bool:
+    """Whether a section is the wanted one, or below it.
+
+    >>> in_section("A.3.2", "A"), in_section("4.2", "4.2"), in_section("4.2", "4.21")
+    (True, True, False)
+    """
+    return f"{own}.".startswith(f"{wanted}.")

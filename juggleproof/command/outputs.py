@@ -1,0 +1,181 @@
+"""Files that commands write, and progress on a terminal."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pydoc
+import shutil
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from time import monotonic
+from typing import BinaryIO
+
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import write_file
+
+# -------------------------------------------------------------------------------------------------
+# Files that are refused before a run where they could not be written after it.
+
+
+def fault_of(path: Path) -> str:
+    """Why the file cannot be written, by a trial with a file beside it; nothing where it can."""
+    try:
+        if path.is_dir():
+            return "is a folder"
+        if path.exists() and not path.is_file():  # a device or a pipe, which renaming would replace
+            return "is no plain file"
+        folder = path.absolute().parent
+        if not folder.is_dir():
+            return f"cannot be written ({folder} is no folder; make it first)"
+        with tempfile.NamedTemporaryFile(prefix=".", dir=folder):
+            return ""
+    except (OSError, ValueError) as error:
+        return f"cannot be written ({getattr(error, 'strerror', None) or error})"
+
+
+def fault_of_folder(folder: Path) -> str:
+    """Why no file can be written in the folder, which is made where it is missing."""
+    there = (one for one in (folder.absolute(), *folder.absolute().parents) if one.exists())
+    return fault_of(next(there) / "file")
+
+
+OUTPUTS = ("json", "junit", "markdown", "timings")
+
+
+def asked_of(options: argparse.Namespace) -> dict[str, Path]:
+    """The files that `certify` is to write beside the store, by their options."""
+    return {
+        option: getattr(options, option)
+        for option in OUTPUTS
+        if getattr(options, option) is not None
+    }
+
+
+def refuse_unwritable(files: Sequence[Path], asked: Mapping[str, Path]) -> None:
+    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
+    be written, or would overwrite another.
+    """
+    taken = {path.resolve(): f"the claims of {path}" for path in files}
+    for option, path in asked.items():
+        fault = fault_of(path) or (
+            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
+        )
+        if fault:
+            raise ClaimError(f"--{option} {path}: {fault}; name another file")
+        taken[path.resolve()] = f"what --{option} writes"
+
+
+@contextmanager
+def written_aside(path: Path) -> Iterator[BinaryIO]:
+    """A file to write to, put in the place of the path when all is written; removed where that
+    fails.  ClaimError for a full disk.
+    """
+    try:
+        handle, aside = tempfile.mkstemp(prefix=".", suffix=path.suffix + ".new", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                yield file
+            os.chmod(aside, 0o644)
+            os.replace(aside, path)
+        except BaseException:
+            os.unlink(aside)
+            raise
+    except OSError as error:
+        raise ClaimError(
+            f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
+        ) from None
+
+
+Files = Mapping[str, bytes]  # by name
+
+
+def write_all(files: Files, place: Path) -> None:
+    """Writes the files of a report, each aside and renamed, and prints their paths."""
+    clear()
+    for name, content in files.items():
+        write_file(place / name, content)
+        print(place / name)
+
+
+# -------------------------------------------------------------------------------------------------
+# Long texts, by the user's pager where they do not fit on the terminal.
+
+
+def show(text: str) -> None:
+    """Prints the text; on a terminal that it does not fit by the pager, which PAGER names."""
+    fits = text.count("\n") < shutil.get_terminal_size().lines
+    if fits or not (sys.stdin.isatty() and sys.stdout.isatty()):
+        print(text.rstrip("\n"))
+    else:
+        pydoc.pager(text)
+
+
+# -------------------------------------------------------------------------------------------------
+# How far a long run is, on a terminal.
+
+
+def progress() -> Callable[[int, int], None] | None:
+    """Shows how far a run is, on a terminal only."""
+    if not sys.stderr.isatty():
+        return None
+    last = [-1]
+
+    def show(done: int, of: int) -> None:
+        part = 1000 * done // max(of, 1)
+        if part != last[0]:
+            last[0] = part
+            print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+PAUSE = 3.0  # seconds between two lines of progress
+
+
+def now_and_then() -> Callable[[str], None]:
+    """Writes a line of progress to standard error, unless one was written a moment ago."""
+    due = monotonic() + PAUSE
+
+    def tell(line: str) -> None:
+        nonlocal due
+        if monotonic() >= due:
+            due = monotonic() + PAUSE
+            print(line, file=sys.stderr, flush=True)
+
+    return tell
+
+
+@contextmanager
+def busy(doing: str) -> Iterator[None]:
+    """Shows what is being done and for how many seconds, on a terminal only."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    done = threading.Event()
+
+    def show() -> None:
+        for seconds in count(1):
+            if done.wait(1.0):
+                return
+            print(f"\r\x1b[K{doing}: {seconds} s", end="", file=sys.stderr, flush=True)
+
+    shown = threading.Thread(target=show, daemon=True)
+    shown.start()
+    try:
+        yield
+    finally:
+        done.set()
+        shown.join()
+        clear()
+
+
+def clear() -> None:
+    """Takes the line of progress away."""
+    if sys.stderr.isatty():
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)

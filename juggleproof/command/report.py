@@ -1,0 +1,168 @@
+"""`juggleproof report`: the stored claims as a page, as LaTeX, as a PDF, and as data for other
+programs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+import re
+import sys
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from juggleproof.command.outputs import busy, write_all
+from juggleproof.judging import kept
+from juggleproof.judging.checked import Checked, Reading
+from juggleproof.judging.extras import needed
+from juggleproof.sine.stored import stored_outcomes
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import DEFAULT, Store
+
+if TYPE_CHECKING:
+    from juggleproof.reports.contents import Contents
+
+DEFAULT_FOLDER = Path("juggleproof-report")
+LIBRARIES = {  # of each format, where it needs one
+    "html": "jinja2",
+    "latex": "jinja2",
+    "pdf": "jinja2",
+    "markdown": "",
+    "json": "",
+    "badge": "",
+    "figures": "matplotlib",
+}
+MAKERS = "juggleproof.command.formats"  # which take a second to load
+NOT_KEPT = "pdf"  # which programs make that no digest knows
+DRAWN_BY = ("jinja2", "markupsafe", "latex2mathml", "matplotlib")
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Writes the reports that are asked for; returns the exit code."""
+    return report(parsed.format, parsed.output)
+
+
+def report(wanted: Sequence[str], folder: Path | None) -> int:
+    """Writes a report of each of these formats into the folder and prints the paths; returns 1
+    where what was made has faults that a reader would see.
+
+    Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
+    library or program that is absent.
+    """
+    write = writer(wanted, folder, "--format")
+    checked = check_store()
+    under = key_of(checked)
+    found = {one: kept_files(f"{one}-{under}") for one in dict.fromkeys(wanted)} if under else {}
+    if found and all(found.values()):
+        for files in found.values():
+            write_all(files, folder or DEFAULT_FOLDER)
+        return 0
+    with busy("judging the stored claims"):
+        contents: Contents = import_module(MAKERS).gather(checked=checked)
+    return write(contents, under if settles(checked, contents) else "")
+
+
+def check_store() -> Checked:
+    """What the checker says of every stored statement; nothing where the store cannot be read."""
+    with busy("checking the stored certificates"), Reading(DEFAULT, os.cpu_count() or 1) as reading:
+        reading.outcomes()
+    return reading.results
+
+
+def writer(
+    wanted: Sequence[str], folder: Path | None, option: str = "--report"
+) -> Callable[..., int]:
+    """Return a function that does the same with contents in hand, and keeps what it makes under a
+    key where it has one.  An unknown format, a file in place of a folder, and a format without its
+    library are refused at once.
+    """
+    for one in wanted:
+        if one not in LIBRARIES:
+            raise ClaimError(f"{option} {one}: choose from {', '.join(LIBRARIES)}")
+        if LIBRARIES[one]:
+            needed(LIBRARIES[one])
+    place = folder or DEFAULT_FOLDER
+    _refuse_what_is_no_folder(place)
+
+    def write(contents: Contents, under: str = "") -> int:
+        formats, faulty = import_module(MAKERS), 0
+        for one in dict.fromkeys(wanted):
+            with busy(f"making the report as {one}"):
+                made, faults = formats.FORMATS[one](contents, place)
+            write_all(made, place)
+            if under and one != NOT_KEPT:
+                kept.keep(f"{one}-{under}", [_record(name, made[name]) for name in made])
+            for fault in faults:
+                print(f"juggleproof: {fault}", file=sys.stderr)
+                faulty = 1
+        return faulty
+
+    return write
+
+
+def _refuse_what_is_no_folder(place: Path) -> None:
+    inner = next(one for one in (place, *place.absolute().parents) if one.exists())
+    if not inner.is_dir():
+        raise ClaimError(f"{inner}: not a folder; choose another with -o")
+
+
+# -------------------------------------------------------------------------------------------------
+# A report that an earlier run made is written again where the checkers say the same of the same
+# store, word for word, and the sources are the same. They are asked in each run: what was judged
+# follows from these, and so does every byte of the report.
+
+
+def key_of(checked: Checked) -> str:
+    """A digest of all that a report is made of: what both checkers said in this run of every
+    statement, the store, the files of the packages, what a run of the scene kept, and the versions
+    of libraries.
+
+    Empty where nothing can be kept, the checker came to no results, or figures cannot be drawn,
+    which each run has to say.
+    """
+    place = kept.folder()
+    if place is None or not checked or find_spec("matplotlib") is None:
+        return ""
+    scene = [kept.load(path.stem) for path in sorted(place.glob("part-*.json"))]
+    files = [*sorted(DEFAULT.iterdir()), kept.ROOT / "pyproject.toml"]
+    digests = [
+        hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "" for path in files
+    ]
+    versions = [kept.version_of(tool) for tool in ("juggleproof", *DRAWN_BY)]
+    said = (checked, stored_outcomes())
+    return kept.key(said, digests, versions, scene, files="*")
+
+
+def settles(checked: Checked, contents: Contents) -> bool:
+    """Whether every outcome that the report shows is what the checker said of this very text in the
+    store; a certificate that was found in this run is in no store.
+    """
+    outcomes, texts = {name: outcome for name, outcome, _ in checked}, Store(DEFAULT).texts
+    return all(
+        outcomes.get(one.name) == one.outcome and texts.get(one.name) == one.text
+        for entry in contents.entries
+        for one in entry.statements
+    )
+
+
+def kept_files(key: str) -> dict[str, bytes]:
+    """The files of a report that were kept under the key; none where there are none, or where one
+    would be written outside of the report's folder.
+    """
+    try:
+        files = {
+            record["name"]: b64decode(record["data"], validate=True) for record in kept.load(key)
+        }
+    except (KeyError, TypeError, ValueError):
+        return {}
+    inside = all(re.fullmatch(r"(figures/)?\w[\w.-]*", name) for name in files)
+    return files if inside else {}
+
+
+def _record(name: str, content: bytes) -> kept.Record:
+    return {"name": name, "data": b64encode(content).decode("ascii")}

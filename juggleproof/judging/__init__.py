@@ -1,0 +1,1 @@
+"""Claims, how they are judged, and what is registered of them."""

@@ -1,0 +1,126 @@
+"""Reports and what they have drawn, kept between runs in files outside the tree; every fault of
+these only costs time, and nothing is concluded from them.
+
+JUGGLEPROOF_CACHE names another folder, or is `off`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import canonical, plain_file, write_file
+
+Record = dict[str, Any]  # plain data, as JSON has it
+VARIABLE = "JUGGLEPROOF_CACHE"
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ("juggleproof", "symbolic", "proofs", "certificates")  # installed, the first holds all
+TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
+KEPT = 8  # files of a kind, each of one state of the sources
+LARGEST = 50_000_000
+
+
+def folder() -> Path | None:
+    """Where they are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None
+    where it is off or there is no home.
+    """
+    chosen = os.environ.get(VARIABLE, "")
+    if chosen == "off":
+        return None
+    if chosen:
+        return Path(chosen)
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "juggleproof"
+    except RuntimeError:
+        return None
+
+
+def key(
+    *settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES, files: str = "*.py"
+) -> str:
+    """A digest of the packages' files of such names, the versions of Python and of the libraries,
+    and the settings.
+    """
+    digest = hashlib.sha256(
+        repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
+    )
+    for path in _sources(root, packages, files):
+        content = path.read_bytes()
+        digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def version_of(tool: str) -> str:
+    """The version of a library, or that it is absent."""
+    try:
+        return version(tool)
+    except PackageNotFoundError:
+        return "absent"
+
+
+def _sources(root: Path, packages: Sequence[str] = SOURCES, files: str = "*.py") -> Iterator[Path]:
+    for package in packages:
+        for path in sorted((root / package).rglob(files)):
+            if path.parent.name != "__pycache__" and path.is_file():
+                yield path
+
+
+def load(key: str) -> list[Record]:
+    """The records that were kept under the key; none where there is no such file, or it is not
+    whole, or not the user's own.
+    """
+    place = folder()
+    if place is None:
+        return []
+    path = place / f"{key}.json"
+    try:
+        status = path.stat()
+        if (
+            status.st_size > LARGEST
+            or hasattr(os, "getuid")
+            and (status.st_uid != os.getuid() or status.st_mode & 0o022)
+        ):
+            return []
+        head, _, rest = plain_file(path).read_bytes().partition(b"\n")
+        if head.decode() != hashlib.sha256(key.encode() + rest).hexdigest():
+            return []
+        records = json.loads(rest)["records"]
+        return (
+            records
+            if isinstance(records, list) and all(isinstance(one, dict) for one in records)
+            else []
+        )
+    except (OSError, ValueError, KeyError, TypeError, RecursionError, MemoryError):
+        return []
+
+
+def keep(key: str, records: Sequence[Record]) -> None:
+    """Keeps the records under the key, and only the latest few files; a folder that cannot be
+    written is let be.
+    """
+    place = folder()
+    if place is None:
+        return
+    content = canonical({"records": list(records)})
+    try:
+        write_file(
+            place / f"{key}.json",
+            hashlib.sha256(key.encode() + content).hexdigest().encode() + b"\n" + content,
+        )
+        files = sorted(
+            place.glob(key[:-64] + "[0-9a-f]" * 64 + ".json"),
+            key=lambda path: path.stat().st_mtime,
+            reverse=True,
+        )
+        for path in files[KEPT:]:
+            path.unlink()
+    except (OSError, ClaimError):
+        return

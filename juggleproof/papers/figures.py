@@ -1,0 +1,39 @@
+"""A figure of a paper, described; what draws it is loaded when it is drawn."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class PaperFigure(NamedTuple):
+    """A figure: its number in the paper ("" where the paper has none), the stem of its ids and file
+    names, its title, its caption, and a description for those who do not see it.
+
+    `place` is "module:function", which draws it; `data` likewise returns what the function is
+    given, from the entries of a report, where it is given anything.  A figure `of_verdicts` is
+    never read from a cache.
+    """
+
+    number: str
+    slug: str
+    title: str
+    caption: str
+    alt: str
+    place: str
+    data: str = ""
+    of_verdicts: bool = False
+
+    def draw(self, entries: object = ()) -> Figure:
+        """The figure, for the entries of a report."""
+        given = _function(self.data)(entries) if self.data else ()
+        figure: Figure = _function(self.place)(*given)
+        return figure
+
+
+def _function(place: str) -> Any:
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)

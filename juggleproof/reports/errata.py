@@ -1,0 +1,492 @@
+"""`juggleproof errata`: what the paper prints wrongly, with what is wrong, the correction, and
+exact values at which the print fails.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
+
+from juggleproof.certificates import checker
+from juggleproof.judging.claims import VERDICTS, Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.judging.conclusions import REFUTED
+from juggleproof.judging.correcting import note_of
+from juggleproof.judging.evaluating import numbers_at, value_at
+from juggleproof.judging.judgement import Correction, Finding
+from juggleproof.judging.register import Register
+from juggleproof.papers.paper import opened
+from juggleproof.papers.places import place_of
+from juggleproof.reading.meaning import read
+from juggleproof.reports.counterexample_words import in_words
+from juggleproof.reports.tree import STANDS
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.nodes import Certificate
+from juggleproof.statements.store import Store
+
+ERRORS = ("misprint", "false", "gap")
+LEGEND = "\n".join(f"  {word:8}  {VERDICTS[word]}" for word in ERRORS)
+HEAD = f"""\
+What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
+values at which it fails,
+with what is so there in words.
+{LEGEND}
+alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
+ball's height and velocity when the table is
+at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
+words.
+`juggleproof explain ID` shows the other names, the derivation, the statements and their \
+certificates, and with --lines
+the line of the transcription.
+"""
+GROUPS = {  # by weight, the heaviest first
+    "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",
+    "statement": "Wrong statements",
+    "mark": "Wrong formulas, mended by one mark",
+    "marks": "Wrong formulas, mended by several marks",
+    "readings": (
+        "False in one reading: what is said can be read in several ways, and not all of them are"
+        " true"
+    ),
+    "repeats": "Wrong again: prints that repeat one of these",
+    "transcription": (
+        "Possible transcription errors: one lost mark mends the print, so the fault may not be the"
+        " authors'"
+    ),
+    "remarks": "Remarks on what is true",
+    "restored": "Mangled in the transcription, and true as restored",
+}
+WRONG = [name for name in GROUPS if name not in ("remarks", "restored")]
+FIRST = "What matters to whoever cites the theorem"
+WEIGHTS = {
+    "proof": "breaks the proof",
+    "statement": "wrong statement",
+    "mark": "wrong formula, mended by one mark",
+    "marks": "wrong formula, mended by several marks",
+    "readings": "wording",
+}
+WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
+
+
+def is_noted(claim: Claim) -> bool:
+    """Whether the errata have something to say of a claim that holds."""
+    return bool(claim.as_it_stands or claim.remark)
+
+
+def group_of(
+    claim: Claim,
+    register: Register,
+    findings: Mapping[str, Finding],
+) -> str:
+    """The group that lists the claim, or none: a repeat is one only of a print that is itself
+    listed.
+    """
+
+    def wrong(name: str) -> bool:
+        return register.get(name, {}).get("verdict") in (*ERRORS, "ambiguous")
+
+    if not wrong(claim.id):
+        noted = "restored" if claim.as_it_stands else "remarks" if claim.remark else ""
+        return noted if register.get(claim.id, {}).get("verdict") == "holds" else ""
+    if claim.repeats and wrong(claim.repeats):
+        return "repeats"
+    correction = findings.get(claim.id, Finding()).get("correction")
+    if correction and correction["possible transcription error"]:
+        return "transcription"
+    return weight_of(claim, register, correction)
+
+
+def weight_of(claim: Claim, register: Register, correction: Correction | None) -> str:
+    """How much an error weighs, as a key of `WEIGHTS`.
+
+    An argument that falls back on the theorem's rules breaks the proof, and so does a claim that
+    asserts one of its refuted steps; what one mark or several mend is a wrong formula, all else a
+    wrong statement.
+    """
+    if register[claim.id]["verdict"] == "ambiguous":
+        return "readings"
+    texts = {text.partition("\n")[2] for text in stated_texts(claim).values()}
+    details = frozenset((name, one.get("detail", "")) for name, one in register.items())
+    if texts & _broken_steps(details):
+        return "proof"
+    if correction and correction["kind"] != "nearby":
+        return "marks" if correction["kind"] in ("marks", "coefficients", "derived") else "mark"
+    return "statement"
+
+
+@cache
+def _broken_steps(details: frozenset[tuple[str, str]]) -> frozenset[str]:
+    """The refuted steps of arguments whose conclusion stands by rules of the theorem, as texts
+    without their names.
+    """
+    by_id = {name: detail for name, detail in details if detail.startswith("step ")}
+    found = set[str]()
+    for claim in (
+        opened().claims() if by_id else ()
+    ):  # else a false claim of one's own loads the paper
+        body = claim.body() if claim.id in by_id else None
+        if isinstance(body, Argument) and body.rests_on:
+            steps = by_id[claim.id].removeprefix("step ").partition(" is false")[0].split(", ")
+            for name, text in stated_texts(claim).items():
+                if name.split("/")[1].partition(".")[0] in steps:
+                    found.add(text.partition("\n")[2])
+    return frozenset(found)
+
+
+Settled = tuple[str, str, Certificate | None]  # a statement: its name, its text, its certificate
+
+
+def stored(claim: Claim, store: Store) -> list[Settled]:
+    """The statements of a claim as a store holds them."""
+    names = (name for name in store.texts if name.split("/")[0] == claim.id)
+    return [(name, store.texts[name], store.certificate(name, store.texts[name])) for name in names]
+
+
+class Row(NamedTuple):
+    """One row of an entry: its title, empty where it goes on with the row before, and its text.
+
+    `latex` says that the text is LaTeX; `code` that it is an exact text of the program.
+    """
+
+    title: str
+    text: str
+    latex: bool = False
+    code: bool = False
+
+
+def rows_of(
+    claim: Claim,
+    register: Register,
+    finding: Finding,
+    settled: Sequence[Settled],
+) -> list[Row]:
+    """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
+    correction, exact counterexamples and what is so there.
+    """
+    entry = register[claim.id]
+    heading = f"{claim.id}, {place_of(claim)}: {entry['verdict']}"
+    if entry["verdict"] != "holds":
+        heading += f"; {WEIGHTS[weight_of(claim, register, finding.get('correction'))]}"
+    if claim.repeats:
+        holds = register.get(claim.repeats, {}).get("verdict") == "holds"
+        which = (
+            ""
+            if not holds or entry["verdict"] == "holds"
+            else ", which holds"
+            if entry["verdict"] == "ambiguous"
+            else ", which prints it right"
+        )
+        heading += f"; repeats {claim.repeats}{which}"
+    rows = [Row("", heading), Row("said", claim.says)]
+    if claim.as_it_stands:
+        rows.append(Row("transcribed", claim.as_it_stands, code=True))
+    if claim.printed:
+        rows.append(Row("restored" if claim.as_it_stands else "printed", claim.printed, latex=True))
+    if claim.as_it_stands and entry["verdict"] == "holds":
+        rows.append(Row("why", why_restored(claim)))
+    title = "readings" if entry["verdict"] == "ambiguous" else "wrong"
+    if entry["verdict"] != "holds":
+        wrong = what_is_wrong(entry, finding.get("sharp", {}), passages_of(claim))
+        rows.append(Row(title, "\n".join(wrong)))
+    correction = finding.get("correction")
+    if correction:
+        rows.append(Row("correction", correction["text"], latex=is_latex(correction)))
+        change = note_of(correction["change"])
+        rows.append(Row("", change, code="\\" in change or "=" in change))
+    elif entry["verdict"] in ("misprint", "false"):
+        rows.append(Row("correction", "none found"))
+    if claim.remark:
+        rows.append(Row("remark", told(claim.remark)))
+    for one in _counterexamples(settled):
+        rows.append(Row("fails at", one.text, code=True))
+        if one.words:
+            rows.append(Row("in words", one.words))
+    return rows
+
+
+def entry_of(
+    claim: Claim,
+    register: Register,
+    finding: Finding,
+    settled: Sequence[Settled],
+) -> list[str]:
+    """The lines of one entry, as `juggleproof errata` prints them."""
+    heading, *rows = rows_of(claim, register, finding, settled)
+    return [
+        heading.text,
+        *(
+            _row(
+                row.title,
+                textwrap.fill(row.text, WIDTH, break_on_hyphens=False)
+                if row.title in ("said", "remark", "in words")
+                else row.text,
+            )
+            for row in rows
+        ),
+    ]
+
+
+def told(remark: Remark) -> str:
+    """A remark with the claims that show it."""
+    return remark.text + (f" ({', '.join(remark.by)})" if remark.by else "")
+
+
+def passages_of(claim: Claim) -> dict[str, str]:
+    """The passage of the paper for each reading of a claim."""
+    body = claim.body()
+    return (
+        {name: one.passage for name, one in body.of.items()} if isinstance(body, Readings) else {}
+    )
+
+
+def why_restored(claim: Claim) -> str:
+    """What keeps the transcription from being judged as it stands."""
+    try:
+        claim.body(read(claim.as_it_stands))
+    except (ClaimError, checker.Rejected) as problem:
+        return f"as transcribed: {problem}"
+    return "as transcribed it can be read, and says something else"
+
+
+def first_page(
+    claims: Sequence[Claim],
+    register: Register,
+    groups: Mapping[str, str],
+    findings: Mapping[str, Finding],
+    settled: Mapping[str, Sequence[Settled]],
+    theorem: str,
+) -> list[str]:
+    """What matters to whoever cites the theorem, by the line about it: the heaviest errors of
+    section 4 and appendix A, each as what is said, why it is wrong, and what is true.
+    """
+    lines = [f"{FIRST}\n", theorem_stands(claims, theorem), ""]
+    for claim in what_matters(claims, groups):
+        lines.append(f"{claim.id}, {place_of(claim)}")
+        three = three_lines_of(claim, register, findings[claim.id], settled[claim.id])
+        for one in three:
+            lines.append(_row(one.title, textwrap.fill(one.text, WIDTH, break_on_hyphens=False)))
+        lines.append("")
+    return lines
+
+
+def three_lines_of(
+    claim: Claim, register: Register, finding: Finding, settled: Sequence[Settled]
+) -> list[Line]:
+    """The three lines of a claim on the first page."""
+    wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
+    fails = [at_a_glance(one.values, one.numbers, one.words) for one in _counterexamples(settled)]
+    return in_three_lines(claim, wrong, fails, finding.get("correction"))
+
+
+def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
+    """Whether the theorem survives, by the line about it."""
+    says = [claim.says for claim in claims if claim.id == opened().theorem.claim]
+    if not theorem.startswith(STANDS) or not says:
+        return f"The theorem is not certified ({opened().theorem.claim})."
+    return (
+        f"The theorem survives all of these, by another proof ({opened().theorem.claim}). {says[0]}"
+    )
+
+
+def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Claim]:
+    """The errors that bear on the theorem, by the groups of all: those that break its proof, then
+    the wrong statements of section 4 and appendix A.
+    """
+    wrong = [claim for claim in claims if group[claim.id] == "statement"]
+    return [claim for claim in claims if group[claim.id] == "proof"] + [
+        claim for claim in wrong if claim.section[:1] in ("4", "A")
+    ]
+
+
+def at_a_glance(values: str, numbers: str, words: str) -> str:
+    """The values of a counterexample, the numbers that disagree there, and what is so in words."""
+    return " ".join([f"{values}: {numbers}." if numbers else f"{values}.", words]).rstrip()
+
+
+class Line(NamedTuple):
+    """A line of the first page: its title, a formula as LaTeX or nothing, and words."""
+
+    title: str
+    words: str
+    latex: str = ""
+
+    @property
+    def text(self) -> str:
+        """The line as it is printed on a terminal."""
+        return ". ".join(part for part in (self.latex, self.words) if part)
+
+
+def in_three_lines(
+    claim: Claim, wrong: Sequence[str], fails: Sequence[str], correction: Correction | None
+) -> list[Line]:
+    """What is said, why it is wrong, and what is true instead."""
+    mended = correction["text"] if correction else ""
+    latex, words = (mended, "") if correction and is_latex(correction) else ("", mended)
+    parts = [words, told(claim.remark) if claim.remark else ""]
+    true = ". ".join(part for part in parts if part)
+    return [
+        Line("said", claim.says.partition(". ")[0].rstrip(".")),
+        Line("wrong", "; fails at ".join(["; ".join(wrong), *fails[:1]])),
+        Line("true", true or ("" if latex else "the conclusion itself"), latex),
+    ]
+
+
+def is_latex(correction: Correction) -> bool:
+    """Whether the text of a correction is a print, and not a sentence."""
+    return correction["kind"] != "nearby" or "\\" in correction["text"]
+
+
+def _row(title: str, text: str) -> str:
+    return (
+        f"    {title:12}"
+        + "\n".join(f"{'':16}{line.strip()}" for line in text.splitlines()).lstrip()
+    )
+
+
+def what_is_wrong(
+    entry: Mapping[str, str], sharp: Mapping[str, str], passages: Mapping[str, str] | None = None
+) -> list[str]:
+    """One line for each reading where there are several, with the passage that prints it so, else
+    one in all; with the alpha for which it holds where that is known.
+    """
+    detail, verdict = entry.get("detail", ""), entry["verdict"]
+    readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
+    if readings:
+        words = {"holds": "true", "false": "false", "unknown": "open"}
+        return [
+            f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
+            + (f"; {passages[name]}" if passages else "")
+            for name, word in readings.items()
+        ]
+    for pattern, wording in (
+        (rf"^its conclusion is {REFUTED}(, and)?", r"the conclusion is false\1"),
+        (r", and (step .*)", r", and so is \1"),
+        (r"^step (.*,.*) is false", r"steps \1 are false"),
+        ("conclusion open", "the conclusion stays open"),
+        ("conclusion certified", "the conclusion is certified all the same"),
+        ("conclusion by", "the conclusion stands by"),
+    ):
+        detail = re.sub(pattern, wording, detail)
+    if detail:
+        return [detail]
+    return [
+        ("false as printed" if verdict == "misprint" else "false")
+        + _for_alpha(sharp.get("", ""), "false")
+    ]
+
+
+def _for_alpha(sharp: str, word: str) -> str:
+    if sharp in ("", "not found"):
+        return ""
+    if word == "holds":
+        return "" if sharp == "0 < alpha < 1" else f", exactly for {sharp}"
+    return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
+
+
+def counterexample(refutation: object) -> str:
+    """The values of a counterexample as text; raises ClaimError where a certificate has none."""
+    match refutation:
+        case ["sign", polynomial, *_]:
+            return f"a family by the sign of {polynomial}"
+        case [_, list() | tuple() as adjoined, {**terms}, *_]:
+            return ", ".join(f"{name} = {value}" for name, value in terms.items()) + "".join(
+                f" where {root} is a root of {polynomial} between {low} and {high}"
+                for root, polynomial, low, high, *_ in adjoined
+            )
+    raise ClaimError("a refutation without values; `juggleproof certify --fresh` searches anew")
+
+
+class Fails(NamedTuple):
+    """Exact values at which a statement fails, with the part of the claim that it is; what it shows
+    where that is short, the numbers that disagree, and what is so there in words.
+    """
+
+    values: str
+    goal: str
+    numbers: str
+    words: str
+
+    @property
+    def text(self) -> str:
+        """The values, the goal and the numbers, each in a line."""
+        return (
+            self.values
+            + (f"\nfalse there: {self.goal}" if self.goal else "")
+            + (f"\nin numbers: {self.numbers}" if self.numbers else "")
+        )
+
+
+def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
+    """Where the refuted statements fail, each values once."""
+    fails = dict[str, Fails]()
+    for name, text, certificate in settled:
+        if certificate is not None and "refuted" in certificate:
+            label = name.split("/")[1].removesuffix(".main")
+            refuted = certificate["refuted"]
+            values = counterexample(refuted) + ("" if label == "main" else f"   [{label}]")
+            one = Fails(values, goal_of(text), numbers_of(text, refuted), words_of(text, refuted))
+            fails.setdefault(values, one)
+    return [*fails.values()]
+
+
+def words_of(text: str, refutation: object, of_paper: bool = True) -> str:
+    """What is so at a rational counterexample, in a line of words; nothing at a root."""
+    point = point_of(text, refutation)
+    return "" if point is None else in_words(text, point, of_paper)
+
+
+def numbers_of(text: str, refutation: object) -> str:
+    """What the statement shows, with the numbers of a rational counterexample in place; nothing
+    where there is a choice or a root, or where that is long.
+    """
+    point = point_of(text, refutation)
+    lines = [line.partition(" ") for line in text.splitlines()]
+    if point is None or any(keyword == "exists" for keyword, _, _ in lines):
+        return ""
+    shown = [formula for keyword, _, formula in lines if keyword == "show"]
+    failing = [numbers for numbers in (numbers_at(one, point) for one in shown) if numbers]
+    return failing[0] if failing and len(failing[0]) <= LONGEST_GOAL else ""
+
+
+def point_of(text: str, refutation: object) -> dict[str, Fraction] | None:
+    """The values at a rational counterexample, of abbreviations too; None where there is a choice
+    or a root.
+    """
+    match refutation:
+        case [_, [] | (), {**terms}, *_]:
+            values = {str(name): value_at(str(value), {}) for name, value in terms.items()}
+            point = {name: value for name, value in values.items() if value is not None}
+        case _:
+            return None
+    for line in text.splitlines():
+        keyword, _, rest = line.partition(" ")
+        name, _, value = rest.partition(" = ")
+        known = value_at(value, point) if keyword == "let" else None
+        if known is not None:
+            point[name] = known
+    return point
+
+
+def goal_of(text: str) -> str:
+    """What the statement shows at a point of its givens, in its own words; nothing where that is
+    long.
+
+    >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
+    >>> goal_of(text)
+    'some y has y > 0 and y < x - 1'
+    """
+    lines = [line.partition(" ") for line in text.splitlines()]
+    chosen = " ".join(names for keyword, _, names in lines if keyword == "exists")
+    shown = (f"some {chosen} has " if chosen else "") + " and ".join(
+        formula for keyword, _, formula in lines if keyword in ("with", "show")
+    )
+    lets = [
+        let
+        for keyword, _, let in lines
+        if keyword == "let" and re.search(rf"\b{let.split()[0]}\b", shown)
+    ]
+    goal = shown + "".join(f", where {let}" for let in lets)
+    return goal if len(goal) <= LONGEST_GOAL else ""

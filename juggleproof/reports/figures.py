@@ -1,0 +1,121 @@
+"""The figures of a report: those that need no claims as they are, and those that show ranges and
+the trap with what they show.
+"""
+
+from __future__ import annotations
+
+from base64 import b64decode, b64encode
+from collections.abc import Collection, Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from juggleproof.judging import kept as cache
+from juggleproof.judging.extras import needed
+from juggleproof.papers.figures import PaperFigure
+from juggleproof.papers.paper import opened
+from juggleproof.reports.contents import Contents, gather
+from juggleproof.reports.contents import Entry as Judged
+from juggleproof.reports.results import NO_RANGE
+from juggleproof.reports.words import Interval, read
+from juggleproof.statements.language import ClaimError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+# claim (and reading), verdict, range; None where it cannot be drawn
+Row = tuple[str, str, "Sequence[Interval] | None"]
+FORMS = ("svg", "pdf")
+
+
+class Saved(NamedTuple):
+    """A figure as a file, with what stands beside it."""
+
+    slug: str
+    title: str
+    caption: str
+    alt: str
+    data: bytes
+
+
+def of_paper() -> tuple[PaperFigure, ...]:
+    """The figures of the paper, in order."""
+    found: tuple[PaperFigure, ...] = opened().hook("figures", tuple)
+    return found
+
+
+def figures(
+    contents: Contents | None = None, leaving_out: Collection[str] = ()
+) -> list[tuple[str, str, str, str, Figure]]:
+    """Every figure in order but those left out: slug, title, caption, alternative text and the
+    figure; raises ClaimError where matplotlib is absent.
+    """
+    needed("matplotlib")
+    entries = (contents or gather()).entries
+    drawn = (one for one in of_paper() if one.slug not in leaving_out)
+    return [(*labels(one), one.draw(entries)) for one in drawn]
+
+
+def rows(entries: Iterable[Judged]) -> list[Row]:
+    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
+    them.
+    """
+    return [
+        (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
+        for entry in entries
+        if entry.sharp != NO_RANGE
+        for label, intervals in read(entry.sharp)
+    ]
+
+
+def without_alpha(entries: Iterable[Judged]) -> int:
+    """The number of claims in which alpha does not occur."""
+    return sum(entry.sharp == NO_RANGE for entry in entries)
+
+
+def what_ranges_show(entries: Sequence[Judged]) -> tuple[list[Row], int]:
+    """A row for each range, and how many claims have none."""
+    return rows(entries), without_alpha(entries)
+
+
+def labels(one: PaperFigure) -> tuple[str, str, str, str]:
+    """Slug, title, caption and alternative text of a figure."""
+    return (
+        one.slug,
+        f"Figure {one.number}. {one.title}" if one.number else one.title,
+        one.caption,
+        one.alt,
+    )
+
+
+def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
+    """Every figure in order as a file of this form (svg or pdf); kept beside the records of runs,
+    so that unchanged ones need not be drawn again.
+
+    Raises ClaimError where they must be drawn and matplotlib is absent, or for another form.
+    """
+    if form not in FORMS:
+        raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")
+    contents = contents or gather()
+    of_sources = cache.key(cache.version_of("matplotlib"))
+    key = f"figures-{form}-{of_sources}" if cache.folder() else ""
+    kept = _kept(cache.load(key)) if key else {}
+    lasting = {one.slug for one in of_paper() if not one.of_verdicts}
+    there = kept.keys() if kept.keys() == lasting else ()
+    made = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents, there)}
+    if key and not there:
+        encoded = ((slug, b64encode(made[slug]).decode("ascii")) for slug in sorted(lasting))
+        cache.keep(key, [{"slug": slug, "data": data} for slug, data in encoded])
+    return [Saved(*labels(one), {**kept, **made}[one.slug]) for one in of_paper()]
+
+
+def _kept(records: list[dict[str, str]]) -> dict[str, bytes]:
+    try:
+        return {record["slug"]: b64decode(record["data"], validate=True) for record in records}
+    except (KeyError, TypeError, ValueError):
+        return {}
+
+
+def _file(figure: Figure, slug: str, form: str) -> bytes:
+    from juggleproof.drawing import drawing
+
+    return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)

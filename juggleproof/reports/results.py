@@ -1,0 +1,519 @@
+"""The table of results, and the results of a run as data."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Column, Table
+
+from juggleproof.judging.claims import (
+    NOT_FORMALISED,
+    VERDICTS,
+    Argument,
+    Assertion,
+    Body,
+    CheckedApart,
+    Claim,
+    Following,
+    NotFormalised,
+    Readings,
+    Simulated,
+)
+from juggleproof.judging.judgement import Correction, Judgement
+from juggleproof.judging.register import Change, Register, differences, registered
+from juggleproof.judging.run import Run
+from juggleproof.papers.places import place_of
+from juggleproof.reports.errata import (
+    counterexample,
+    group_of,
+    passages_of,
+    told,
+    what_is_wrong,
+    words_of,
+)
+from juggleproof.reports.tables import plain
+from juggleproof.reports.tree import STANDS, theorem_line
+from juggleproof.statements.language import ClaimError
+from juggleproof.statements.store import Store
+
+# -------------------------------------------------------------------------------------------------
+# The table of results, as rows of text and as it is drawn on a terminal.
+
+COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
+OWN_COLUMNS = (*COLUMNS[:-1], "sharp range")  # of claims of one's own, whose cells name parameters
+COLOURS = {
+    "holds": "green",
+    "misprint": "yellow",
+    "false": "red",
+    "gap": "magenta",
+    "ambiguous": "cyan",
+    "simulated": "blue",
+    "unknown": "bold red",
+}
+
+
+def counted(outcomes: Mapping[str, str]) -> list[str]:
+    """How many statements of a claim, its corrections apart, have a certificate, how many a
+    counterexample, and how many are open.
+
+    >>> outcomes = {"a/x": "certified", "a/y": "refuted", "a/z": "certified"}
+    >>> counted({**outcomes, "a/corrected.x": "certified"})
+    ['2 certificates', '1 counterexample']
+    """
+    own = [outcome for name, outcome in outcomes.items() if "/corrected." not in name]
+    labels = {"certified": "certificate", "refuted": "counterexample", "unknown": "open"}
+    counts = [(own.count(word), labels.get(word, word)) for word in OUTCOMES]
+    return [
+        f"{count} {label}{'s' if count > 1 and label[0] == 'c' else ''}"
+        for count, label in counts
+        if count
+    ]
+
+
+def settled_by(judgement: Judgement) -> str:
+    """How a claim was settled: certificates, counterexamples, and the votes of the other routes."""
+    parts = counted(judgement.outcomes)
+    votes = [
+        vote for name, cast in judgement.votes.items() if "/corrected." not in name for vote in cast
+    ]
+    for route in ("z3", "boxes"):
+        cast = [vote for vote in votes if vote.route == route]
+        decided = sum(vote.answer in ("holds", "fails") for vote in cast)
+        parts += [f"{route} {decided}/{len(cast)}"] if cast and decided else []
+    parts += [f"rule {name}" for name in judgement.rests_on]
+    parts += [judgement.checked_by] if judgement.checked_by else []
+    return ", ".join(parts) or "no statement"
+
+
+NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
+
+
+def is_of_paper(claim: Claim) -> bool:
+    """Whether a claim is the paper's, and not of one's own."""
+    return claim.is_of_package
+
+
+def locator(claim: Claim) -> str:
+    """Where the claim stands, as a reader of the paper finds it; as it says, for one's own."""
+    return place_of(claim) if is_of_paper(claim) else f"{claim.section} {claim.place}".strip()
+
+
+def source_of(claim: Claim) -> tuple[str, int]:
+    """File and line of a claim: of the paper's in this project's tree, wherever that is; of one's
+    own relative to the working directory where it is below it.
+    """
+    file, _, line = claim.where.rpartition(":")
+    path = Path(file).absolute()
+    tree = Path(__file__).parents[2]
+    shown = path.relative_to(tree).as_posix() if path.is_relative_to(tree) else file
+    return shown, int(line)
+
+
+def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
+    """The sharp range, or each reading's; that there is none, for a claim of one's own without the
+    name of the paper's parameter.
+    """
+    if not judgement.sharp:
+        return NO_RANGE if claim is None or is_of_paper(claim) else NO_OWN_RANGE
+    shown = [
+        (f"{prefix.rstrip('.')}: " if prefix else "") + one.text
+        for prefix, one in judgement.sharp.items()
+    ]
+    return "; ".join(dict.fromkeys(shown))
+
+
+def reading_of(body: Body) -> str:
+    """How the statements of a body make up the claim, in a few words."""
+    if isinstance(body, Assertion):
+        return "asserts " + (f"{len(body.parts)} statements" if body.parts[1:] else "one statement")
+    if isinstance(body, Readings):
+        return "can be read as " + ", or as ".join(body.of)
+    if isinstance(body, Following):
+        return "the conclusion of " + ", ".join(body.rests_on)
+    if isinstance(body, Argument):
+        return (
+            "argued from "
+            + ", ".join(body.steps)
+            + (f"; rescued by {body.proved_by}" if body.proved_by else "")
+        )
+    if isinstance(body, Simulated):
+        return "what a simulation shows"
+    if isinstance(body, CheckedApart):
+        return f"what {body.checker} certifies: {body.believed}"
+    if isinstance(body, NotFormalised):
+        return "no statement of real arithmetic"
+    raise ClaimError("a body of unknown kind")
+
+
+def verdict_text(claim: Claim, judgement: Judgement) -> str:
+    """The verdict with its qualifications."""
+    word = judgement.verdict.word
+    notes = []
+    if claim.repeats and word in ("misprint", "false"):
+        notes.append(f"repeats {claim.repeats}")
+    if (
+        judgement.correction
+        and judgement.correction["possible transcription error"]
+        or (claim.as_it_stands and word == "holds")
+    ):
+        notes.append("possible transcription error")
+    return word + (f" ({'; '.join(notes)})" if notes else "")
+
+
+def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple[str, ...]]:
+    """The table's rows."""
+    return [
+        (
+            claim.id,
+            locator(claim).removeprefix("section ") or claim.where,
+            verdict_text(claim, judgement),
+            settled_by(judgement),
+            sharp_range(judgement, claim),
+        )
+        for claim, judgement in zip(claims, judgements)
+    ]
+
+
+def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Console) -> None:
+    """Draws the table on a terminal; plain columns, one row a line, where there is none."""
+    columns = COLUMNS if any(map(is_of_paper, claims)) else OWN_COLUMNS
+    if not console.is_terminal:
+        print(plain([columns, *rows(claims, judgements)]))
+        return
+    table = Table(Column(columns[0], no_wrap=True), *columns[1:], header_style="bold")
+    for row, judgement in zip(rows(claims, judgements), judgements):
+        colour = COLOURS[judgement.verdict.word]
+        table.add_row(
+            row[0],
+            row[1].replace("[", r"\["),
+            f"[{colour}]{row[2]}[/{colour}]",
+            *(cell.replace("[", r"\[") for cell in row[3:]),
+        )
+    console.print(table)
+
+
+def _many(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def summary(judgements: Sequence[Judgement]) -> str:
+    """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
+    verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in VERDICTS]
+    outcomes = [o for j in judgements for o in j.outcomes.values()]
+    words = OUTCOMES if "rejected" in outcomes else OUTCOMES[:-1]
+    counted = ", ".join(f"{outcomes.count(word)} {word}" for word in words)
+    lines = [
+        f"{_many(len(judgements), 'claim')}: {', '.join(verdicts)}",
+        f"{_many(len(outcomes), 'statement')}: {counted}",
+    ]
+    for route in ("z3", "boxes"):
+        cast = [
+            vote
+            for j in judgements
+            for votes in j.votes.values()
+            for vote in votes
+            if vote.route == route
+        ]
+        asked = [vote for vote in cast if vote.answer != "not applicable"]
+        decided, enclosed = (
+            sum(vote.answer in words for vote in asked)
+            for words in (("holds", "fails"), ("enclosed",))
+        )
+        if cast:
+            lines.append(
+                f"{route} votes on record: {decided} decided of {len(asked)} asked"
+                + (f", {enclosed} enclosed" if enclosed else "")
+            )
+    return "\n".join(lines)
+
+
+# -------------------------------------------------------------------------------------------------
+# What a run found, as plain text and data: the one thing that JSON, JUnit, Markdown and the badge
+# are made of.
+#
+# It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the
+# same for both.
+
+OUTCOMES = ("certified", "refuted", "unknown", "rejected")
+NO_VALUES = "every value: the negation is certified"
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A statement of a claim: the text that the checker reads, its outcome, the votes by route,
+    where it fails, and what is so there in words; of an open one these say why it is open.
+    """
+
+    name: str
+    text: str
+    outcome: str
+    votes: Mapping[str, str]
+    at: str = ""
+    words: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A claim as it was judged; `wrong` and `group` show what is not simply true, as `errata`
+    does; `source` is the file and line that it stands in.
+    """
+
+    id: str
+    section: str
+    place: str
+    locator: str
+    source: tuple[str, int]
+    says: str
+    printed: str
+    as_it_stands: str
+    repeats: str
+    verdict: str
+    detail: str
+    verdict_text: str
+    settled_by: str
+    sharp: str
+    correction: Correction | None
+    remark: str
+    wrong: tuple[str, ...]
+    group: str
+    statements: tuple[Stated, ...]
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is stated and not settled."""
+        return self.verdict == "unknown" and not self.detail.startswith(NOT_FORMALISED)
+
+    def registered(self) -> dict[str, str]:
+        """What the register keeps of it."""
+        return registered(
+            self.verdict,
+            self.detail,
+            self.correction["text"] if self.correction else "",
+            "" if self.sharp in NO_RANGES else self.sharp,
+        )
+
+    def sharp_by_reading(self) -> dict[str, str]:
+        """The sharp range of every reading or step; under no name where the claim has one reading
+        only.
+        """
+        parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
+        if self.sharp in NO_RANGES:
+            return {}
+        return dict(zip(parts[1::2], parts[2::2])) if len(parts) > 1 else {"": self.sharp}
+
+
+@dataclass(frozen=True)
+class Results:
+    """All results of a run; `own` where they are about files of the user's, which no register
+    knows.
+
+    `rejected` are statements that the checker rejects, with its reason; `accepted` says that the
+    changes are in the register now.
+    """
+
+    claims: tuple[Result, ...]
+    theorem: str = ""
+    votes: tuple[str, ...] = ()
+    changes: tuple[Change, ...] = ()
+    rejected: tuple[tuple[str, str], ...] = ()
+    own: bool = False
+    partial: bool = False
+    accepted: bool = False
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether the theorem is proved."""
+        return self.theorem.startswith(STANDS)
+
+    @property
+    def exit(self) -> int:
+        """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's
+        own hold, and nothing is rejected.
+        """
+        if self.rejected:
+            return 1
+        return int(
+            any(one.verdict != "holds" for one in self.claims)
+            if self.own
+            else bool(self.changes) and not self.accepted
+        )
+
+    def verdicts(self) -> dict[str, int]:
+        """How many claims have each verdict."""
+        counts = Counter(one.verdict for one in self.claims)
+        return {word: counts[word] for word in VERDICTS}
+
+    def outcomes(self) -> dict[str, int]:
+        """How many statements have each outcome."""
+        counts = Counter(stated.outcome for one in self.claims for stated in one.statements)
+        return {word: counts[word] for word in OUTCOMES}
+
+    def change_of(self) -> dict[str, Change]:
+        """The changes by claim."""
+        return {change.claim: change for change in self.changes}
+
+
+def theorem_of_run(done: Run) -> str:
+    """The line about the theorem after a run, with the votes that were cast in it."""
+    votes = {name: cast for one in done.judgements for name, cast in one.votes.items()}
+    return theorem_line(Store(done.store), done.outcomes, votes)
+
+
+def results_of_run(
+    claims: Sequence[Claim],
+    judgements: Sequence[Judgement],
+    register: Register | None,
+    *,
+    theorem: str = "",
+    rejected: Sequence[tuple[str, str]] = (),
+    partial: bool = False,
+    accepted: bool = False,
+) -> Results:
+    """The results of a run in hand; without a register they are about the user's own claims."""
+    findings = {one.id: one.finding() for one in judgements}
+    judged_claims = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
+    entries = {**(register or {}), **{one.id: one.registered() for one in judged_claims}}
+    grouped = [
+        replace(
+            one,
+            group=group_of(claim, entries, findings),
+            wrong=(
+                ()
+                if one.verdict in ("holds", "simulated", "unknown")
+                else tuple(
+                    what_is_wrong(entries[one.id], findings[one.id]["sharp"], passages_of(claim))
+                )
+            ),
+        )
+        for claim, one in zip(claims, judged_claims)
+    ]
+    return compared(
+        grouped,
+        register,
+        rejected,
+        Results(
+            (),
+            theorem,
+            tuple(summary(judgements).splitlines()[2:]),
+            own=register is None,
+            partial=partial,
+            accepted=accepted,
+        ),
+    )
+
+
+def _result(claim: Claim, judged: Judgement) -> Result:
+    def at(name: str) -> str:
+        certificate = judged.certificates[name]
+        return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""
+
+    def words(name: str, text: str) -> str:
+        certificate = judged.certificates[name]
+        if judged.outcomes[name] == "refuted":
+            return words_of(text, certificate["refuted"], is_of_paper(claim))
+        return certificate.get("unknown") or ""
+
+    statements = tuple(
+        Stated(
+            name,
+            text,
+            judged.outcomes[name],
+            {vote.route: vote.answer for vote in judged.votes.get(name, ())},
+            where(judged.outcomes[name], at(name)),
+            words(name, text),
+        )
+        for name, text in judged.statements
+    )
+    return Result(
+        claim.id,
+        claim.section,
+        claim.place,
+        locator(claim),
+        source_of(claim),
+        claim.says,
+        claim.printed,
+        claim.as_it_stands,
+        claim.repeats,
+        judged.verdict.word,
+        judged.verdict.detail,
+        verdict_text(claim, judged),
+        settled_by(judged),
+        sharp_range(judged, claim),
+        judged.correction,
+        told(claim.remark) if claim.remark else "",
+        (),
+        "",
+        statements,
+    )
+
+
+def where(outcome: str, at: str) -> str:
+    """Where a statement of this outcome fails, its counterexample being `at`."""
+    return (at or NO_VALUES) if outcome == "refuted" else ""
+
+
+def compared(
+    results: Sequence[Result],
+    register: Register | None,
+    rejected: Sequence[tuple[str, str]],
+    about: Results,
+) -> Results:
+    """Takes what the checker rejected back, compares with the register, and leaves out what no file
+    can hold.
+    """
+    reasons = dict(rejected)
+    claims = tuple(_written(_without(one, reasons)) for one in results)
+    changes = (
+        ()
+        if register is None
+        else tuple(
+            differences(register, {one.id: one.registered() for one in claims}, about.partial)
+        )
+    )
+    return replace(about, claims=claims, changes=changes, rejected=tuple(reasons.items()))
+
+
+def _without(one: Result, reasons: Mapping[str, str]) -> Result:
+    """The result where statements of the claim are rejected: such a claim is not settled, whatever
+    was thought of it.
+    """
+    lost = [stated.name for stated in one.statements if stated.name in reasons]
+    if not lost:
+        return one
+    statements = tuple(
+        replace(stated, outcome="rejected", at="") if stated.name in reasons else stated
+        for stated in one.statements
+    )
+    return replace(
+        one,
+        verdict="unknown",
+        verdict_text="unknown",
+        detail=f"the checker rejects {lost[0]}: {reasons[lost[0]]}",
+        correction=None,
+        sharp=NO_RANGE,
+        wrong=(),
+        group="",
+        statements=statements,
+    )
+
+
+def _written(one: Result) -> Result:
+    """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have
+    any.
+    """
+    texts = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
+    return Result(**(vars(one) | texts))
+
+
+def writable(text: str) -> str:
+    """The text without control characters and lone surrogates.
+
+    >>> writable("a" + chr(1) + "b" + chr(0xd800))
+    'a\ufffdb\ufffd'
+    """
+    return re.sub(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "\ufffd", text)

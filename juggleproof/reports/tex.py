@@ -1,0 +1,409 @@
+"""The report in LaTeX: fragments and documents, single equations, and the PDF."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from juggleproof.judging.extras import needed
+from juggleproof.papers.paper import opened
+from juggleproof.papers.places import place_of
+from juggleproof.reports import tex_words
+from juggleproof.reports.contents import Contents, Entry
+from juggleproof.reports.errata import FIRST, GROUPS
+from juggleproof.reports.latex import MACROS, NOTATION, latex_of, with_macros
+from juggleproof.reports.tex_words import APPENDICES
+from juggleproof.reports.words import parts_of
+from juggleproof.statements.language import ClaimError
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+    from juggleproof.papers.derivations import Derivation
+
+# -------------------------------------------------------------------------------------------------
+# The LaTeX report: fragments that an author can input, and documents that hold them all, from
+# templates that hold no formula of the paper.
+
+TEMPLATES = Path(__file__).parent / "templates"
+SECTIONS = {
+    "A.1": "Maximum sustainable energy",
+    "A.2": "Maximum energy change",
+    "A.3": r"Supremum \texorpdfstring{$\Delta E$}{of Delta E} outside \texorpdfstring{$\jugR$}{R}",
+    "A.3.1": r"The boundary \texorpdfstring{$R(\jugstate) = 0$}{R(b) = 0}",
+    "A.3.2": r"Finding \texorpdfstring{$\Delta E_{\sup}$}{the supremum}",
+    "A.4": r"Number of impacts to enter \texorpdfstring{$\jugR$}{R}",
+    "B.1": "Time to collision",
+    "B.2": "Important regions",
+    "B.3": "System dynamics",
+    "B.4": "Fixed point",
+    "B.5": "Zero energy change boundary",
+    "B.6": r"Boundary of \texorpdfstring{$\jugR$}{R}",
+    "B.7": "Table of notation",
+}
+BESIDE = (
+    "theorem-one-third",
+    "theorem-nearby",
+    "theorem-region",
+    "theorem-ends",
+    "theorem-kinetic",
+)
+
+
+def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> dict[str, bytes]:
+    """The files of the LaTeX report by name: macros, fragments, bibliography, and the documents for
+    one and for two columns.
+
+    `figures` are (slug, title, caption); a document shows those whose PDFs stand in the folder
+    figures beside it. Raises ClaimError, one line, where a template's library is absent or a
+    written line is not certified.
+    """
+    made = _environment()
+    fragments: dict[str, Mapping[str, object]] = {
+        "juggleproof-macros": {"macros": [(name, means) for name, means, _ in MACROS]},
+        "theorem": _theorem(contents),
+        "errata": _errata(contents),
+        "derivations": {"derivations": _behind_the_appendices(contents)},
+        "notation": {
+            "notation": [
+                (latex, tex_words.prose(meaning)) for _, latex, meaning in NOTATION if meaning
+            ],
+            "names": tex_words.names(),
+        },
+    }
+    texts = {name: _render(made, name, contents, values) for name, values in fragments.items()}
+    for letter, title in APPENDICES.items():
+        texts[f"appendix-{letter.lower()}"] = _render(
+            made, "appendix", contents, _appendix(contents, letter, title)
+        )
+    if figures:
+        captions = [
+            (slug, tex_words.prose(title), tex_words.prose(text)) for slug, title, text in figures
+        ]
+        texts["figures"] = _render(made, "figures", contents, {"figures": captions})
+    values = {
+        "summary": summary(contents),
+        "versions": tex_words.plain(
+            ", ".join(f"{tool} {one}" for tool, one in contents.tools.items())
+        ),
+        "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none",
+    }
+    for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
+        texts[name] = _render(made, "document", contents, {**values, "twocolumn": twocolumn})
+    return {
+        "paper.bib": (TEMPLATES / "paper.bib").read_bytes(),
+        **{f"{name}.tex": text.encode() for name, text in texts.items()},
+    }
+
+
+def summary(contents: Contents) -> str:
+    """The counts of verdicts and outcomes in a sentence."""
+    verdicts = ", ".join(f"{count} {word}" for word, count in contents.verdicts.items())
+    outcomes = ", ".join(f"{count} {word}" for word, count in sorted(contents.outcomes.items()))
+    return (
+        f"In all {len(contents.entries)} claims: {verdicts}; {sum(contents.outcomes.values())}"
+        f" statements: {outcomes}."
+    )
+
+
+@cache
+def _environment() -> Environment:
+    jinja2 = needed("jinja2")
+    made: Environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(str(TEMPLATES)),
+        block_start_string="<%",
+        block_end_string="%>",
+        variable_start_string="<<",
+        variable_end_string=">>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+        trim_blocks=True,
+        keep_trailing_newline=True,
+    )
+    made.globals.update(
+        {name: getattr(tex_words, name) for name in tex_words.__all__ if name != "Steps"},
+        counterexamples=_counterexamples,
+    )
+    return made
+
+
+def _render(made: Environment, name: str, contents: Contents, values: Mapping[str, object]) -> str:
+    template = (
+        "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
+    )
+    text = made.get_template(f"{template}.tex.j2").render(
+        tools=contents.tools, with_steps=name == "appendix", **values
+    )
+    return (
+        re.sub(r"\n{3,}", "\n\n", "\n".join(line.rstrip() for line in text.strip().splitlines()))
+        + "\n"
+    )
+
+
+def _counterexamples(entry: Entry) -> list[str]:
+    """The counterexamples as they are set, each once."""
+    shown = (
+        tex_words.values(one.at)
+        + (f": {tex_words.prose(one.numbers)}." if one.numbers else ".")
+        + (f" {tex_words.prose(one.words)}" if one.words else "")
+        for one in entry.statements
+        if one.at
+    )
+    return list(dict.fromkeys(shown))
+
+
+def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
+    sections = [
+        (section, heading, [one for one in contents.entries if one.claim.section == section])
+        for section, heading in SECTIONS.items()
+        if section.startswith(letter)
+    ]
+    left = [
+        one.claim.id
+        for one in contents.entries
+        if one.claim.section.startswith(f"{letter}.") and one.claim.section not in SECTIONS
+    ]
+    if left:
+        raise ClaimError(
+            f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the"
+            " LaTeX report; add it there"
+        )
+    return {"letter": letter, "title": title, "sections": [one for one in sections if one[2]]}
+
+
+def _behind_the_appendices(contents: Contents) -> list[Derivation]:
+    """The derivations that the entries of the appendices name, and all that these are made from."""
+    by_name = {one.function: one for one in contents.derivations}
+    needed = {
+        one.function
+        for entry in contents.entries
+        if entry.claim.section[:1] in APPENDICES
+        for one in entry.steps
+    }
+    for one in reversed(contents.derivations):  # each stands after what it is made from
+        if one.function in needed:
+            needed |= set(one.uses) & set(by_name)
+    return [one for one in contents.derivations if one.function in needed]
+
+
+def _errata(contents: Contents) -> dict[str, object]:
+    groups = [
+        (
+            tex_words.plain(title.partition(":")[0]),
+            [one for one in contents.entries if one.group == group],
+        )
+        for group, title in GROUPS.items()
+    ]
+    counted = "; ".join(
+        f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims
+    )
+    return {
+        "groups": [one for one in groups if one[1]],
+        "counts": f"In all: {counted}.",
+        "first_title": FIRST,
+        "theorem_stands": contents.theorem_stands,
+        "first_page": contents.first_page(),
+    }
+
+
+def _theorem(contents: Contents) -> dict[str, object]:
+    by_name = {one.name: one for entry in contents.entries for one in entry.statements}
+
+    def rows(name: str, keyword: str) -> list[str]:
+        return [
+            line.partition(" ")[2]
+            for line in by_name[name].text.splitlines()
+            if line.startswith(f"{keyword} ")
+        ]
+
+    def formulas(name: str, keyword: str) -> list[str]:
+        return [with_macros(latex_of(part)) for part in parts_of(rows(name, keyword)[0])]
+
+    def entry(name: str) -> Entry:
+        return contents.entry(name)
+
+    def conjuncts(text: str, most: int | None = None) -> str:
+        """The parts of a conjunction; the first ones of a domain, where the last is there for a
+        division.
+        """
+        return with_macros(",\\; ".join(latex_of(part) for part in text.split(" and ")[:most]))
+
+    steps = tex_words.Steps(entry(opened().hook("proof-claim", str)))
+    pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
+    stages = rows("theorem/descends", "stage")
+    scaling = next(one for one in contents.derivations if one.function == "scaling")
+    return {
+        "scaling": ",\\; ".join(
+            f"{name} = {with_macros(latex_of(value))}"
+            for name, value in zip(("x", "w"), scaling.shown()[0])
+        ),
+        "guards": [latex_of(guard) for guard, _ in pieces],
+        "images": [
+            ", ".join(with_macros(latex_of(part)) for part in parts_of(image))
+            for _, image in pieces
+        ],
+        "fixed": formulas("theorem/contracts", "point"),
+        "other": formulas("theorem/escapes", "start"),
+        "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
+        "rank": formulas("theorem/descends", "rank")[0],
+        "stage_1": conjuncts(stages[0]),
+        "stage_2": conjuncts(stages[1]),
+        "trap": conjuncts(stages[2]),
+        "later": len(stages) - 1,
+        "below": conjuncts(rows("theorem/descends", "domain")[0], 2),
+        "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
+        "space": latex_of(rows("theorem/map", "space")[0]),
+        "rate": formulas("theorem/contracts", "rate")[0],
+        "given": steps.given,
+        "radius": latex_of(rows("theorem/contracts", "radius")[0]),
+        "show": steps.show,
+        "says": lambda name: entry(name).claim.says,
+        "verdict": lambda name: entry(name).verdict,
+        "rules": contents.rules,
+        "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],
+    }
+
+
+# -------------------------------------------------------------------------------------------------
+# One equation of the paper as LaTeX of its own.
+
+
+def equation(entry: Entry) -> str:
+    """One claim's equation with its label, as a fragment of its own, which says what its symbols
+    mean: the correction where the print is false, else the print.
+
+    Raises ClaimError where the paper prints no formula for the claim, or where a symbol has no
+    meaning.
+    """
+    if not entry.claim.printed:
+        raise ClaimError(
+            f"{entry.claim.id} has no printed formula; `juggleproof explain {entry.claim.id}` shows"
+            " its statements"
+        )
+    number, printed = tex_words.number(entry.claim), tex_words.without_stop(entry.claim.printed)
+    body = tex_words.correction(entry) if entry.correction else printed
+    # a correction that names the print by its number is to stand alone
+    body = body.replace(rf"\text{{({number}) or }}", rf"{printed} \text{{ or }}")
+    rows = [with_macros(tex_words.without_stop(row)) for row in tex_words.lines(body)]
+    shown = (
+        rows[0]
+        if len(rows) == 1
+        else "\\begin{gathered}\n" + " \\\\\n".join(rows) + "\n\\end{gathered}"
+    )
+    tag = f"\\tag{{{number}}}" if number else ""
+    head = [
+        f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text}",
+        *([f"% holds as printed: {entry.sharp}"] if entry.sharp != "no alpha" else []),
+        *(
+            [
+                f"% {'true instead' if entry.correction['kind'] == 'nearby' else 'corrected'};"
+                f" printed was: {' '.join(entry.claim.printed.split())}"
+            ]
+            if entry.correction
+            else []
+        ),
+        "% where",
+        *(
+            f"%   {symbol}: {meaning}"
+            for symbol, meaning in tex_words.symbols(body, entry.claim.section)
+        ),
+    ]
+    numbered = "equation" if not tag else "equation*"
+    macros = [
+        f"\\providecommand{{\\jug{name}}}{{{means}}}"
+        for name, means, _ in MACROS
+        if f"\\jug{name}" in shown
+    ]
+    return (
+        "\n".join(
+            [
+                *head,
+                *macros,
+                f"\\begin{{{numbered}}}\\label{{jug:{entry.claim.id}}}{tag}",
+                shown,
+                f"\\end{{{numbered}}}",
+            ]
+        )
+        + "\n"
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# Compiles the LaTeX report: latexmk in a folder of its own, with dates and ids left out so that
+# equal sources make equal bytes.
+
+TOO_WIDE = 5.0  # points that a line may stick out
+
+
+def compiled(files: Mapping[str, bytes], document: str) -> tuple[bytes, list[str]]:
+    """The PDF of a document among the files, and what the log complains of: undefined references,
+    lines too wide.
+
+    Raises ClaimError, one line, where latexmk is absent or finds an error.
+    """
+    if not shutil.which("latexmk") or not shutil.which("pdflatex"):
+        raise ClaimError(
+            "latexmk and pdflatex are needed for the PDF; Debian's packages are latexmk,"
+            " texlive-latex-recommended and lmodern"
+        )
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        done = subprocess.run(
+            ["latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", f"{document}.tex"],
+            cwd=folder,
+            capture_output=True,
+            check=False,
+            env={
+                **os.environ,
+                "SOURCE_DATE_EPOCH": "0",
+                "FORCE_SOURCE_DATE": "1",
+                "max_print_line": "10000",
+            },
+        )
+        log_file, made = Path(folder) / f"{document}.log", Path(folder) / f"{document}.pdf"
+        log = log_file.read_text(encoding="latin-1") if log_file.exists() else ""
+        if done.returncode or not made.exists():
+            errors = (
+                re.findall(r"^! .*", log, re.MULTILINE)
+                or done.stderr.decode("utf-8", "replace").splitlines()[-1:]
+            )
+            raise ClaimError(
+                f"{document}.tex: LaTeX stops: {' '.join(errors[:1]) or 'no reason is given'}; the"
+                " .tex files are written"
+            )
+        return made.read_bytes(), complaints(log)
+
+
+def complaints(log: str) -> list[str]:
+    """What a log complains of that a reader would see.
+
+    >>> log = "LaTeX Warning: Reference `a' on page 1 undefined on input line 2.\\n"
+    >>> log += "Overfull \\\\hbox (7.3pt too wide) in paragraph\\n"
+    >>> print(*complaints(log), sep="\\n")
+    LaTeX Warning: Reference `a' on page 1 undefined on input line 2.
+    Overfull \\hbox (7.3pt too wide) in paragraph
+    """
+    found = re.findall(
+        r"^LaTeX Warning: (?:Reference|Citation|Label).*|^.*multiply[- ]defined.*|^.*undefined"
+        r" references.*",
+        log,
+        re.MULTILINE,
+    )
+    wide = re.findall(r"^Overfull \\[hv]box \(([\d.]+)pt too (?:wide|high)\).*", log, re.MULTILINE)
+    lines = re.findall(r"^(Overfull \\[hv]box \([\d.]+pt too (?:wide|high)\).*)", log, re.MULTILINE)
+    return [
+        *dict.fromkeys(found),
+        *(line for width, line in zip(wide, lines) if float(width) > TOO_WIDE),
+    ]

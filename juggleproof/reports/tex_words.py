@@ -1,0 +1,408 @@
+"""What the templates of the LaTeX report call: text, formulas, headings and notes as LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import starmap
+from typing import TYPE_CHECKING
+
+from juggleproof.certificates import checker
+from juggleproof.judging.claims import Claim
+from juggleproof.judging.correcting import note_of
+from juggleproof.papers.places import place_of
+from juggleproof.papers.remarks import NAMES, PROSE, meanings, names_of
+from juggleproof.reading.meaning import read
+from juggleproof.reading.tree import Operator, Tree, spelled
+from juggleproof.reports.contents import Entry
+from juggleproof.reports.errata import WRONG, is_latex
+from juggleproof.reports.latex import NOTATION, latex_of, narrow, with_macros
+from juggleproof.reports.words import SIGN, pieces
+from juggleproof.statements.language import ClaimError
+
+if TYPE_CHECKING:
+    from juggleproof.papers.derivations import Derivation
+
+SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": "$<$",
+    ">": "$>$",
+    "|": r"\textbar{}",
+    '"': "''",
+    "`": "'",
+}
+CLAIM_IDS = re.compile(r"\b((?:s[\dAB][\w.]*|prop-\d|eq)-\w[\w-]*|theorem-\w[\w-]*(?:/[\w.-]*\w)?)")
+# What a derived expression is called in the paper, where it has a name there.
+SYMBOLS = {
+    "f1": r"\bar f_1(\bar b)",
+    "f2": r"\bar f_2(\bar b)",
+    "period": "T",
+    "e_1": "e_1",
+    "E_max": r"E_{\max}",
+    "delta_E_max": r"\Delta E_{\max}",
+    "delta_E_sup": r"\Delta E_{\sup}",
+    "total_energy": r"E(\bar b)",
+    "energy_change_1": r"\Delta_1 E(\bar b)",
+    "energy_change_2": r"\Delta_2 E(\bar b)",
+    "collision_time": r"\tau_c(\bar b)",
+    "acceleration": r"\ddot\chi",
+    "gap": r"\beta(t) - \rho(t)",
+    "time_after_collision": r"\bar{\tau}_c(\bar b)",
+    "relative_kinetic_energy": "K(z)",
+    "energy_gradient": r"D\Delta_1 E(\bar b)",
+    "region_gradient": r"DR(\bar b)",
+    "xi_1": r"\xi_1",
+    "epsilon_1": r"\epsilon_1",
+    "launch_state": "r_0",
+    "region_margin": r"R(\bar b)",
+    "flight_matrix": "A_t",
+    "flight_offset": "a_t",
+    "flight_map": r"F^t(\bar b)",
+    "restitution_matrix": r"R_\alpha",
+    "fixed_point": "e_K",
+    "point_p": "p",
+    "energy_of_p": "E(p)",
+    "hang_time": "t_f",
+    "scaling": "(x, w)",
+}
+
+
+APPENDICES = {
+    "A": "Maximal and supremal points",
+    "B": "Handy equations, definitions, and parameterizations",
+}
+
+
+def plain(text: str) -> str:
+    r"""Text with what is special to LaTeX written out.
+
+    >>> plain("50% of f_1")
+    '50\\% of f\\_1'
+    """
+    return "".join(SPECIAL.get(sign, sign) for sign in text)
+
+
+def code(text: str) -> str:
+    r"""A text of marks in typewriter face, which may be broken after each sign.
+
+    >>> code("a_1+b")
+    '\\texttt{a\\_\\penalty0{}1+\\penalty0{}b}'
+    """
+    signs = (plain(sign) + (r"\penalty0{}" if sign in "_^+-=(){},/" else "") for sign in text)
+    return rf"\texttt{{{''.join(signs)}}}"
+
+
+def prose(text: str) -> str:
+    r"""A sentence, its formulas set, and the names of claims in typewriter face.
+
+    >>> prose("The maximum of Delta_1 E on H. (eq-37)")
+    'The maximum of $\\Delta_1 E$ on $\\jugH$. (\\texttt{eq-\\penalty0{}37})'
+    """
+    between = CLAIM_IDS.split(text)
+    return "".join(
+        code(part) if place % 2 else "".join(starmap(_set, pieces(part)))
+        for place, part in enumerate(between)
+    )
+
+
+def _set(kind: str, content: str) -> str:
+    return f"${with_macros(content)}$" if kind == "math" else plain(content).replace("!=", r"$\ne$")
+
+
+def why(entry: Entry) -> str:
+    """What keeps the transcription from being judged; words with commands of LaTeX are code."""
+    text = re.sub(r"column \d+: ", "", entry.why_restored)
+    return " ".join(code(one) if "\\" in one or "_" in one else plain(one) for one in text.split())
+
+
+def lines(latex: str) -> list[str]:
+    r"""The lines of a print: parted at \\ outside of environments.
+
+    >>> lines(r"a = b \\ c = \begin{bmatrix} 1 \\ 2 \end{bmatrix}")
+    ['a = b', 'c = \\begin{bmatrix} 1 \\\\ 2 \\end{bmatrix}']
+    """
+    rows, depth, start = list[str](), 0, 0
+    for token in re.finditer(r"\\begin|\\end|\\\\", latex):
+        depth += {"\\begin": 1, "\\end": -1}.get(token.group(), 0)
+        if token.group() == r"\\" and not depth:
+            rows.append(latex[start : token.start()].strip())
+            start = token.end()
+    return [*rows, latex[start:].strip()]
+
+
+def formula(latex: str) -> str:
+    """The two arguments for a display: the formula whole, and to be broken."""
+    rows = [with_macros(row) for row in lines(latex)]
+    whole = (
+        rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
+    )
+    return "{" + whole + "}{" + r" $\newline $ ".join(rows) + "}"
+
+
+def inline(latex: str) -> str:
+    """A print within a line; its rows one after another."""
+    return r",\quad ".join(with_macros(without_stop(row)) for row in lines(latex))
+
+
+def without_stop(row: str) -> str:
+    r"""A row without the stop or comma of the sentence that it ends.
+
+    >>> without_stop("a = b."), without_stop(r"\left\{ a \right.")
+    ('a = b', '\\left\\{ a \\right.')
+    """
+    return row if row.rstrip().endswith(r"\right.") else row.rstrip(" .,")
+
+
+def correction(entry: Entry) -> str:
+    """The corrected print as LaTeX, or the sentence that is true."""
+    if entry.correction is None:
+        raise ValueError(f"{entry.claim.id} has no correction")
+    text = entry.correction["text"]
+    return text if is_latex(entry.correction) else rf"\text{{{prose(text)}}}"
+
+
+def corrected(entry: Entry) -> str:
+    """The corrected print within a line, or the sentence that is true."""
+    found = entry.correction
+    if found is None or is_latex(found):
+        return f"${inline(correction(entry))}$"
+    return prose(found["text"])
+
+
+def change(entry: Entry) -> str:
+    """What the correction changes, the letters and signs in it as formulas."""
+    text = note_of(entry.correction["change"]) if entry.correction else ""
+    return "".join(
+        f"${with_macros(part)}$" if i % 2 else plain(part)
+        for i, part in enumerate(SIGN.split(text))
+    )
+
+
+def number(claim: Claim) -> str:
+    """The number of a display, without brackets."""
+    match = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
+    return match.group(1) if match and "," not in claim.place else ""
+
+
+def heading(claim: Claim) -> str:
+    """What the claim is referred to by: the number of its equation, or its section and place."""
+    numbered = claim.place.startswith("(") and number(claim)
+    shown = claim.place if numbered else place_of(claim)
+    return plain(shown[:1].upper() + shown[1:])
+
+
+def entries(one: Derivation) -> str:
+    """The result of a derivation: a term, a column or a matrix."""
+    shown = [[with_macros(latex_of(entry)) for entry in row] for row in one.shown()]
+    if len(shown) == 1:
+        return shown[0][0] if len(shown[0]) == 1 else "(" + r",\; ".join(shown[0]) + ")"
+    return r"\begin{bmatrix}" + r" \\ ".join(" & ".join(row) for row in shown) + r"\end{bmatrix}"
+
+
+def in_errata(entry: Entry) -> bool:
+    """Whether the display of the claim stands among the errata, and not in an appendix."""
+    return entry.group in WRONG or bool(entry.group) and entry.claim.section[:1] not in APPENDICES
+
+
+def symbol(one: Derivation) -> str:
+    """The paper's name for what is derived, or nothing."""
+    return with_macros(SYMBOLS.get(one.function, ""))
+
+
+# -------------------------------------------------------------------------------------------------
+# The symbols of prints, with what the ledger of names says of them.
+
+OPERATORS = {
+    r"\Delta": "the change from one sampled state to the next",
+    r"\Delta_1": "the change over a period with an impact",
+    r"\Delta_2": "the change over a period without one",
+    "D": "the derivative, by the variable in the subscript",
+    r"\partial": "before a region: its boundary",
+}
+
+
+def symbols(latex: str, section: str) -> list[tuple[str, str]]:
+    r"""The symbols of a print, or of its correction, and what they mean in this section of the
+    paper, else in the others.
+
+    >>> symbols(r"\tau_p < T \text{ or } \alpha = 1", "3.1")  # doctest: +NORMALIZE_WHITESPACE
+    [('\\tau_{p}', 'the time since the period began'), ('T', 'the period of the table'),
+     ('\\alpha', 'the coefficient of restitution')]
+
+    Raises ClaimError where the ledger has no meaning of one.
+    """
+    found = dict[str, str]()
+    for row in re.split(r"\\text\{[^{}]*\}", latex):
+        for part in read(row).parts if row.strip() else ():
+            found |= {sign: OPERATORS[sign] for sign in _operators(part.tree)}
+            found |= {name: _meaning(name, section) for name in names_of(part.tree)}
+    return [(narrow(name), meaning) for name, meaning in found.items()]
+
+
+def _meaning(name: str, section: str) -> str:
+    rows = [row for row in meanings() if row.name == name]
+    for at in (section, section + PROSE):
+        here = [row.meaning for row in rows if at in row.sections]
+        if here:
+            return "; or ".join(here)
+    if not rows:
+        raise ClaimError(
+            f"{NAMES.name}: no meaning of {name}; add one for section {section}{PROSE}"
+        )
+    return rows[0].meaning
+
+
+def _operators(tree: object) -> Iterator[str]:
+    if isinstance(tree, tuple):
+        for one in tree:
+            yield from _operators(one)
+    elif isinstance(tree, Tree):
+        if isinstance(tree, Operator):
+            numbered = tree.sign == r"\Delta" and tree.subscripts
+            yield tree.sign + (f"_{spelled(tree.subscripts[0])}" if numbered else "")
+        for field in tree.__dataclass_fields__:
+            yield from _operators(getattr(tree, field))
+
+
+def names() -> list[tuple[str, str, str]]:
+    """The names of prints with their meanings and, for a name with several, the sections of each;
+    without those of the notation of statements.
+    """
+    rows = [row for row in meanings() if any(not one.endswith(PROSE) for one in row.sections)]
+    count = Counter(row.name for row in rows)
+    known = {_bare(latex) for _, latex, meaning in NOTATION if meaning}
+    return [
+        (
+            with_macros(row.name.replace("...", r"\ldots")),
+            prose(row.meaning),
+            ", ".join(one for one in row.sections if not one.endswith(PROSE))
+            if count[row.name] > 1
+            else "",
+        )
+        for row in rows
+        if count[row.name] > 1 or _bare(row.name) not in known
+    ]
+
+
+def _bare(latex: str) -> str:
+    return re.sub(r"[{} ]|\\(?=max)", "", narrow(latex))
+
+
+def key(name: str) -> str:
+    """The name of a derivation within a label."""
+    return re.sub(r"[^A-Za-z0-9]", "-", name)
+
+
+def holds(sharp: str) -> str:
+    """A sharp range as a sentence."""
+    if sharp == "nowhere":
+        return r"for no $\jugrestitution$"
+    if ": " not in sharp and "root" not in sharp:
+        return (
+            f"exactly for {prose(sharp)}"
+            if sharp != "0 < alpha < 1"
+            else r"for all $0 < \jugrestitution < 1$"
+        )
+    return prose(re.sub(r"(?<=: )nowhere", "for no alpha", sharp))
+
+
+def values(at: str) -> str:
+    """A counterexample: its values, and which root is meant."""
+    point, where, root = at.partition(" where ")
+    shown = ", ".join(
+        f"${with_macros(_value(one))}$" for one in point.split(", ") if " = " in one
+    ) or prose(point)
+    return shown + (f" where {prose(root)}" if where else "")
+
+
+def _value(text: str) -> str:
+    name, _, value = text.partition(" = ")
+    try:
+        return f"{latex_of(name)} = {latex_of(value)}"
+    except (checker.Rejected, TypeError):
+        return text
+
+
+def settled(entry: Entry) -> str:
+    """How the claim was settled, with the names of what was refuted."""
+    return plain(entry.settled_by)
+
+
+class Steps:
+    """The lines of the written proof: the statements of a claim, by label."""
+
+    def __init__(self, entry: Entry) -> None:
+        self.by_label = {one.name.partition("/")[2]: one for one in entry.statements}
+        self.used: set[str] = set()
+
+    def show(self, label: str, *parts: int) -> str:
+        """What a line shows, whole or some of its conjuncts; refuses a line that is not
+        certified.
+        """
+        one = self.by_label[label]
+        if one.outcome != "certified":
+            raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")
+        self.used.add(label)
+        conjuncts = one.text.rpartition("\nshow ")[2].split(" and ")
+        return with_macros(
+            _chained(
+                [latex_of(conjuncts[part]) for part in parts]
+                if parts
+                else [latex_of(part) for part in conjuncts]
+            )
+        )
+
+    def given(self, label: str, place: int) -> str:
+        """What a line is given, by place."""
+        givens = [
+            line.partition(" ")[2]
+            for line in self.by_label[label].text.splitlines()
+            if line.startswith("given ")
+        ]
+        return with_macros(latex_of(givens[place]))
+
+
+def _chained(relations: Sequence[str]) -> str:
+    r"""Relations in a row, a < b and b < c as a < b < c.
+
+    >>> _chained(["0 < x", r"x \le 1", "y = 2"])
+    '0 < x \\le 1,\\quad y = 2'
+    """
+    shown = relations[0]
+    for before, one in zip(relations, relations[1:]):
+        end = re.split(r" (?:<|>|=|\\le|\\ge|\\ne) ", before)[-1]
+        shown += one.removeprefix(end) if one.startswith(end + " ") else r",\quad " + one
+    return shown
+
+
+__all__ = [
+    "Steps",
+    "change",
+    "code",
+    "corrected",
+    "correction",
+    "entries",
+    "formula",
+    "heading",
+    "holds",
+    "in_errata",
+    "inline",
+    "key",
+    "number",
+    "plain",
+    "prose",
+    "settled",
+    "symbol",
+    "values",
+    "why",
+]

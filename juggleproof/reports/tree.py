@@ -1,0 +1,151 @@
+"""How the conclusion of a map rule rests on other rules, and on premises that the checker writes:
+down to the inequalities.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
+
+from juggleproof.certificates import checker
+from juggleproof.judging.conclusions import PROVED
+from juggleproof.papers.paper import opened
+from juggleproof.statements.language import ClaimError, lemmas_of, rests_on
+from juggleproof.statements.store import Store, WrittenOut
+from juggleproof.statements.vote import Vote
+
+STANDS, LOST = f"theorem: {PROVED}", f"theorem: NOT {PROVED}"
+
+
+def rules_of(store: Store, names: Iterable[str] | None = None) -> dict[str, checker.Statement]:
+    """The stored statements under map rules, by name: all, or those among these names and what they
+    name.
+    """
+    if not isinstance(store.texts, WrittenOut):
+        return {}
+    statements = store.texts.read(store.texts if names is None else names)
+    return {
+        name: one
+        for name, one in statements.items()
+        if one.kind in checker.orbit_rules() and one.kind != "iterates"
+    }
+
+
+def with_all_below(name: str, rules: Mapping[str, checker.Statement]) -> list[str]:
+    """The rule and all rules that it rests on, each once, those that rest on others first; none
+    where one is not there.
+    """
+    names = [name]
+    for one in names:
+        if one not in rules:
+            return []
+        names += [inner for inner in rests_on(rules[one]) if inner not in names]
+    return names
+
+
+def digest_of(texts: Iterable[str]) -> str:
+    """A digest of statements in order, with definitions written out."""
+    return hashlib.sha256("\n\n".join(texts).encode()).hexdigest()
+
+
+def theorem_line(
+    store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None
+) -> str:
+    """One line for the theorem: proved, resting on how many statements, and under which rules; or
+    where its proof is lost, or that what is stored under its name is not the theorem.
+
+    Empty where the store does not hold it.
+    """
+    theorem = opened().theorem
+    if theorem.name not in store.texts:
+        return ""
+    rules = rules_of(store, [theorem.name])
+    names = with_all_below(theorem.name, rules)
+    if digest_of(store.texts[name] for name in names) != theorem.digest:
+        return f"{LOST}; {theorem.name}, or what it rests on, is not as the sources state it"
+    used = set().union(*(lemmas_of(store.certificate(name, store.texts[name])) for name in names))
+    cast = [
+        vote
+        for name, each in (votes or {}).items()
+        if name.rpartition(".")[0] in names
+        for vote in each
+    ]
+    decided = [
+        f"{route} {sum(vote.answer == 'holds' for vote in cast if vote.route == route)}"
+        for route in ("z3", "boxes")
+        if cast
+    ]
+    lost = [name for name in [*sorted(used), *reversed(names)] if outcomes.get(name) != "certified"]
+    if lost:
+        return f"{LOST}; {lost[0]} is not certified, and {theorem.name} rests on it"
+    count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
+    kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
+    return (
+        f"{STANDS} by exact certificates: {theorem.sentence};\n         {theorem.name} rests on"
+        f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
+        f" {kinds}"
+        + (
+            f";\n         recorded votes for the premises: {', '.join(decided)} of {count}"
+            if decided
+            else ""
+        )
+        + "\n         `make coq` in a checkout proves the same from the definition of the map"
+        "\n         alone, and from flight and impact that ball and table settle in continuous time"
+    )
+
+
+def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premises: bool) -> None:
+    """Prints, for each conclusion that no other of the claim's rules rests on, what it rests on.
+
+    Raises ClaimError where premises are asked for and the claim neither is a map rule nor rests on
+    one.
+    """
+    own = [name for name in store.texts if name.split("/")[0] == claim_id]
+    rules = rules_of(store, [*own, *resting])
+    roots = [
+        *(name for name in rules if name in own),
+        *(name for name in resting if name in rules),
+    ]
+    if not roots:
+        if with_premises:
+            raise ClaimError(
+                f"{claim_id} has no map rules, so that no premises are written; its statements are"
+                " all there is"
+            )
+        return
+    roots = [name for name in roots if not any(name in rests_on(rules[other]) for other in roots)]
+    print(
+        "\nrests on    each rule, its premises as the checker writes them, and the rules that it"
+        " names"
+    )
+    shown: dict[str, Mapping[str, checker.Statement]] = {}
+    for name in roots:
+        _branch(name, 1, rules, store, shown)
+    count = sum(map(len, shown.values()))
+    print(
+        f"  {len(shown)} rules, {count} premises, each an inequality or identity of polynomials"
+        + ("" if with_premises else " (--premises prints their texts)")
+    )
+    for premises in shown.values() if with_premises else ():
+        for premise in premises.values():
+            print("\n    " + premise.text().replace("\n", "\n    "))
+
+
+def _branch(
+    name: str,
+    depth: int,
+    rules: Mapping[str, checker.Statement],
+    store: Store,
+    shown: dict[str, Mapping[str, checker.Statement]],
+) -> None:
+    if name in shown:
+        print(f"{'  ' * depth}{name} (above)")
+        return
+    shown[name] = premises = checker.premises_of(rules[name], rules)
+    used = sorted(lemmas_of(store.certificate(name, store.texts[name])))
+    print(
+        f"{'  ' * depth}{name}: {len(premises)} premises: {' '.join(premises)}"
+        + (f"; by {', '.join(used)}" if used else "")
+    )
+    for inner in rests_on(rules[name]):
+        _branch(inner, depth + 1, rules, store, shown)

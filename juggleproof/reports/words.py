@@ -1,0 +1,497 @@
+"""Sentences and statements in words and LaTeX, and the intervals of sharp ranges."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import cache
+
+from juggleproof.certificates import checker
+from juggleproof.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
+
+# -------------------------------------------------------------------------------------------------
+# Sentences of claims and derivations, in which formulas stand as in statements, parted into text
+# and LaTeX.
+#
+# A formula is known by its words: names of the notation, numerals beside signs, and what
+# joins them. The rest stays text.
+
+# Names of sentences that no statement has: regions, maps, and quantities with marks that the
+# statement language lacks.
+NAMED = {
+    "B1^0": r"\mathcal{B}_1^0",
+    "B1^+": r"\mathcal{B}_1^+",
+    "B1^-": r"\mathcal{B}_1^-",
+    "B1": r"\mathcal{B}_1",
+    "B2": r"\mathcal{B}_2",
+    "B_1": "B_1",
+    "B_2": "B_2",
+    "B_3": "B_3",
+    "S_0": "S_0",
+    "Delta_1 E": r"\Delta_1 E",
+    "Delta_2 E": r"\Delta_2 E",
+    "Delta E_max": r"\Delta E_{\max}",
+    "Delta E_sup": r"\Delta E_{\sup}",
+    "Delta E": r"\Delta E",
+    "E_max": r"E_{\max}",
+    "E_sup": r"E_{\sup}",
+    "tau_c": r"\tau_c",
+    "tau_w": r"\tau_w",
+    "xi_1": r"\xi_1",
+    "epsilon_1": r"\epsilon_1",
+    **{f"e_{K}": f"e_{K}" for K in (*range(1, 7), "K")},
+    "T_K": "T_K",
+    "b_0": r"\bar b_0",
+    "r_0": "r_0",
+    "z_k": "z_k",
+    "t_R": r"t_{\mathcal{R}}",
+    "A_T": "A_T",
+    "A_t": "A_t",
+    "R_alpha": r"R_\alpha",
+    "u_1": "u_1",
+    "u_2": "u_2",
+    "f1": r"\bar f_1",
+    "f2": r"\bar f_2",
+    "F^t": "F^t",
+    "f^n": "f^n",
+    "C_y": "C_y",
+    "P_x": "P_x",
+    "P_y": "P_y",
+    "c_x": "c_x",
+    "c_y": "c_y",
+    "G": "G",
+    "z1": "z_1",
+    "z2": "z_2",
+    "a_t": "a_t",
+    "alpha^n": r"\alpha^n",
+    "(-alpha)^n": r"(-\alpha)^n",
+    "R(b)": r"R(\bar b)",
+    "b": r"\bar b",
+    "epsilon": r"\epsilon",
+    "kappa": r"\kappa",
+    "alpha^k": r"\alpha^k",
+    "A_-xi": r"A_{-\xi}",
+    "A_-epsilon": r"A_{-\epsilon}",
+}
+REGIONS = {"H": r"\mathcal{H}", "R": r"\mathcal{R}"}
+LETTERS = {
+    "C",
+    "D",
+    "E",
+    "F",
+    "K",
+    "N",
+    "T",
+    "W",
+    "c",
+    "f",
+    "m",
+    "n",
+    "p",
+    "q",
+    "r",
+    "t",
+    "u",
+    "v",
+    "w",
+    "x",
+    "y",
+    "z",
+}
+WORD = re.compile(
+    r"""
+    \(-alpha\)\^n | Delta_[12]\ E | Delta\ E_(?:max|sup) | Delta\ E\b | B1\^[0+\-](?!\w) | R\(b\)
+  | \|[A-Za-z]\w*\| | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:\.\w+)*(?:-\w+)+
+  | [A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?
+  | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
+""",
+    re.VERBOSE,
+)
+SIGN = re.compile(  # a letter or sign in what a correction changes, where `a` is the article
+    r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Zb-z]\b|[<>])"
+)
+JOINING = {
+    "<=": r"\le",
+    ">=": r"\ge",
+    "=": "=",
+    "<": "<",
+    ">": ">",
+    "+": "+",
+    "-": "-",
+    "*": "",
+    "/": "/",
+    "^": "^",
+}
+
+
+@cache
+def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
+    r"""The sentence as ("text", words) and ("math", LaTeX), in order.
+
+    >>> text = "For 0 < alpha < 1/3 every orbit is attracted to R."
+    >>> pieces(text)  # doctest: +NORMALIZE_WHITESPACE
+    (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'),
+     ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
+    >>> pieces("2 alpha^12 times nearer to e_6")
+    (('math', '2\\alpha^{12}'), ('text', ' times nearer to '), ('math', 'e_6'))
+    """
+    parts: list[tuple[str, str]] = []
+    at = 0
+    for start, end in _formulas(sentence):
+        if sentence[at:start]:
+            parts.append(("text", sentence[at:start]))
+        parts.append(("math", _formula(sentence[start:end])))
+        at = end
+    return (*parts, ("text", sentence[at:])) if sentence[at:] else tuple(parts)
+
+
+def _formulas(sentence: str) -> list[tuple[int, int]]:
+    """The stretches that are formulas: the longest runs of names, numerals, signs and balanced
+    brackets that hold a name or a sign.
+    """
+    words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
+    spans, place = [], 0
+    while place < len(words):
+        if not _begins(words, place):
+            place += 1
+            continue
+        last = max(_run(words, place), place + 1)
+        tokens = [word for word, _, _ in words[place:last]]
+        if any(_is_name(word) for word in tokens) or len(tokens) > 1:
+            spans.append((words[place][1], words[last - 1][2]))
+        place = last
+    return spans
+
+
+def _is_name(word: str) -> bool:
+    word = word.strip("|")
+    base, raised, exponent = word.partition("^")
+    if raised:
+        return word in NAMED or _is_name(base) and (exponent.isdigit() or exponent in LETTERS)
+    return (
+        word in NAMED
+        or word in REGIONS
+        or word in GLYPHS
+        or word in LETTERS
+        or bool(re.fullmatch(r"(?:[a-z]|beta)\d", word))
+    )
+
+
+def _is_atom(word: str) -> bool:
+    return _is_name(word) or bool(re.fullmatch(r"\d+(/\d+)?", word))
+
+
+def _begins(words: list[tuple[str, int, int]], place: int) -> bool:
+    word = words[place][0]
+    following = words[place + 1][0] if place + 1 < len(words) else ""
+    if word in ("-", "("):
+        return (
+            _is_atom(following) and _closes(words, place)
+            if word == "("
+            else _is_atom(following) and words[place + 1][1] == words[place][2]
+        )
+    return _is_atom(word)
+
+
+def _closes(words: list[tuple[str, int, int]], place: int) -> bool:
+    """Whether what the bracket holds is a formula, and not a number of an equation or a remark."""
+    inside = list[str]()
+    for word, _, _ in words[place + 1 :]:
+        if word == ")":
+            return (any(map(_is_name, inside)) or "," in inside) and all(
+                _is_atom(one) or one in JOINING or one in ",(" for one in inside
+            )
+        inside.append(word)
+    return False
+
+
+def _run(words: list[tuple[str, int, int]], place: int) -> int:
+    """Where the formula that begins at this word ends."""
+    depth, last, expects = 0, place, True
+    while place < len(words):
+        word = words[place][0]
+        following = words[place + 1][0] if place + 1 < len(words) else ""
+        if expects and (_is_atom(word)):
+            expects, place = False, place + 1
+        elif expects and word == "-":
+            place += 1
+        elif word == "(" and (expects or words[place][1] > 0) and _closes(words, place):
+            depth, expects, place = depth + 1, True, place + 1
+        elif not expects and word == ")" and depth:
+            depth, place = depth - 1, place + 1
+        elif not expects and word in JOINING and (_is_atom(following) or following in ("(", "-")):
+            expects, place = True, place + 1
+        elif (
+            not expects
+            and word == ","
+            and depth
+            and (_is_atom(following) or following in ("(", "-"))
+        ):
+            expects, place = True, place + 1
+        elif (
+            not expects
+            and _is_atom(word)
+            and words[place - 1][2] + 1 == words[place][1]
+            and _is_factor(words[place - 1][0], True)
+            and (_is_factor(word, False))
+        ):
+            place += 1
+        else:
+            break
+        if not expects and not depth:
+            last = place
+    return last
+
+
+def _is_factor(word: str, first: bool) -> bool:
+    """Whether the word can stand beside another one as a factor."""
+    name = word.strip("|")
+    base = name.partition("^")[0]
+    return (
+        base in LETTERS
+        or base in GLYPHS
+        or (word == ")" or word[0].isdigit() if first else name in NAMED)
+    )
+
+
+def _formula(text: str) -> str:
+    """The LaTeX of a stretch: of the statement language where it is one, else word by word."""
+    words = [found.group() for found in WORD.finditer(text)]
+    if not any(word in NAMED or word in REGIONS for word in words):
+        try:
+            return rf"({latex_of(text)})" if is_bracketed(text) else latex_of(text)
+        except (checker.Rejected, TypeError):
+            pass
+    shown = ""
+    for found in WORD.finditer(text):
+        word = found.group().strip("|")
+        bar = "|" if word != found.group() else ""
+        piece = (
+            NAMED.get(word) or REGIONS.get(word) or JOINING.get(word) if word != "/" else "/"
+        ) or (
+            _raised(word) if "^" in word[1:] else glyph(word) if _is_name(word) else _numeral(word)
+        )
+        piece = bar + piece + bar
+        if word == "*":
+            continue
+        spaced = (
+            word in ("<=", ">=", "=", "<", ">", "+")
+            or word == "-"
+            and shown
+            and shown[-1] not in "(,= "
+        )
+        if spaced:
+            piece = f" {piece} "
+        elif re.search(r"\\[A-Za-z]+$", shown) and piece[:1].isalnum():
+            piece = " " + piece
+        shown += piece + (" " if word == "," else "")
+    return shown.strip()
+
+
+def _raised(word: str) -> str:
+    base, _, exponent = word.partition("^")
+    power = exponent if len(exponent) == 1 else f"{{{exponent}}}"
+    return f"{NAMED.get(base) or REGIONS.get(base) or glyph(base)}^{power}"
+
+
+def _numeral(word: str) -> str:
+    above, slash, below = word.partition("/")
+    return rf"\frac{{{above}}}{{{below}}}" if slash and below else word
+
+
+# -------------------------------------------------------------------------------------------------
+# Sharp ranges of alpha, read from their text into intervals that can be drawn.
+
+# low, high, and whether each belongs to it; a single number is low = high
+Interval = tuple[Fraction, Fraction, bool, bool]
+
+NUMBERS_SHOWN = (2, 3)  # what is put for K or n, where the range depends on one
+_READING = re.compile(r"([A-Za-z][\w-]*): (.*)", re.DOTALL)
+_END = re.compile(r"(c\d+) = (-?\d+\.\d+)\.\.\., a root of .*", re.DOTALL)
+_POINT = re.compile(r"alpha = (.+)")
+_BETWEEN = re.compile(r"(.+?) (<=?) alpha (<=?) (.+)")
+_WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
+
+
+def read(text: str) -> list[tuple[str, list[Interval] | None]]:
+    """Each reading's intervals, with its label; one for each number put for K or n; None where the
+    range cannot be drawn.
+
+    >>> read("0 < alpha < 1/3")
+    [('', [(Fraction(0, 1), Fraction(1, 3), False, False)])]
+    >>> several = read("K/(K + 2) <= alpha < 1; as-in-11: nowhere")
+    >>> [(label, [str(one[1]) for one in intervals]) for label, intervals in several]
+    [('K = 2', ['1']), ('K = 3', ['1']), ('as-in-11', [])]
+    >>> read("sampled: not found")
+    [('sampled', None)]
+    """
+    ranges: list[tuple[str, str, dict[str, Fraction]]] = []
+    for piece in text.split("; "):
+        end, reading = _END.fullmatch(piece), _READING.fullmatch(piece)
+        if end and ranges:
+            ranges[-1][2][end[1]] = Fraction(end[2])
+        else:
+            ranges.append((reading[1], reading[2], {}) if reading else ("", piece, {}))
+    return [
+        (", ".join(part for part in (label, name) if part), intervals)
+        for label, sharp, ends in ranges
+        for name, intervals in _for_each_number(sharp, ends)
+    ]
+
+
+def _for_each_number(
+    sharp: str, ends: Mapping[str, Fraction]
+) -> list[tuple[str, list[Interval] | None]]:
+    match = _WHOLE_NUMBER.fullmatch(sharp)
+    sharp, number = (match[1], match[2]) if match else (sharp, "K")
+    if not re.search(rf"\b{number}\b", sharp):
+        return [("", _intervals(sharp, ends))]
+    return [
+        (f"{number} = {one}", _intervals(sharp, {**ends, number: Fraction(one)}))
+        for one in NUMBERS_SHOWN
+    ]
+
+
+def _intervals(sharp: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
+    if sharp == "nowhere":
+        return []
+    intervals = []
+    for piece in sharp.split(" or "):
+        point, between = _POINT.fullmatch(piece), _BETWEEN.fullmatch(piece)
+        try:
+            if point:
+                number = _value(point[1], values)
+                intervals.append((number, number, True, True))
+            elif between:
+                intervals.append(
+                    (
+                        _value(between[1], values),
+                        _value(between[4], values),
+                        between[2] == "<=",
+                        between[3] == "<=",
+                    )
+                )
+            else:
+                return None
+        except (SyntaxError, LookupError, ZeroDivisionError):
+            return None
+    return intervals
+
+
+def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
+    """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree;
+    LookupError for anything else.
+    """
+    return _walk(ast.parse(text, mode="eval").body, values)
+
+
+def _walk(node: ast.expr, values: Mapping[str, Fraction]) -> Fraction:
+    if isinstance(node, ast.Constant) and type(node.value) is int:
+        return Fraction(node.value)
+    if isinstance(node, ast.Name):
+        return values[node.id]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -_walk(node.operand, values)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub, ast.Mult, ast.Div)):
+        left, right = _walk(node.left, values), _walk(node.right, values)
+        kind = type(node.op)
+        return (
+            left + right
+            if kind is ast.Add
+            else (
+                left - right
+                if kind is ast.Sub
+                else left * right
+                if kind is ast.Mult
+                else left / right
+            )
+        )
+    raise LookupError(ast.dump(node))
+
+
+# -------------------------------------------------------------------------------------------------
+# The lines of a statement as words and formulas: what an auditor reads, set as mathematics.
+
+WORDS = {
+    "forall": "for all",
+    "integer": "whole numbers",
+    "range": "given",
+    "given": "given",
+    "have": "so that",
+    "let": "where",
+    "root": "where",
+    "exists": "there are",
+    "with": "with",
+    "show": "then",
+    "iterates": "the map",
+    "after": "after",
+    "over": "for all",
+    "input": "for all inputs",
+    "domain": "given",
+    "holds": "exactly if",
+    "number": "where",
+    "state": "of the state",
+    "space": "in",
+    "piece": "the map",
+    "word": "pieces",
+    "never": "impossible pieces",
+}
+
+
+def _bare(text: str) -> str:
+    return text[1:-1].rstrip(",") if text.startswith("(") and text.endswith(")") else text
+
+
+def parts_of(text: str) -> list[str]:
+    """What commas outside of brackets part."""
+    parts, depth, start = list[str](), 0, 0
+    for place, sign in enumerate(text):
+        depth += (sign == "(") - (sign == ")")
+        if sign == "," and not depth:
+            parts.append(text[start:place].strip())
+            start = place + 1
+    return [*parts, text[start:].strip()]
+
+
+def formulas_of(text: str) -> Iterator[tuple[str, str]]:
+    """Every formula of a statement with its LaTeX, for comparison."""
+    for line in text.splitlines()[1:]:
+        keyword, _, content = line.partition(" ")
+        if keyword in (
+            "range",
+            "given",
+            "have",
+            "with",
+            "show",
+            "domain",
+            "holds",
+            "space",
+            "rank",
+            "stage",
+            "on",
+            "rate",
+            "radius",
+            "size",
+            "loss",
+            "least",
+            "upper",
+        ):
+            yield content, latex_of(content)
+        elif keyword in ("point", "weights", "start", "direction"):
+            yield from ((part, latex_of(part)) for part in parts_of(content))
+        elif keyword in ("let", "root", "number"):
+            value = content.partition(" = ")[2]
+            rooted = re.fullmatch(r"(?:sqrt|root)\((.*)\)", value)
+            for part in parts_of(rooted.group(1)) if rooted else [value]:
+                yield part, latex_of(part)
+        elif keyword == "value":
+            yield from ((part, latex_of(part)) for part in content.split(" -> "))
+        elif keyword in ("piece", "iterates", "after") and "->" in content:
+            source, _, image = content.partition(" -> ")
+            for part in [
+                *(parts_of(_bare(source)) if keyword != "after" else []),
+                *parts_of(_bare(image)),
+            ]:
+                yield part, latex_of(part)

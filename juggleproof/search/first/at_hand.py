@@ -1,0 +1,93 @@
+"""Counterexamples at hand: small rational values for every variable, tried in turn.
+
+This comes first, and loads nothing that is dear to load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import product
+
+from juggleproof.certificates import checker
+from juggleproof.statements.nodes import Certificate, Counterexample, Node
+from juggleproof.statements.work import Budget, Exhausted, unfolded
+
+# the values of each variable, by the number of variables
+VALUES: Sequence[Sequence[int | Fraction]] = (
+    (),
+    (0, 1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2), 3, -3, Fraction(1, 3), Fraction(3, 2), 10),
+    (0, 1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2), 3),
+    (0, 1, -1, 2, Fraction(1, 2)),
+    (0, 1, -1, 2),
+)
+FEW: Sequence[int | Fraction] = (0, 1)
+MOST = 8  # variables, of which each combination of few values is tried
+Term = tuple[int, Sequence[tuple[int, int]]]  # a coefficient, and powers of variables
+
+
+def search_at_hand(statement: checker.Statement, budget: Budget) -> Certificate | None:
+    """A counterexample to a statement for all reals; None where none is at hand.
+
+    >>> text = "statement a/b\\nforall x y\\nshow x*y < 2"
+    >>> search_at_hand(checker.read_statements(text)["a/b"], Budget(10**4))["refuted"].terms
+    {'x': '1', 'y': '2'}
+    """
+    if any(map(statement.get, ("exists", "integer", "root"))):
+        return None
+    unfolding = unfolded(statement)
+    names = unfolding.universal
+    if unfolding.obligations or len(names) > MOST:
+        return None
+    assumed = checker.join("and", [*unfolding.premises, unfolding.goal(False)])
+    values = VALUES[len(names)] if len(names) < len(VALUES) else FEW
+    known: dict[int, Sequence[Term]] = {}
+    try:
+        for point in product(values, repeat=len(names)):
+            if holds_at(assumed, point, known, budget):
+                terms = {name: str(value) for name, value in zip(names, point)}
+                close: Node = ("close",)
+                return {"refuted": Counterexample(statement.name, [], terms, close, close)}
+    except Exhausted:
+        pass
+    return None
+
+
+def holds_at(
+    formula: checker.Formula,
+    point: Sequence[int | Fraction],
+    known: dict[int, Sequence[Term]],
+    budget: Budget,
+) -> bool:
+    """Whether a formula holds at a point; `known` keeps the terms of polynomials."""
+    if isinstance(formula, bool):
+        return formula
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        if id(poly) not in known:
+            known[id(poly)] = [(c, powers(m)) for m, c in poly.terms.items()]
+        budget.spend(1 + len(poly.terms) // 4)
+        value: int | Fraction = 0
+        for c, factors in known[id(poly)]:
+            part: int | Fraction = c
+            for place, exponent in factors:
+                part *= point[place] ** exponent
+            value += part
+        return (
+            (value > 0 and relation != "=")
+            or (value == 0 and relation in ("=", ">="))
+            or (value < 0 and relation == "!=")
+        )
+    parts = (holds_at(part, point, known, budget) for part in formula[1])
+    return all(parts) if formula[0] == "and" else any(parts)
+
+
+def powers(monomial: int) -> list[tuple[int, int]]:
+    """The variables of a packed monomial by their numbers, with exponents."""
+    found, place = [], 0
+    while monomial:
+        monomial, exponent = divmod(monomial, 1 << checker.BITS)
+        if exponent:
+            found.append((place, exponent))
+        place += 1
+    return found

@@ -1,0 +1,367 @@
+"""Exact points that meet a statement's premises, counterexamples that break its goals, and
+witnesses, as the checker takes them.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from juggleproof.algebra.conditions import Condition, ring_of
+from juggleproof.algebra.numbers import fraction
+from juggleproof.certificates import checker
+from juggleproof.search.at_number import AdjoinedNumber, close_at_number
+from juggleproof.search.closing import search_closing
+from juggleproof.search.families import cover
+from juggleproof.search.hints.asking import ask
+from juggleproof.search.hints.isolated import isolated_points
+from juggleproof.search.hints.models import (
+    approximate_points,
+    model_assignments,
+    whole_models,
+)
+from juggleproof.search.samples import Assignment, Sampler, base_samples
+from juggleproof.search.scales import with_scales
+from juggleproof.search.triangular import DIGITS, Towers, values_of_tower
+from juggleproof.search.witness_terms import Known, Task
+from juggleproof.statements.language import NO_ROLES, Roles
+from juggleproof.statements.nodes import Adjoined, Node, Values, values_at
+from juggleproof.statements.states import State
+from juggleproof.statements.work import Budget, Exhausted, unfolded
+
+# For each effort: rounds of (values tried for a variable, values kept for the last one,
+# substitutions in all, irrational ones too).
+ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
+    ((3, 1, 40, False),),
+    ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 1000, True)),
+    ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 3000, True), (24, 6, 8000, True)),
+)
+MANY = 12  # variables, or disjunctions
+VOTE = 100_000  # of Z3
+
+
+def search_values(
+    statement: checker.Statement,
+    state: State,
+    purpose: str,
+    base: dict[str, checker.Poly],
+    known: Known,
+    budget: Budget,
+    sharp: list[ast.expr] | None = None,
+    effort: int = 1,
+    roles: Roles = NO_ROLES,
+) -> Values | None:
+    """Values as `states.finds` takes them for the purpose "point", "counterexample" or "witness";
+    None where none were found.
+
+    `base` has the values of variables that are given, in which a witness is sought as terms.
+    Raises Exhausted where the budget ends.
+    """
+    unfolding = unfolded(statement, sharp)
+    roles = with_scales(roles, unfolding)
+    if base:
+        task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
+        return _terms_on_state(task, state)
+    exists = bool(statement.get("exists"))
+    parts = list(unfolding.premises)
+    names = list(unfolding.universal)
+    if purpose == "witness":
+        parts, names = [unfolding.goal(True)], sorted(unfolding.variables)
+    elif purpose == "counterexample" and not exists:
+        parts.append(unfolding.goal(False))
+    whole = checker.join("and", parts)
+    if whole is False:
+        return None
+    condition = Condition.of(unfolding.context, whole, ring_of(unfolding.context))
+    goal = (
+        Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
+        if exists and purpose == "counterexample"
+        else None
+    )
+    if (
+        exists
+        or purpose == "witness"
+        or unfolding.integers
+        or sharp
+        or not effort
+        or not any(r == "=" for _, r in condition.facts())
+    ):
+        return _sampled(
+            statement,
+            state,
+            condition,
+            goal,
+            names,
+            frozenset(unfolding.integers),
+            purpose,
+            known,
+            budget,
+            sharp,
+            effort,
+            roles,
+        )
+    try:
+        part = budget.part(budget.left * 6 // 10)
+        values = _sampled(
+            statement,
+            state,
+            condition,
+            goal,
+            names,
+            frozenset(),
+            purpose,
+            known,
+            part,
+            sharp,
+            effort,
+            roles,
+        )
+    except Exhausted:
+        values = None
+    return values or _by_towers(
+        statement, state, condition, names, purpose, known, budget, effort, roles
+    )
+
+
+def _sampled(
+    statement: checker.Statement,
+    state: State,
+    condition: Condition,
+    goal: Condition | None,
+    names: Sequence[str],
+    integers: frozenset[str],
+    purpose: str,
+    known: Known,
+    budget: Budget,
+    sharp: list[ast.expr] | None,
+    effort: int,
+    roles: Roles,
+) -> Values | None:
+    """A point from samples and models, with one irrational number at most."""
+    failures = 0
+    many = goal is not None
+    for assignment in assignments(condition, names, integers, budget, effort, many, roles):
+        if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
+            failures += 1
+        else:
+            values = values_of_assignment(
+                statement, state, assignment, names, purpose, known, budget, sharp, effort
+            )
+            if values is not None:
+                return values
+            failures += 5
+        if failures >= 30 * (effort + 1):
+            break
+    return None
+
+
+def _by_towers(
+    statement: checker.Statement,
+    state: State,
+    condition: Condition,
+    names: Sequence[str],
+    purpose: str,
+    known: Known,
+    budget: Budget,
+    effort: int,
+    roles: Roles,
+) -> Values | None:
+    """A point with several irrational values, guided by points in floats."""
+    for guide in approximate_points(condition, names, budget):
+        failures = 0
+        for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
+            for digits in DIGITS:
+                values = values_of_tower(statement, state, tower, purpose, known, budget, digits)
+                if values is not None and state.is_served_by(values, known, purpose, statement):
+                    return values
+            failures += 1
+            if failures >= 2 * effort:
+                break
+    return None
+
+
+def _beyond(
+    goal: Condition,
+    assignment: Assignment,
+    names: Sequence[str],
+    integers: frozenset[str],
+    budget: Budget,
+    roles: Roles,
+) -> bool:
+    """Whether Z3 thinks that no values of the `exists` variables meet the goals at a rational
+    point.
+    """
+    values = {name: assignment.rational(name) for name in names}
+    exact = {name: value for name, value in values.items() if value is not None}
+    if len(exact) < len(names):
+        return False
+    there = goal.substituted(exact)
+    rest = sorted(there.variables())
+    sampler = Sampler(budget, integers, *ROUNDS[0][0], roles=roles)
+    if next(sampler.search(there, rest), None) is not None:
+        return False  # so simple values that meet the goals need not be asked for
+    return ask(there, budget, integers, 200_000).verdict == "unsat"
+
+
+def _terms_on_state(task: Task, state: State) -> Values | None:
+    """Terms in the base variables, on all of the state."""
+    if task.effort == 0:
+        task = replace(task, effort=1, nodes=40, tries=2)
+    return cover(
+        task, state, base_samples(state, task.budget, task.roles), depth=(0, 2, 4)[task.effort]
+    )
+
+
+def assignments(
+    condition: Condition,
+    names: Sequence[str],
+    integers: frozenset[str],
+    budget: Budget,
+    effort: int,
+    many: bool = False,
+    roles: Roles = NO_ROLES,
+) -> Iterator[Assignment]:
+    """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
+    if not many and (len(condition.variables()) >= MANY or disjunctions(condition) >= MANY):
+        # Sampling would try few of so many values: models are asked for first.
+        yield from whole_models(condition, names, integers, budget, roles, VOTE)
+    for width, last, nodes, irrational in ROUNDS[effort]:
+        yield from Sampler(
+            budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
+        ).search(condition, names)
+        if effort and width == 6:
+            # Where Z3 sees that there is nothing, wider samples would be in vain.
+            answer = ask(condition, budget, integers, VOTE).verdict
+            if answer == "unsat":
+                return
+            if answer == "sat" and not many:
+                yield from model_assignments(condition, names, integers, budget, effort, roles)
+            if not (many or integers):
+                yield from isolated_points(condition, names, budget)
+            if not many:
+                resources = VOTE if answer == "sat" else 0
+                yield from whole_models(condition, names, integers, budget, roles, resources)
+
+
+def disjunctions(condition: Condition) -> int:
+    """How many disjunctions stand at top level."""
+    tree = condition.tree
+    if isinstance(tree, bool) or tree[0] != "and":
+        return 0
+    return sum(not isinstance(part, bool) and part[0] == "or" for part in tree[1])
+
+
+def values_of_assignment(
+    statement: checker.Statement,
+    state: State,
+    assignment: Assignment,
+    names: Sequence[str],
+    purpose: str,
+    known: Known,
+    budget: Budget,
+    sharp: list[ast.expr] | None,
+    effort: int,
+) -> Values | None:
+    """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
+    does not serve.
+    """
+    nodes: list[Node] = [("close",)] * (2 if purpose == "counterexample" else 1)
+    if assignment.number is None:
+        terms = {name: str(fraction(assignment.values[name][0])) for name in names}
+        if purpose == "counterexample" and statement.get("exists"):
+            node = _goal_node(statement, state, terms, known, budget, sharp, effort)
+            if node is None:
+                return None
+            nodes[1] = node
+        values = values_at(statement.name, [], terms, nodes)
+        return (
+            values if state.is_served_by(values, known, purpose, statement, sharp=sharp) else None
+        )
+    for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
+        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", statement))
+        terms = {name: adjoined.text(assignment.values[name]) for name in names}
+        closed = _nodes_at_number(statement, state, terms, adjoined, sharp, purpose)
+        if closed is not None:
+            values = values_at(statement.name, [adjoined.entry()], terms, closed)
+            if state.is_served_by(values, known, purpose, statement, sharp=sharp):
+                return values
+    return None
+
+
+def _unfolding(
+    statement: checker.Statement,
+    state: State,
+    adjoined: Sequence[Adjoined],
+    terms: Mapping[str, str],
+    sharp: list[ast.expr] | None,
+) -> tuple[State, checker.Unfolding]:
+    """The state and the unfolding that the checker has when it comes to the nodes of values without
+    a base.
+    """
+    state = state.branch()
+    for name, text, low, high, _, _ in adjoined:
+        state.adjoin(name, text, low, high)
+    values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
+    return state, checker.Unfolding(statement, checker.Context(state.context, values), sharp)
+
+
+def _goal_node(
+    statement: checker.Statement,
+    state: State,
+    terms: Mapping[str, str],
+    known: Known,
+    budget: Budget,
+    sharp: list[ast.expr] | None,
+    effort: int,
+) -> Node | None:
+    state, unfolding = _unfolding(statement, state, [], terms, sharp)
+    return search_closing(
+        state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
+    )
+
+
+def _nodes_at_number(
+    statement: checker.Statement,
+    state: State,
+    terms: Mapping[str, str],
+    adjoined: AdjoinedNumber,
+    sharp: list[ast.expr] | None,
+    purpose: str,
+) -> list[Node] | None:
+    """The nodes of values at an adjoined number; None where one is missing."""
+    try:
+        state, unfolding = _unfolding(statement, state, [adjoined.entry()], terms, sharp)
+        branches = [
+            state.branch(
+                checker.negate(
+                    checker.join(
+                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                    )
+                )
+            )
+        ]
+        if purpose == "counterexample":
+            branches.append(state.branch(unfolding.goal(True), unfolding.context))
+        nodes: list[Node] = []
+        for branch in branches:
+            node = close_at_number(branch, adjoined)
+            if node is None:
+                return None
+            nodes.append(node)
+    except checker.Rejected:
+        return None
+    return nodes
+
+
+def _fresh(name: str, statement: checker.Statement) -> str:
+    kinds = ("forall", "exists", "let", "root")
+    taken = {
+        n
+        for kind in kinds
+        for line in statement.get(kind)
+        for n in (line if isinstance(line, list) else [line[0]])
+    }
+    while name in taken:
+        name += "_"
+    return name

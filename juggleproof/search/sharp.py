@@ -1,0 +1,575 @@
+"""Sharp ranges with their certificates."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from flint import fmpq, fmpq_poly
+
+from juggleproof.algebra.conditions import Condition, candidate_numbers, evaluate
+from juggleproof.algebra.numbers import (
+    AlgebraicNumber,
+    exact,
+    real_roots,
+    simplest_between,
+    with_one_change,
+)
+from juggleproof.certificates import checker
+from juggleproof.search.certificate import search_proof
+from juggleproof.search.closing import search_closing
+from juggleproof.search.families import cover
+from juggleproof.search.points import search_values
+from juggleproof.search.ranges import (
+    QUICK,
+    Line,
+    Lines,
+    Undecided,
+    Verdicts,
+    Violation,
+    condition_of,
+    ends_of,
+    isolated,
+    polynomial_term,
+)
+from juggleproof.search.samples import base_samples
+from juggleproof.search.scales import with_scales
+from juggleproof.search.witness_terms import Task
+from juggleproof.statements.language import (
+    NO_ROLES,
+    Formula,
+    Roles,
+    SharpRange,
+    Term,
+    disjunction,
+)
+from juggleproof.statements.nodes import Certificate, Proof, Sharp, Values, by_sign
+from juggleproof.statements.states import State
+from juggleproof.statements.work import Budget, Exhausted, unfolded
+
+# -------------------------------------------------------------------------------------------------
+# The certificate of a sharp range: counterexamples on every interval outside on which one
+# statement fails, then proofs inside.
+
+FIRST = 600_000  # units of work for a proof with little effort
+OUTSIDE = 2_500_000  # units of work for the families; those that are found at all are found early
+
+
+def sharp_certificate(
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    line: Line,
+    verdicts: Mapping[str, Sequence[bool]],
+    known: Mapping[str, checker.Statement],
+    budget: Budget,
+    roles: Roles,
+) -> tuple[Sharp | None, str]:
+    """(certificate, "") or (None, what could not be certified); nothing is raised where the budget
+    ends.
+    """
+    (domain,) = statement.get("domain")
+    named = {each.name: each for each in statements}
+    try:
+        points = points_of(statement, statements, known, budget, roles)
+        outside = _outside(
+            outside_state(statement, statements),
+            named,
+            parameter,
+            line,
+            verdicts,
+            domain,
+            dict(known),
+            budget.part(OUTSIDE),
+            roles,
+        )
+    except Exhausted:
+        points = outside = None
+    if outside is None or points is None:
+        return None, "no family of counterexamples outside the range"
+    try:
+        inside, failure = proofs_inside(statement, statements, known, budget, roles)
+    except Exhausted:
+        return None, "the budget ran out"
+    return (None, failure) if inside is None else ((inside, outside, points), "")
+
+
+def proofs_inside(
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    known: Mapping[str, checker.Statement],
+    budget: Budget,
+    roles: Roles,
+) -> tuple[dict[str, Proof] | None, str]:
+    """({name: proof}, "") where the condition holds, or (None, which proof is missing); it is left
+    to the caller to have the proofs checked.
+
+    Raises Exhausted where the budget ends.
+    """
+    (domain,), (condition,) = statement.get("domain"), statement.get("holds")
+    inside: dict[str, Proof] = {}
+    for each in statements:
+        proof = None
+        for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
+            try:
+                proof = proof or search_proof(
+                    each,
+                    dict(known),
+                    budget.part(part),
+                    sharp=[domain, condition],
+                    effort=effort,
+                    confirm=False,
+                    roles=roles,
+                )
+            except Exhausted:
+                if effort == 2:
+                    raise
+        if proof is None:
+            return None, f"no proof of {each.name} inside the range"
+        inside[each.name] = proof
+    return inside, ""
+
+
+def whole_parameters(
+    over: Sequence[str], statements: Sequence[checker.Statement]
+) -> frozenset[str]:
+    """The parameters that are integers in the statements."""
+    return frozenset(
+        p for p in over if any(p in line for each in statements for line in each.get("integer"))
+    )
+
+
+def outside_state(statement: checker.Statement, statements: Sequence[checker.Statement]) -> State:
+    """The state that assumes the domain and not the condition."""
+    (over,), (domain,), (condition,) = (
+        statement.get(keyword) for keyword in ("over", "domain", "holds")
+    )
+    state = State(checker.Context())
+    for parameter in over:
+        state.context.declare(parameter, parameter in whole_parameters(over, statements))
+    state.assume(state.context.formula(domain))
+    state.assume(checker.negate(state.context.formula(condition)))
+    return state
+
+
+def points_of(
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    known: Known,
+    budget: Budget,
+    roles: Roles,
+) -> dict[str, Values] | None:
+    """{name: a point of the domain that meets what the statement is given}; None where one was not
+    found.
+
+    Raises Exhausted where the budget ends.
+    """
+    (domain,) = statement.get("domain")
+    points: dict[str, Values] = {}
+    for each in statements:
+        for depth in (0, 1, 2):
+            point = search_values(
+                each,
+                State(checker.Context()),
+                "point",
+                {},
+                dict(known),
+                budget,
+                [domain],
+                depth,
+                roles,
+            )
+            if point is not None:
+                points[each.name] = point
+                break
+        else:
+            return None
+    return points
+
+
+def _outside(
+    state: State,
+    named: Mapping[str, checker.Statement],
+    parameter: str,
+    line: Line,
+    verdicts: Mapping[str, Sequence[bool]],
+    domain: ast.expr,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    roles: Roles,
+) -> Values | None:
+    base = {parameter: state.context.values[parameter]}
+    failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
+    if not failing:
+        node = search_closing(state, known, budget, 2)
+        return None if node is None else ("empty", node)
+    whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
+    for name in whole:
+        task = task_outside(named[name], base, known, budget, domain, roles)
+        values = cover(task, state, base_samples(state, budget, task.roles), depth=4)
+        if values is not None:
+            return values
+    cut = _cut(line, failing, verdicts, parameter, domain)
+    if cut is None:
+        return None
+    text, pieces = cut
+    cases: list[Values] = []
+    for branch, piece in zip(state.by_sign(text), pieces):
+        part = Line(
+            line.numbers,
+            tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts)),
+        )
+        values = _outside(branch, named, parameter, part, verdicts, domain, known, budget, roles)
+        if values is None:
+            return None
+        cases.append(values)
+    return by_sign(text, cases)
+
+
+def task_outside(
+    statement: checker.Statement,
+    base: dict[str, checker.Poly],
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    domain: ast.expr,
+    roles: Roles,
+) -> Task:
+    """The task of a family of counterexamples to a statement on a part of the domain."""
+    scaled = with_scales(roles, unfolded(statement, [domain]))
+    return Task(statement, "counterexample", base, known, budget, [domain], roles=scaled)
+
+
+def _cut(
+    line: Line,
+    failing: Sequence[int],
+    verdicts: Mapping[str, Sequence[bool]],
+    parameter: str,
+    domain: ast.expr,
+) -> tuple[str, list[set[int]]] | None:
+    """A polynomial of degree 1 or that of a number, and which cells and numbers lie below, on and
+    above its sign change.
+    """
+    cells = set(range(len(line.verdicts)))
+    gaps = [k for k in cells if failing[0] < k < failing[-1] and line.verdicts[k]]
+    opened = [k for k in gaps if k % 2 == 0]
+    if opened:
+        # A rational inside an open cell on which all statements hold.
+        k = opened[len(opened) // 2]
+        value = simplest_between(line.numbers[k // 2 - 1]._high, line.numbers[k // 2]._low)
+        text = (
+            f"{int(value.q)}*{parameter} - {int(value.p)}"
+            if value.q != 1
+            else f"{parameter} - {int(value.p)}"
+        )
+        return text, [{i for i in cells if i < k}, set(), {i for i in cells if i > k}]
+    changes = [k for k in failing if k % 2 and failing[0] < k < failing[-1]] or gaps
+    if not changes:
+        changes = [k for k in failing if k % 2] if len(failing) > 1 else []
+    if not changes:
+        return None
+    k = changes[len(changes) // 2]
+    number = line.numbers[k // 2]
+    if not _separates(number, line, failing, ends_of(domain, parameter)):
+        return None
+    rising = number.sign_of(_derivative(number)) > 0
+    below, above = {i for i in cells if i < k}, {i for i in cells if i > k}
+    return number.polynomial_text(parameter), [
+        below if rising else above,
+        {k},
+        above if rising else below,
+    ]
+
+
+def _separates(
+    number: AlgebraicNumber,
+    line: Line,
+    failing: Sequence[int],
+    ends: tuple[Fraction | None, Fraction | None],
+) -> bool:
+    """Whether the number's polynomial has no other root among the failing cells and numbers."""
+    low = line.numbers[failing[0] // 2 - 1] if failing[0] >= 2 else ends[0]
+    high = line.numbers[failing[-1] // 2] if failing[-1] // 2 < len(line.numbers) else ends[1]
+    others = [r for r in real_roots(fmpq_poly(number.poly)) if r != number]
+    return not any((low is None or low < r) and (high is None or r < high) for r in others)
+
+
+def _derivative(number: AlgebraicNumber) -> fmpq_poly:
+    return fmpq_poly(number.poly).derivative()
+
+
+# -------------------------------------------------------------------------------------------------
+# Sharp ranges: exactly for which values of one parameter statements hold; ends by elimination,
+# verdicts by Z3, then certificates.
+
+EVERYWHERE = 2_500_000  # units of work for proofs on the whole domain
+VERDICTS = 2_000_000  # units of work for the verdicts along the line
+NOWHERE = 300_000  # units of work for one family on the whole domain
+# Where a statement has to fail before a family on the whole domain is tried, in parts of its length
+PROBES = (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))
+Known = Mapping[str, checker.Statement]
+
+
+@dataclass
+class Range:
+    """A sharp range as found: its statement, its end points, and its certificate, or the reason why
+    there is none.
+    """
+
+    statement: SharpRange | None = None
+    ends: list[AlgebraicNumber] = field(default_factory=list)
+    certificate: Sharp | None = None
+    failure: str = ""
+    line: Line | None = None
+
+
+def find_sharp_range(
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    domain: Formula,
+    name: str,
+    known: Known,
+    budget: Budget,
+    certify: bool = True,
+    roles: Roles = NO_ROLES,
+) -> Range:
+    """The set of one parameter on which all the statements hold, its ends, and a certificate for
+    `checker.check_one`; with the reason as its `failure` where the budget ends, or one of the three
+    is not found.
+    """
+    tree, result = (
+        checker.parse(str(domain)),
+        Range(failure="the budget ran out before the verdicts were known"),
+    )
+    roles = among(roles, {parameter: (domain,)})
+    try:
+        violations = [Violation.of(s, tree, roles) for s in statements]
+        probes = probes_of(*ends_of(tree, parameter))
+        probed = {
+            v.name: [v.absent(parameter, at, budget, QUICK) for at in probes] for v in violations
+        }
+        if certify:
+            failing = [
+                name
+                for name, verdicts in probed.items()
+                if all(verdict is False for verdict in verdicts)
+            ]
+            whole = not any(
+                verdict is False for verdicts in probed.values() for verdict in verdicts
+            )
+            simple = (
+                find_everywhere(statements, parameter, domain, name, known, budget, roles)
+                if whole
+                else find_nowhere(
+                    statements, parameter, domain, name, known, budget, failing, roles
+                )
+            )
+            if simple is not None:
+                return simple
+        for line, verdicts in Lines(violations, parameter, tree, budget.part(VERDICTS)).guesses():
+            stated = stated_range(name, statements, parameter, domain, line)
+            result = Range(stated, list(line.simplified().numbers), line=line)
+            if certify:
+                result.certificate, result.failure = _certified(
+                    read(stated), statements, parameter, line, verdicts, known, budget, roles
+                )
+            if not result.failure:
+                return result
+    except Undecided as reason:
+        return Range(failure=str(reason))
+    except Exhausted:
+        pass
+    return result
+
+
+def among(roles: Roles, domains: Mapping[str, tuple[Formula, ...]]) -> Roles:
+    """The roles, with parameters of a range that they do not know among theirs."""
+    return replace(
+        roles,
+        domains={
+            **roles.domains,
+            **{name: ends for name, ends in domains.items() if name not in roles.domains},
+        },
+    )
+
+
+def probes_of(low: Fraction | None, high: Fraction | None) -> list[fmpq]:
+    """Three values between the ends of a domain; where it has no end, as if it were one long.
+
+    >>> [str(value) for value in probes_of(Fraction(2), None)]
+    ['5/2', '21/10', '29/10']
+    """
+    start = low if low is not None else high - 1 if high is not None else Fraction(0)
+    length = high - start if high is not None else Fraction(1)
+    return [exact(start) + exact(length) * part for part in PROBES]
+
+
+def stated_range(
+    name: str, statements: Sequence[checker.Statement], parameter: str, domain: Formula, line: Line
+) -> SharpRange:
+    """The range as a statement; it has a `number` line for every root in the domain of the
+    polynomials in its condition.
+    """
+    simple = line.simplified()
+    numbers: list[tuple[str, Term, Fraction, Fraction]] = []
+    for poly in dict.fromkeys(tuple(n.coefficients) for n in simple.numbers if not n.is_rational):
+        for low, high in isolated(poly, domain, parameter):
+            ends = with_one_change(fmpq_poly(list(poly)), low, high)
+            numbers.append((f"c{len(numbers) + 1}", polynomial_term(poly, parameter), *ends))
+    return SharpRange(
+        name,
+        tuple(s.name for s in statements),
+        (parameter,),
+        domain,
+        condition_of(simple, parameter, domain),
+        tuple(numbers),
+    )
+
+
+def find_everywhere(
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    domain: Formula,
+    name: str,
+    known: Known,
+    budget: Budget,
+    roles: Roles,
+) -> Range | None:
+    """The whole domain, where all statements are proved on it with a part of the work; None where
+    they are not.
+    """
+    stated, line = (
+        SharpRange(name, tuple(s.name for s in statements), (parameter,), domain, domain),
+        Line((), (True,)),
+    )
+    verdicts: Verdicts = {s.name: (True,) for s in statements}
+    try:
+        certificate, _ = _certified(
+            read(stated),
+            statements,
+            parameter,
+            line,
+            verdicts,
+            known,
+            budget.part(EVERYWHERE),
+            roles,
+        )
+    except Exhausted:
+        return None
+    return None if certificate is None else Range(stated, [], certificate, line=line)
+
+
+def find_nowhere(
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    domain: Formula,
+    name: str,
+    known: Known,
+    budget: Budget,
+    failing: Sequence[str],
+    roles: Roles,
+) -> Range | None:
+    """The empty range, where one family breaks a statement on the whole domain; None where a short
+    search finds none.
+    """
+    stated = SharpRange(
+        name, tuple(s.name for s in statements), (parameter,), domain, disjunction([])
+    )
+    statement, line = read(stated), Line((), (False,))
+    for one in (s for s in statements if s.name in failing):
+        try:
+            certificate, _ = _certified(
+                statement,
+                statements,
+                parameter,
+                line,
+                {s.name: (s is not one,) for s in statements},
+                known,
+                budget.part(NOWHERE),
+                roles,
+            )
+        except Exhausted:
+            continue
+        if certificate is not None:
+            return Range(stated, [], certificate, line=line)
+    return None
+
+
+def search_sharp(
+    statement: checker.Statement,
+    known: Known,
+    statements: Mapping[str, checker.Statement],
+    budget: Budget,
+    roles: Roles = NO_ROLES,
+) -> Sharp | None:
+    """A certificate for a sharp range that is already stated, in one parameter; None where none was
+    found, or the budget ended.
+    """
+    (names,), (over,), (domain,), (condition,) = (
+        statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
+    )
+    if len(over) != 1 or any(name not in statements for name in names):
+        return None
+    chosen = [statements[name] for name in names]
+    context = checker.Context()
+    context.declare(over[0])
+    claimed = Condition.of(context, context.formula(condition))
+    own = candidate_numbers(claimed.polys, over[0])
+    roles = among(roles, {over[0]: ()})
+    try:
+        for line, verdicts in Lines(
+            [Violation.of(s, domain, roles) for s in chosen], over[0], domain, budget, own
+        ).guesses():
+            if _agrees(line, claimed, over[0]):
+                return _certified(statement, chosen, over[0], line, verdicts, known, budget, roles)[
+                    0
+                ]
+    except (Exhausted, Undecided):
+        pass
+    return None
+
+
+def read(statement: SharpRange) -> checker.Statement:
+    """The statement as the checker reads it."""
+    return next(iter(checker.read_statements(statement.text()).values()))
+
+
+def _certified(
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    line: Line,
+    verdicts: Verdicts,
+    known: Known,
+    budget: Budget,
+    roles: Roles,
+) -> tuple[Sharp | None, str]:
+    certificate, failure = sharp_certificate(
+        statement, statements, parameter, line, verdicts, known, budget, roles
+    )
+    named = {s.name: s for s in statements}
+    if certificate is not None:
+        settled: Certificate = {"certified": certificate}
+        if checker.check_one(statement, settled, dict(known), named)[1]:
+            return None, "the checker does not accept the certificate"
+    return certificate, failure
+
+
+def _agrees(line: Line, claimed: Condition, parameter: str) -> bool:
+    """Whether a stated condition has the verdicts of the line."""
+    if isinstance(claimed.tree, bool):
+        return all(verdict == claimed.tree for verdict in line.verdicts)
+    polys = claimed.in_one_variable(parameter)
+    for number, verdict in zip(line.numbers, line.verdicts[1::2]):
+        if claimed.univariate_truth(parameter, number, polys) != verdict:
+            return False
+    gaps = zip(line.numbers, line.numbers[1:], line.verdicts[2::2])
+    for left, right, verdict in gaps:
+        middle = simplest_between(left._high, right._low)
+        if (
+            evaluate(claimed.tree, {k: (p(middle) > 0) - (p(middle) < 0) for k, p in polys.items()})
+            != verdict
+        ):
+            return False
+    return True

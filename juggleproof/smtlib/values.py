@@ -1,0 +1,339 @@
+"""Values of the terms of a script: formulas, and real terms in cases; parts that are too large, or
+nested too deep, to stand where they are used get a name.
+
+A real term has a case for each way in which the conditions of its `ite` can come out.  The name of
+a polynomial that is short when written out is a definition (a line `let`); any other name is a
+variable of its own of which an equation is asserted, and that of a formula F a variable b with
+b > 0 <=> F.  So the assertions have a solution if and only if they have one without names.
+
+Source, for formulas: Tseitin, On the complexity of derivation in propositional calculus (1968).
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from itertools import product
+from math import comb, prod
+from typing import TypeVar, Union
+
+from juggleproof.statements.formulas import (
+    RELATIONS,
+    Formula,
+    Term,
+    conjunction,
+    disjunction,
+    equal,
+    iff,
+    names_in,
+    real,
+    term,
+)
+
+# -------------------------------------------------------------------------------------------------
+# Real terms in cases.
+
+MOST_CASES = 64
+Guards = tuple[tuple[Formula, bool], ...]
+
+
+@dataclass(frozen=True)
+class Real:
+    """A real term: in each case its value under the conditions of the case, of which exactly one
+    applies.
+    """
+
+    cases: tuple[tuple[Guards, Term], ...]
+
+    @property
+    def plain(self) -> Term | None:
+        """The term, where there are no cases to distinguish."""
+        return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
+
+
+Value = Union[Formula, Real]
+
+
+def plain(value: Term | int) -> Real:
+    """A term without cases."""
+    return Real((((), term(value)),))
+
+
+def merged(parts: Sequence[Guards]) -> Guards | None:
+    """All conditions together; None where one of them is wanted both true and false."""
+    joined: dict[Formula, bool] = {}
+    for condition, truth in (pair for part in parts for pair in part):
+        if joined.setdefault(condition, truth) is not truth:
+            return None
+    return tuple(joined.items())
+
+
+def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
+    """The cases that several values can be in together, with the value of each."""
+    if all(value.plain is not None for value in values):
+        return [((), tuple(value.cases[0][1] for value in values))]
+    joined: list[tuple[Guards, tuple[Term, ...]]] = [((), ())]
+    for value in values:
+        pairs = [
+            (merged((guards, more)), (*terms, last))
+            for (guards, terms), (more, last) in product(joined, value.cases)
+        ]
+        joined = [(guards, terms) for guards, terms in pairs if guards is not None]
+    return joined
+
+
+def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) -> Formula:
+    """The formula about the values: in one of the cases, its conditions and what `make` makes
+    hold.
+
+    >>> from juggleproof.statements.language import reals
+    >>> x, y = reals("x y")
+    >>> larger = choice(x > y, plain(x), plain(y))
+    >>> str(relation([larger], lambda terms: terms[0] >= 0))
+    'x > y and x >= 0 or not x > y and y >= 0'
+    """
+    return disjunction(
+        [conjunction([*map(holding, guards), make(terms)]) for guards, terms in together(values)]
+    )
+
+
+def holding(guard: tuple[Formula, bool]) -> Formula:
+    """A condition, or its negation."""
+    return guard[0] if guard[1] else Formula("not", guard[0])
+
+
+def choice(condition: Formula, first: Real, second: Real) -> Real:
+    """The first value where the condition holds, else the second."""
+    pairs = [
+        (merged((((condition, truth),), guards)), value)
+        for truth, one in ((True, first), (False, second))
+        for guards, value in one.cases
+    ]
+    return Real(tuple((guards, value) for guards, value in pairs if guards is not None))
+
+
+# -------------------------------------------------------------------------------------------------
+# Sizes of terms and formulas, and of the polynomials that terms are.
+
+MOST_DEGREE = 1000
+MANY = 10**9  # beyond this, sizes are not told apart
+
+
+@dataclass(frozen=True)
+class Size:
+    """How many symbols are written, and how deep they are nested; of a term, also a bound on the
+    degree, the number of terms and the bits of its polynomial, the degree with all names written
+    out (`whole`), and whether it divides by what is no number.
+    """
+
+    symbols: int
+    depth: int
+    degree: int = 0
+    terms: int = 1
+    bits: int = 0
+    whole: int = 0
+    divides: bool = False
+
+    @property
+    def fits(self) -> bool:
+        """Whether the term or formula may stand as it is, if its parts may."""
+        return (
+            self.depth <= DEEPEST
+            and self.degree <= 100
+            and self.terms <= 20_000
+            and self.bits <= 20_000
+        )
+
+    @property
+    def is_part(self) -> bool:
+        """Whether a term is worth a name, where something larger does not fit."""
+        return (
+            self.symbols > 300
+            or self.depth > DEEPEST // 3
+            or self.degree > 10
+            or self.terms > 50
+            or self.bits > 500
+        )
+
+    @property
+    def is_short(self) -> bool:
+        """Whether the polynomial of a term is short when written out."""
+        return not self.divides and self.terms <= 500 and self.degree <= 60 and self.bits <= 5000
+
+
+DEEPEST = 60  # Python's parser, by which the checker reads, takes 200 nested parentheses
+# of terms, and of formulas: what is asserted as a whole may be long
+MOST_SYMBOLS = defaultdict(lambda: 1000, {"": 4000, "and": 20_000})
+LARGE_FORMULA, LONG = 250, 100
+
+
+class TooLarge(Exception):
+    """A term is larger than we take on; the message says how."""
+
+
+class Sizes:
+    """The sizes of terms and formulas; parts that are shared are looked at once."""
+
+    def __init__(self) -> None:
+        self.known: dict[int, tuple[Term | Formula, Size]] = {}
+        self.defined: dict[str, tuple[Size, frozenset[str]]] = {}  # with the variables in it
+
+    def define(self, name: str, meaning: Term) -> None:
+        """A name that stands for a polynomial."""
+        self.defined[name] = self.of(meaning), self.variables(meaning)
+
+    def declare(self, name: str, meanings: Sequence[Term]) -> None:
+        """A variable that has one of these values."""
+        whole = max(self.of(one).whole for one in meanings)
+        self.defined[name] = Size(1, 1, 1, whole=whole), frozenset((name,))
+
+    def variables(self, one: Term) -> frozenset[str]:
+        """The variables of the polynomial, names written out."""
+        own = (self.defined[k][1] if k in self.defined else {k} for k in names_in(one))
+        return frozenset().union(*own)
+
+    def of(self, one: Term | Formula) -> Size:
+        """The size."""
+        if id(one) not in self.known:
+            parts = [self.of(part) for part in one.args if isinstance(part, (Term, Formula))]
+            size = self._term(one, parts) if isinstance(one, Term) else self._formula(one, parts)
+            self.known[id(one)] = one, size
+        return self.known[id(one)][1]
+
+    def _formula(self, one: Formula, parts: Sequence[Size]) -> Size:
+        # the checker writes an equivalence as two implications
+        symbols = (1 + (one.op == "iff")) * sum(part.symbols for part in parts)
+        depth = 0 if one.op in RELATIONS else max((part.depth for part in parts), default=0)
+        return Size(min(MANY, 1 + symbols), 1 + depth)
+
+    def _term(self, one: Term, parts: Sequence[Size]) -> Size:
+        if one.op == "var":
+            size, _ = self.defined.get(one.name, (Size(1, 1, 1, whole=1), ()))
+            return replace(size, symbols=1, depth=1)
+        if one.op == "num":
+            return Size(1, 1, bits=max(one.value.numerator.bit_length(), 1))
+        symbols = min(MANY, 1 + sum(part.symbols for part in parts))
+        depth = 1 + max(part.depth for part in parts)
+        divides = any(part.divides for part in parts)
+        degrees, terms = [part.degree for part in parts], [part.terms for part in parts]
+        bits, wholes = [part.bits for part in parts], [part.whole for part in parts]
+        whole = max(wholes)
+        if one.op in "^*":
+            whole = wholes[0] * one.exponent if one.op == "^" else sum(wholes)
+        if whole > MOST_DEGREE:
+            raise TooLarge(f"a degree over {MOST_DEGREE} when definitions are put in")
+        if one.op == "^":
+            most = one.exponent
+            found = degrees[0] * most, min(terms[0], MANY) ** min(most, 9), bits[0] * most
+        elif one.op == "*":
+            found = sum(degrees), prod(terms), sum(bits)
+        elif one.op == "/":
+            divides = divides or one.operands[1].op != "num"
+            found = sum(degrees), terms[0], sum(bits)
+        else:
+            found = max(degrees), sum(terms), max(bits) + 1
+        degree, count, length = (min(MANY, each) for each in found)
+        if count > 50:
+            count = min(count, most_terms(len(self.variables(one)), degree))
+        return Size(symbols, depth, degree, count, length, whole, divides)
+
+
+def most_terms(variables: int, degree: int) -> int:
+    """How many terms a polynomial of this degree can have, up to MANY."""
+    return MANY if min(variables, degree) > 30 else min(MANY, comb(variables + degree, degree))
+
+
+# -------------------------------------------------------------------------------------------------
+# Names of parts.
+
+Joined = TypeVar("Joined", Term, Formula)
+
+
+class Parts:
+    """The names of the parts of a script's terms, in order, with what each means: a term that it
+    stands for, or a formula that is asserted of it.
+    """
+
+    def __init__(self, taken: Callable[[], Collection[str]]) -> None:
+        self.taken, self.sizes = taken, Sizes()
+        self.meanings: dict[str, Term | Formula] = {}
+        self._named: dict[Value, Value] = {}
+        self._count = 0
+
+    def named(self, value: Value) -> Value:
+        """The value by its name, which it gets where it has none."""
+        if value not in self._named:
+            self._named[value] = self._new(value)
+        return self._named[value]
+
+    def _new(self, value: Value) -> Value:
+        while True:
+            self._count += 1
+            name = f"part_{self._count}"
+            if name not in self.taken():
+                break
+        own = real(name)
+        if isinstance(value, Formula):
+            self.meanings[name] = iff(own > 0, value)
+            return own > 0
+        whole = value.plain
+        if whole is not None and self.sizes.of(whole).is_short:
+            self.meanings[name] = whole
+            self.sizes.define(name, whole)
+        else:
+            self.meanings[name] = relation([value], lambda terms: equal(own, terms[0]))
+            self.sizes.declare(name, [one for _, one in value.cases])
+        return plain(own)
+
+    def joined(self, make: Callable[[Sequence[Joined]], Joined], parts: Sequence[Joined]) -> Joined:
+        """What is made of the parts; of names, as far as it is too large or too deep."""
+        whole = make(parts)
+        size = self.sizes.of(whole)
+        most = MOST_SYMBOLS[whole.op if isinstance(whole, Formula) else ""]
+        if size.fits and size.symbols <= most:
+            return whole
+        return make([self._shorter(part) for part in parts])
+
+    def _shorter(self, part: Joined) -> Joined:
+        size = self.sizes.of(part)
+        if isinstance(part, Term):
+            if part.op in ("var", "num") or not size.is_part:
+                return part
+            named = self.named(plain(part))
+            return named.cases[0][1] if isinstance(named, Real) else part
+        if size.depth > DEEPEST // 3 or size.symbols > LARGE_FORMULA and part.op not in RELATIONS:
+            named = self.named(part)
+            return named if isinstance(named, Formula) else part
+        return part
+
+    def few(self, values: Sequence[Real]) -> list[Real]:
+        """The values, some by name so that they have few cases together."""
+        few = list(values)
+        while prod(len(one.cases) for one in few) > MOST_CASES:
+            k = max(range(len(few)), key=lambda k: len(few[k].cases))
+            named = self.named(few[k])
+            few[k] = named if isinstance(named, Real) else few[k]
+        return few
+
+    def chosen(self, condition: Formula, first: Real, second: Real) -> Value:
+        """The first value where the condition holds, else the second."""
+        if len(first.cases) + len(second.cases) > 2 and self.sizes.of(condition).symbols > LONG:
+            named = self.named(condition)  # it stands in every case
+            condition = named if isinstance(named, Formula) else condition
+        cases = choice(condition, first, second)
+        return cases if len(cases.cases) <= MOST_CASES else self.named(cases)
+
+    def combined(self, values: Sequence[Real], make: Callable[[Sequence[Term]], Term]) -> Real:
+        """The term made of the values, in every case that they can be in together."""
+        cases = together(self.few(values))
+        return Real(tuple((guards, self.joined(make, terms)) for guards, terms in cases))
+
+
+def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:
+    """The parts joined by an associative operation, so that no text grows deep."""
+    if len(parts) <= 8:
+        return reduce(join, parts)
+    middle = len(parts) // 2
+    return join(balanced(join, parts[:middle]), balanced(join, parts[middle:]))

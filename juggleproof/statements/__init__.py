@@ -1,0 +1,1 @@
+"""The language of statements, the store, and what searches share of both."""

@@ -1,0 +1,293 @@
+"""Definitions of the statement file: what is written out in a claim stands there by its name.
+
+A claim is built, searched for and voted on as it is written out.  Only the file that an auditor
+reads is shorter: `shortened` puts NAME(a, b) in place of every body of a definition, and the
+checker, which writes definitions out when it reads, gives the same text again (`read_line`).  So a
+definition that is missed makes a line longer, and one that does not fit would be seen at once.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Union, overload
+
+from juggleproof.certificates import checker
+from juggleproof.statements.formulas import (
+    ClaimError,
+    Expression,
+    Formula,
+    Term,
+    conjunction,
+    names_in,
+    real,
+    term,
+)
+
+MOST_WORK = 10**9  # of writing out a file: a bound against definitions that double
+Body = Union[Term, Formula, tuple[Term, ...]]
+
+# -------------------------------------------------------------------------------------------------
+# Trees of the checker as terms and formulas
+
+OPERATORS: Mapping[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+RELATIONS: Mapping[type, str] = {
+    ast.Lt: "<",
+    ast.LtE: "<=",
+    ast.Eq: "=",
+    ast.NotEq: "!=",
+    ast.GtE: ">=",
+    ast.Gt: ">",
+}
+
+
+def term_of(node: ast.expr) -> Term:
+    """The term that a tree of `checker.parse` is; its text is the text that was read.
+
+    A sign before a product is that of the product, as terms are written.  Raises ClaimError for
+    what is not a term.
+
+    >>> str(term_of(checker.parse("-(x + 1)/2*y^2")))
+    '-(x + 1)/2*y^2'
+    """
+    if isinstance(node, ast.Name):
+        return real(node.id)
+    if isinstance(node, ast.Constant) and isinstance(node.value, int):
+        return term(node.value)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -term_of(node.operand)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+        return Term("^", term_of(node.left), ast.literal_eval(node.right))
+    if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
+        op, left = OPERATORS[type(node.op)], term_of(node.left)
+        if op in "*/" and left.op == "neg":
+            return -Term(op, *left.operands, term_of(node.right))
+        return Term(op, left, term_of(node.right))
+    raise ClaimError(f"{ast.unparse(node)!r} is not a term")
+
+
+def formula_of(node: ast.expr) -> Formula:
+    """The formula that a tree of `checker.parse` is; raises ClaimError for what is not a formula.
+
+    >>> str(formula_of(checker.parse("not x < 1 and implies(x = 2, y != 0)")))
+    'not x < 1 and implies(x = 2, y != 0)'
+    """
+    if isinstance(node, ast.Compare):
+        sides = [term_of(side) for side in (node.left, *node.comparators)]
+        signs = [RELATIONS[type(op)] for op in node.ops]
+        return conjunction(
+            Formula(op, left, right) for op, left, right in zip(signs, sides, sides[1:])
+        )
+    if isinstance(node, ast.BoolOp):
+        op = "and" if isinstance(node.op, ast.And) else "or"
+        parts: list[Formula] = []
+        for part in map(formula_of, node.values):  # a definition within is joined to what is around
+            parts += part.parts if part.op == op else (part,)
+        return Formula(op, *parts)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+        return Formula("not", formula_of(node.operand))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        return Formula(node.func.id, *map(formula_of, node.args))
+    raise ClaimError(f"{ast.unparse(node)!r} is not a formula")
+
+
+# -------------------------------------------------------------------------------------------------
+# Definitions
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A name for a term, a formula, or a tuple of terms, of its parameters and of variables that
+    the statement has (`over`); what it `says` stands above it as a comment.
+
+    >>> x, y, g = map(real, "xyg")
+    >>> Definition("E", ("x", "y"), g * x + y**2 / 2).text()
+    'define E(x, y) over g := g*x + y^2/2'
+    """
+
+    name: str
+    parameters: tuple[str, ...]
+    body: Body
+    says: str = ""
+
+    @property
+    def parts(self) -> tuple[Term | Formula, ...]:
+        """The terms of a tuple; else the body alone."""
+        return self.body if isinstance(self.body, tuple) else (self.body,)
+
+    @cached_property
+    def over(self) -> tuple[str, ...]:
+        """The other names that occur, sorted."""
+        return tuple(sorted(set().union(*map(names_in, self.parts)) - {*self.parameters}))
+
+    def text(self, earlier: Sequence[Definition] = ()) -> str:
+        """The line of the statement file, shortened by earlier definitions."""
+        inner = f"({', '.join(self.parameters)})" if self.parameters else ""
+        outer = f" over {' '.join(self.over)}" if self.over else ""
+        parts = ", ".join(str(shortened(part, earlier)) for part in self.parts)
+        body = f"({parts})" if isinstance(self.body, tuple) else parts
+        return f"define {self.name}{inner}{outer} := {body}"
+
+
+def _matches(pattern: object, thing: object, values: dict[str, Term], free: frozenset[str]) -> bool:
+    """Whether the thing is the pattern with terms in place of the free names, which `values`
+    collects.
+    """
+    if isinstance(pattern, Term) and pattern.op == "var" and pattern.name in free:
+        if not isinstance(thing, Term) or values.get(pattern.name, thing) != thing:
+            return False
+        values[pattern.name] = thing
+        return True
+    if isinstance(pattern, Expression):
+        return (
+            isinstance(thing, Expression)
+            and (pattern.op, len(pattern.args)) == (thing.op, len(thing.args))
+            and all(_matches(one, two, values, free) for one, two in zip(pattern.args, thing.args))
+        )
+    return pattern == thing
+
+
+def _call(one: Definition, values: Mapping[str, Term], rest: Sequence[Definition]) -> str:
+    """The definition applied to shortened arguments; components of a tuple, in order and all with
+    the same arguments, are the tuple.
+    """
+    if not one.parameters:
+        return one.name
+    terms = [values[name] for name in one.parameters]
+    for pair in rest:
+        if isinstance(pair.body, tuple) and len(pair.body) == len(terms):
+            inner: dict[str, Term] = {}
+            free = frozenset(pair.parameters)
+            if all(_matches(*both, inner, free) for both in zip(pair.body, terms)):
+                return f"{one.name}({_call(pair, inner, rest)})"
+    return f"{one.name}({', '.join(str(shortened(entry, rest)) for entry in terms)})"
+
+
+@overload
+def shortened(thing: Term, definitions: Sequence[Definition]) -> Term: ...
+@overload
+def shortened(thing: Formula, definitions: Sequence[Definition]) -> Formula: ...
+def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expression:
+    """The same term or formula with definitions by name, from the outside in; the last that fits,
+    which may hold earlier ones.
+
+    >>> x, y, g = map(real, "xyg")
+    >>> E = Definition("E", ("x", "y"), g * x + y**2 / 2)
+    >>> str(shortened(g * (1 - x) + (x + y) ** 2 / 2 >= 0, [E]))
+    'E(1 - x, x + y) >= 0'
+    """
+    for one in reversed(definitions):
+        if isinstance(one.body, tuple):
+            continue
+        whole = _instance(one, thing, definitions)
+        if whole is not None:
+            return whole
+        if thing.op == one.body.op == "and":
+            within = _part_of_conjunction(one, thing, definitions)
+            if within is not None:
+                return within
+    args = (
+        shortened(part, definitions) if isinstance(part, (Term, Formula)) else part
+        for part in thing.args
+    )
+    return type(thing)(thing.op, *args)
+
+
+def instance(thing: Term, definitions: Sequence[Definition]) -> Term:
+    """The term by the first definition whose body it is; any other term as it is."""
+    alike = (one for one in definitions if isinstance(one.body, Term) and one.body.op == thing.op)
+    wholes = (_instance(one, thing, definitions) for one in alike)
+    return next((one for one in wholes if isinstance(one, Term)), thing)
+
+
+def _instance(
+    one: Definition, thing: Expression, definitions: Sequence[Definition]
+) -> Expression | None:
+    values: dict[str, Term] = {}
+    if not _matches(one.body, thing, values, frozenset(one.parameters)):
+        return None
+    return type(thing)("call", _call(one, values, definitions))
+
+
+def _part_of_conjunction(
+    one: Definition, thing: Expression, definitions: Sequence[Definition]
+) -> Formula | None:
+    """A conjunction of which some neighbours are the body; None where none are."""
+    body, free = one.parts[0].args, frozenset(one.parameters)
+    width = len(body)
+    for at in range(len(thing.args) - width + 1):
+        values: dict[str, Term] = {}
+        if all(_matches(*both, values, free) for both in zip(body, thing.args[at : at + width])):
+            named = Formula("call", _call(one, values, definitions))
+            rest = Formula("and", *thing.args[:at], named, *thing.args[at + width :])
+            return shortened(rest, definitions)
+    return None
+
+
+# -------------------------------------------------------------------------------------------------
+# Lines of the statement file
+
+WIDTH = 97  # of a comment, without its "# "
+FORMULAS = ("range", "given", "have", "with", "show")  # keywords of lines that are shortened: these
+TERMS = ("let",)  # and NAME = TERM
+
+
+def short_line(line: str, definitions: Sequence[Definition]) -> str:
+    """A line of a statement with definitions by name.
+
+    >>> x, y, g = map(real, "xyg")
+    >>> short_line("let e = g*x + y^2/2", [Definition("E", ("x", "y"), g * x + y**2 / 2)])
+    'let e = E(x, y)'
+    """
+    keyword, _, text = line.partition(" ")
+    if keyword in FORMULAS:
+        return f"{keyword} {shortened(formula_of(checker.parse(text)), definitions)}"
+    if keyword in TERMS:
+        name, _, value = text.partition(" = ")
+        return f"{keyword} {name} = {shortened(term_of(checker.parse(value)), definitions)}"
+    return line
+
+
+def defining_lines(definitions: Sequence[Definition]) -> list[str]:
+    """The lines of the definitions, each shortened by those before it, with comments."""
+    lines: list[str] = []
+    for place, one in enumerate(definitions):
+        lines += [
+            *map("# {}".format, textwrap.wrap(one.says, WIDTH)),
+            one.text(definitions[:place]),
+        ]
+    return lines
+
+
+class Reader:
+    """Writes lines out as the checker does: its own code reads the definitions and puts them in.
+
+    >>> reader = Reader(["define E(x, y) over g := g*x + y^2/2"])
+    >>> reader.long_line("given E(x - 1, 2*y) > 0")
+    'given g*(x - 1) + (2*y)^2/2 > 0'
+    """
+
+    def __init__(self, lines: Iterable[str]) -> None:
+        self.definitions = checker.Definitions(checker.Work(MOST_WORK))
+        for line in lines:
+            self.definitions.define(line.removeprefix("define "))
+        known = self.definitions.known
+        self.over = set().union(*(over for _, over, _ in known.values()))
+        self._uses = re.compile(rf"\b(?:{'|'.join(known)})\b") if known else re.compile(r"(?!)")
+        self._written: dict[str, str] = {}
+
+    def long_line(self, line: str) -> str:
+        """The line with definitions written out."""
+        keyword, _, text = line.partition(" ")
+        if keyword not in FORMULAS + TERMS or not self._uses.search(text):
+            return line
+        if line not in self._written:
+            name, equals, value = text.partition(" = ") if keyword in TERMS else ("", "", text)
+            tree = self.definitions.read(value, self.over)
+            written_out = term_of(tree) if keyword in TERMS else formula_of(tree)
+            self._written[line] = f"{keyword} {name}{equals}{written_out}"
+        return self._written[line]

@@ -1,0 +1,193 @@
+"""States of a search: what is assumed on one branch, and the branches below it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Mapping, Sequence
+from functools import reduce
+from operator import or_
+
+from juggleproof.certificates import checker
+from juggleproof.statements.nodes import Node, Values
+
+Known = Mapping[str, checker.Statement]
+
+
+class State:
+    """What is assumed on one branch of a search: facts (polynomial, relation) that all hold, and
+    disjunctions still open.
+
+    Its context has the variables of another one by their keys, the licences of what is assumed, and
+    a meter of its own: so no branch spends what is another's.
+
+    >>> context = checker.Context()
+    >>> context.declare("x")
+    >>> state = State(context).assume(context.formula(checker.parse("x > 1 and (x < 2 or x = 3)")))
+    >>> len(state.facts), len(state.choices), state.closed
+    (1, 1, False)
+    >>> [len(case.facts) for case in state.by_sign("x - 2")]
+    [2, 2, 2]
+    """
+
+    def __init__(self, variables: checker.Context, parent: State | None = None) -> None:
+        work = checker.Work()
+        values = {key: checker.variable(place, work) for key, place in variables.index.items()}
+        self.context = checker.Context(None, values, work)
+        self.context.index.update(variables.index)
+        self.context.integers.update(variables.integers)
+        self.facts: list[tuple[checker.Poly, str]] = []
+        self.choices: list[list[checker.Atom | checker.Join]] = []
+        self.closed = False  # whether something false is assumed
+        if parent is not None:
+            self.context.licensed.update(parent.context.licensed)
+            self.facts += parent.facts
+            self.choices += parent.choices
+            self.closed = parent.closed
+
+    @property
+    def formulas(self) -> list[checker.Formula]:
+        """All that is assumed: what is false, the facts and the disjunctions, in this order."""
+        facts: list[checker.Formula] = [("atom", poly, relation) for poly, relation in self.facts]
+        choices: list[checker.Formula] = [("or", list(one)) for one in self.choices]
+        return [*[False] * self.closed, *facts, *choices]
+
+    def assume(self, formula: checker.Formula) -> State:
+        """The same state, in which one more formula holds."""
+        for part in checker.conjuncts(formula):
+            if isinstance(part, bool):
+                self.closed = self.closed or not part
+            elif part[0] == "atom":
+                self.facts.append(part[1:])
+                self.context.license(part)
+            else:
+                self.choices.append(part[1])
+        return self
+
+    def branch(
+        self, formula: checker.Formula = True, variables: checker.Context | None = None
+    ) -> State:
+        """A state of its own that assumes one more formula; `variables`: a context with more of
+        them.
+        """
+        return State(variables or self.context, self).assume(formula)
+
+    def by_sign(self, text: str) -> list[State]:
+        """The three states in which the polynomial is < 0, = 0 and > 0.
+
+        Raises Rejected where the text is no polynomial in the variables.
+        """
+        poly = self.context.polynomial(text)
+        cases = ((-poly, ">"), (poly, "="), (poly, ">"))
+        return [self.branch(checker.fold(*case)) for case in cases]
+
+    def adjoin(self, name: str, text: str, low: str, high: str) -> None:
+        """Adds a variable between low and high at which the polynomial is 0.
+
+        Raises Rejected where the name is taken, or a term is none.
+        """
+        context = self.context
+        ends = [context.value(checker.parse(end)) for end in (low, high)]
+        context.declare(name)
+        root = context.values[name]
+        self.assume(context.atom(root, ">=", ends[0]))
+        self.assume(context.atom(root, "<=", ends[1]))
+        self.assume(context.atom(context.value(checker.parse(text)), "=", context.number(0)))
+
+    def is_closed_by(self, node: Node, known: Mapping[str, checker.Statement]) -> bool:
+        """Whether the checker accepts the node for what is assumed here."""
+        return closes(self.context, self.formulas, node, known)
+
+    def is_served_by(
+        self,
+        values: Values,
+        known: Mapping[str, checker.Statement],
+        purpose: str,
+        statement: checker.Statement,
+        base: Collection[str] = (),
+        sharp: Sequence[ast.expr] | None = None,
+    ) -> bool:
+        """Whether the checker accepts the values for what is assumed here, as a "point", a
+        "witness" or a "counterexample"; base: the variables of the statement that keep the value
+        they have here.
+        """
+        assumed = self.context, self.formulas
+        return finds(*assumed, values, known, purpose, statement, base, sharp)
+
+
+def variables_in(context: checker.Context, poly: checker.Poly) -> list[str]:
+    """The variables that occur, in their order: as the checker's own, which looks at each place
+    that a variable may have.
+    """
+    together = reduce(or_, poly.terms, 0)
+    mask = (1 << checker.BITS) - 1
+    return [
+        name for name, place in context.index.items() if together >> (checker.BITS * place) & mask
+    ]
+
+
+def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:
+    """The state that assumes the premises of an unfolding, or the first `count` of them."""
+    return State(unfolding.context).assume(checker.join("and", unfolding.premises[:count]))
+
+
+# -------------------------------------------------------------------------------------------------
+# Whether the checker accepts a part of a certificate, on a meter of its own.
+
+
+def closes(
+    context: checker.Context, formulas: Sequence[checker.Formula], node: object, known: Known
+) -> bool:
+    """Whether the node closes the state that assumes the formulas over the variables of a
+    context.
+    """
+    return not checker.verdict(checker.close, _assuming(context, formulas), node, known)[1]
+
+
+def finds(
+    context: checker.Context,
+    formulas: Sequence[checker.Formula],
+    values: object,
+    known: Known,
+    purpose: str,
+    statement: checker.Statement,
+    base: Collection[str] = (),
+    sharp: Sequence[ast.expr] | None = None,
+) -> bool:
+    """Whether values serve their purpose in the state that assumes the formulas over the variables
+    of a context; base: the variables of the statement that are also the state's.
+    """
+    state = _assuming(context, formulas)
+    own = {name: state.context.values[name] for name in base}
+    named = {statement.name: statement}
+    return not checker.verdict(checker.find, state, values, known, purpose, named, own, sharp)[1]
+
+
+def proves(
+    statement: checker.Statement,
+    proof: object,
+    known: Known,
+    sharp: Sequence[ast.expr] | None = None,
+) -> bool:
+    """Whether the proof, of a whole statement or inside a sharp range, is one."""
+    return not checker.verdict(checker.prove, statement, proof, known, sharp)[1]
+
+
+def _assuming(context: checker.Context, formulas: Sequence[checker.Formula]) -> checker.State:
+    work = checker.Work()
+    variables = checker.Context(work=work)
+    for key in context.index:
+        variables.declare(key, key in context.integers)
+    state = checker.State(variables)
+    for formula in formulas:
+        state.assume(formula if isinstance(formula, bool) else _on_meter(formula, work))
+    return state
+
+
+def _on_meter(
+    formula: checker.Atom | checker.Join, work: checker.Work
+) -> checker.Atom | checker.Join:
+    """The same formula, whose polynomials spend from this meter."""
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        return ("atom", checker.Poly(poly.terms, poly.den, poly.deg, poly.bits, work), relation)
+    return (formula[0], [_on_meter(part, work) for part in formula[1]])

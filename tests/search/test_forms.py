@@ -1,0 +1,101 @@
+"""Quadratic forms with parameters in a box: every statement of `forms.txt` is closed by them alone,
+but for those whose names end in -false.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import prod
+from pathlib import Path
+
+import pytest
+
+from juggleproof.algebra.polynomials import Ring, value_at
+from juggleproof.certificates import checker
+from juggleproof.search.certificate import search_proof
+from juggleproof.search.psatz.forms import search_forms
+from juggleproof.search.psatz.parameters import bounds, split_variables
+from juggleproof.search.psatz.problem import Problem
+from juggleproof.statements.nodes import Node
+from juggleproof.statements.states import State, state_of
+from juggleproof.statements.work import Budget, Exhausted
+from tests.rows import each_row
+
+STATEMENTS = checker.read_statements((Path(__file__).parent / "forms.txt").read_text())
+BUDGET = 200_000
+# characters of the node at most
+SIZES = {
+    "forms/box": 1000,
+    "forms/point-by-equations": 1500,
+    "forms/other-piece": 3000,
+    "forms/disk": 400,
+}
+
+
+def negated(name: str, text: str = "") -> State:
+    """What a proof of the statement has to contradict."""
+    statements = checker.read_statements(f"statement {name}\n{text}") if text else STATEMENTS
+    unfolding = checker.Unfolding(statements[name], checker.Context())
+    return state_of(unfolding).assume(unfolding.goal(False))
+
+
+def node_of(name: str) -> Node | None:
+    state = negated(name)
+    return search_forms(state, Ring(tuple(state.context.index)), Budget(BUDGET))
+
+
+@each_row("name", STATEMENTS)
+def test_true_forms_are_closed_and_false_ones_are_not(name: str) -> None:
+    node = node_of(name)
+    assert (node is None) == name.endswith("-false")
+    if node is not None:
+        assert negated(name).is_closed_by(node, {})
+        assert len(str(node)) < SIZES.get(name, 10_000)
+
+
+def test_a_box_is_halved_where_a_coefficient_within_is_no_square_holds() -> None:
+    node = node_of("forms/halved")
+    assert node is not None and node[:2] == ("sign", "a")
+
+
+def test_the_products_of_bounds_are_a_basis_holds() -> None:
+    for name in ("forms/bound-on-one-side", "forms/box"):
+        state = negated(name)
+        problem = Problem(state, Ring(tuple(state.context.index)))
+        (axis, *_) = bounds(problem).values()
+        point = [Fraction(2, 7)] * problem.ring.size
+        for exponent in range(4):
+            total = sum(
+                c
+                * prod(
+                    value_at(problem.facts[k].poly, point) ** e for k, e in axis.factors(place, 3)
+                )
+                for place, c in enumerate(axis.row(problem, exponent, 3))
+            )
+            assert total == Fraction(2, 7) ** exponent
+
+
+def test_a_box_has_a_width_holds() -> None:
+    state = negated("t/t", "forall a g\nrange 0 <= a and a <= 0\nshow a*g <= g^2")
+    problem = Problem(state, Ring(tuple(state.context.index)))
+    assert [(axis.low, axis.high) for axis in bounds(problem).values()] == [(0, None)]
+
+
+def test_variables_without_bounds_are_no_parameters_holds() -> None:
+    state = negated("forms/other-piece")
+    problem = Problem(state, Ring(tuple(state.context.index)), quotients=False)
+    found = split_variables(problem, problem.facts[-1].poly, bounds(problem))
+    assert found is not None
+    names = [[problem.ring.names[v] for v in part] for part in found]
+    assert names[0] == ["a", "b"] and set(names[1]) == {"p", "g", "h"}
+
+
+def test_the_work_is_bounded_holds() -> None:
+    state = negated("forms/other-piece")
+    with pytest.raises(Exhausted):
+        search_forms(state, Ring(tuple(state.context.index)), Budget(100))
+
+
+def test_a_search_for_a_proof_uses_forms_holds() -> None:
+    proof = search_proof(STATEMENTS["forms/box"], {}, Budget(10**6), effort=1)
+    assert proof is not None and proof[0] == "proof"
