@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from pathlib import Path
 
-PACKAGE = "juggleproof.proofs"
+PACKAGE = f"{__package__}.proofs"  # it has PAPER, and the module `deriving`, which loads SymPy
 
 
 def folder_of(package: str) -> Path:

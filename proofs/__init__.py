@@ -2,6 +2,7 @@
 
 In reading order:
 
+- `deriving`: derived expressions, and how the paper writes such; loads SymPy.
 - `paper`: the claims of the paper, section by section.
 - `theorem`: the theorem in place of its main result, and the page on it.
 - `restitution`, `part`, `sine`: claims about what the paper leaves open.
@@ -29,7 +30,6 @@ PAPER = Paper(
         for section in package.SECTIONS
     ),
     checked_apart=(f"{sine.__name__}.everywhere",),
-    deriving=f"{__name__}.paper.deriving",
     unprinted=UNPRINTED,
     theorem=Theorem(theorem.THEOREM, theorem.DIGEST, theorem.SENTENCE),
     hooks={

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from juggleproof import symbolic
 from juggleproof.encoding import from_sympy
-from juggleproof.proofs.paper.deriving import encoded
+from juggleproof.proofs.deriving import encoded
 from juggleproof.statements.language import ClaimError
 from tests.reading.paper_names import value_at
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple, TypeVar, Union
 
+from juggleproof.folders import PACKAGE
 from juggleproof.papers.derived import derived_by, kept
-from juggleproof.papers.paper import opened
 from juggleproof.reading.values import Matrix, Vector
 from juggleproof.statements.language import (
     AnyStatement,
@@ -40,9 +40,9 @@ def from_deriving(function: str) -> str:
     """A function of the module of the paper that loads SymPy, by its whole name.
 
     >>> from_deriving("margin")
-    'juggleproof.proofs.paper.deriving.margin'
+    'juggleproof.proofs.deriving.margin'
     """
-    return f"{opened().deriving}.{function}"
+    return f"{PACKAGE}.deriving.{function}"
 
 
 def derived(name: str, *arguments: Hashable) -> Term:

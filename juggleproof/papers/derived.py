@@ -99,7 +99,7 @@ def derive_again() -> None:
 def derived_by(kind: type[Kind], function: str, *arguments: Hashable) -> Kind:
     """What a function comes to, as `Kept.value`; raises ClaimError where it is of another kind.
 
-    >>> str(derived_by(Formula, "juggleproof.proofs.paper.deriving.margin", "normal_margin"))
+    >>> str(derived_by(Formula, "juggleproof.proofs.deriving.margin", "normal_margin"))
     'x < w'
     """
     value = kept().value(function, *arguments)

@@ -44,14 +44,12 @@ class Paper:
 
     modules       of its claims, in the paper's order
     checked_apart those of them whose claims another checker settles
-    deriving      the module that derives with SymPy
     unprinted     claims that the paper itself does not print, each with its reason
     hooks         by name, what this paper alone has: a module and a name in it, as "module:name"
     """
 
     modules: tuple[str, ...]
     checked_apart: tuple[str, ...]
-    deriving: str
     unprinted: Mapping[str, str]
     theorem: Theorem
     hooks: Mapping[str, str]
@@ -85,7 +83,7 @@ def opened() -> Paper:
     >>> opened().theorem.claim
     'theorem-in-units'
     """
-    paper = import_module(PACKAGE).PAPER
+    paper = import_module("juggleproof.proofs").PAPER  # PACKAGE, in a word that is found
     if not isinstance(paper, Paper):
         raise ClaimError(f"{PACKAGE}: PAPER describes no paper")
     return paper

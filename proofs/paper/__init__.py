@@ -1,6 +1,5 @@
 """The paper, section by section: one file of claims a section, in the paper's order.
 
-deriving              derived expressions, and how the paper writes such; loads SymPy
 derivations           derived expressions as terms that say what made them
 names                 what names stand for, and what happens within a period
 states                impacts and their energy, orbits, motion relative to e_1

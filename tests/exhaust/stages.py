@@ -13,7 +13,7 @@ from tests.exhaust.sources import Sources
 STORE = "certificates/store"
 INDEX = "proofs/ledger/index.json"
 DERIVED = "proofs/ledger/derived.json"
-REGISTER = "juggleproof/judging/register.json"
+REGISTER = "proofs/register.json"
 LOCKS = ("requirements.lock",)
 TEST_LOCKS = (*LOCKS, "requirements-report.lock", "requirements-test.lock", "pyproject.toml")
 PEERS_LOCKS = (*TEST_LOCKS, "requirements-peers.lock")

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from juggleproof.folders import folder_of
 from juggleproof.papers import derived
 from juggleproof.papers.derived import Kept, digest_of, packed, unpacked
-from juggleproof.proofs.paper import deriving
+from juggleproof.proofs import deriving
 from juggleproof.reading.values import Matrix, Vector
 from juggleproof.statements.language import ClaimError, Term, real, term
 
@@ -26,7 +26,7 @@ from juggleproof.judging.claims import stated_texts
 from juggleproof.papers.paper import opened
 print(sum(len(stated_texts(claim)) for claim in opened().claims()), "sympy" in sys.modules)
 """
-NAME = "juggleproof.proofs.paper.deriving.value('E_max')"
+NAME = "juggleproof.proofs.deriving.value('E_max')"
 
 terms = st.recursive(
     st.one_of(st.sampled_from(["x", "w", "alpha"]).map(real), st.fractions().map(term)),
@@ -70,13 +70,13 @@ def test_a_kept_value_is_taken_while_its_sources_are_the_same_holds(
     held = data["derived"]
     assert isinstance(held, dict) and data["sources"] == digest_of(held)
     path.write_text(json.dumps({**data, "derived": {**held, NAME: "x"}}))
-    assert Kept(path).value("juggleproof.proofs.paper.deriving.value", "E_max") == real("x")
+    assert Kept(path).value("juggleproof.proofs.deriving.value", "E_max") == real("x")
     monkeypatch.setattr(derived, "digest_of", lambda names: "of other sources")
-    plain = Kept(path).value("juggleproof.proofs.paper.deriving.value", "E_max")
+    plain = Kept(path).value("juggleproof.proofs.deriving.value", "E_max")
     assert str(plain) == "r^2*(alpha + 1)^2/(2*(alpha - 1)^2)"
 
 
-@pytest.mark.parametrize("place", ["symbolic/maps.py", "encoding.py", "proofs.paper/deriving.py"])
+@pytest.mark.parametrize("place", ["symbolic/maps.py", "encoding.py", "proofs/deriving.py"])
 def test_a_change_of_a_source_changes_the_digest_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str
 ) -> None:
@@ -111,10 +111,10 @@ def test_a_value_is_derived_once_holds(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = list[str]()
     monkeypatch.setattr(deriving, "value", lambda name: calls.append(name) or real(name))
     anew = Kept(Path("none.json"))
-    found = [anew.value("juggleproof.proofs.paper.deriving.value", "x") for _ in range(2)]
+    found = [anew.value("juggleproof.proofs.deriving.value", "x") for _ in range(2)]
     assert found == [real("x")] * 2 and calls == ["x"]
 
 
 def test_rejects_a_value_of_another_kind() -> None:
     with pytest.raises(ClaimError, match="comes to Term"):
-        derived.derived_by(Vector, "juggleproof.proofs.paper.deriving.value", "E_max")
+        derived.derived_by(Vector, "juggleproof.proofs.deriving.value", "E_max")

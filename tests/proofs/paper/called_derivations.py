@@ -18,7 +18,7 @@ from juggleproof import symbolic
 from juggleproof.judging.judgement import statements_of
 from juggleproof.papers.derivations import Origin
 from juggleproof.papers.paper import opened
-from juggleproof.proofs.paper.deriving import result
+from juggleproof.proofs.deriving import result
 from juggleproof.statements.language import origins_in
 
 calls: dict[str, set[str]] = {}

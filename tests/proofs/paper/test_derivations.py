@@ -21,7 +21,7 @@ from juggleproof.papers.derivations import (
     derived_vector,
 )
 from juggleproof.papers.paper import opened
-from juggleproof.proofs.paper.deriving import made_from
+from juggleproof.proofs.deriving import made_from
 from juggleproof.statements.language import origins_in, reals, substitute
 from juggleproof.statements.store import DEFAULT, Store
 from tests.proofs.paper.called_derivations import called_derivations
