@@ -78,7 +78,7 @@ def normal(formula: Any) -> Any:
 # Every token of every print matters: a change is refused, changes what is judged, or is reviewed as
 # meaning the same.
 
-SHARE = share(3, 1)
+SHARE = share(30, 1)
 Change = tuple[str, str]  # what is changed, after its column, and the changed print
 REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 
