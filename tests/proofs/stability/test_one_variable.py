@@ -23,7 +23,7 @@ from juggleproof.proofs.stability.points import fixed_points, roots_of
 from juggleproof.proofs.stability.samples import region
 from juggleproof.proofs.stability.search import search_stability
 from juggleproof.proofs.stability.settings import setting_of
-from tests.proofs.stability.maps import assert_settled, map_of, name_of
+from tests.proofs.stability.maps import assert_settled, map_of, marked, name_of
 
 STABLE = "is stable and attracts every state"
 CONVERTER = (
@@ -88,7 +88,10 @@ SETTLED = {  # the first line of what is printed: the map
 }
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_is_settled_on_both_sides_of_its_condition_holds(line: str, tmp_path: Path) -> None:
     assert_settled(line, SETTLED[line], tmp_path)
 

@@ -55,6 +55,7 @@ JUVENILES = planar(
 )
 
 
+@pytest.mark.exhaust
 def test_a_delayed_map_that_turns_is_stable_holds() -> None:
     found = search_stability(PIELOU)
     assert found.finding.verdict == "proved"
@@ -63,6 +64,7 @@ def test_a_delayed_map_that_turns_is_stable_holds() -> None:
     assert len(values) == 6  # those of x, y and x/y, and of their inverses
 
 
+@pytest.mark.exhaust
 def test_a_condition_with_a_root_is_found_holds() -> None:
     system = with_licences(RATIONAL)
     parameters = region(system.domain, system.parameters, limits.PARAMETERS)
@@ -144,6 +146,7 @@ def test_parameters_close_to_the_ends_of_the_domain_are_in_it_holds() -> None:
     assert wide["b"].min() > 0 and wide["b"].max() < 1 and wide["g"].max() < 1 / 2
 
 
+@pytest.mark.exhaust
 def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -> None:
     setting = at_point(VECTORS, inside=True)
     assert "lyapunov" in proved(setting, ratio_candidates, 1)
@@ -153,5 +156,6 @@ def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -
     assert len(corners) == 2  # one for each variable
 
 
+@pytest.mark.exhaust
 def test_juveniles_and_adults_come_to_rest_by_few_facts_holds() -> None:
     assert "lyapunov" in proved(at_point(JUVENILES, inside=True), ratio_candidates, 1)

@@ -101,7 +101,7 @@ def test_a_map_is_settled_as_it_behaves_holds(line: str, tmp_path: Path) -> None
 
 def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
     """In two processes, whose hashes differ."""
-    path, results = map_file(tmp_path, "cobweb"), []
+    path, results = map_file(tmp_path, "tent"), []
     command = [sys.executable, "-m", "juggleproof.proofs.command.main", "stability", str(path)]
     for seed in ("1", "2"):
         folder = tmp_path / seed
@@ -114,7 +114,7 @@ def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
             timeout=240,
             check=False,
         )
-        assert done.returncode == 3
+        assert done.returncode == 0
         files = {one.name: one.read_bytes() for one in folder.rglob("*") if one.is_file()}
         results.append((done.stdout, files))
     assert results[0] == results[1] and len(results[0][1]) == 3

@@ -39,6 +39,7 @@ def found_of_lozi() -> Outcome:
     return search_stability(lozi("0 < a and a < 1"))
 
 
+@pytest.mark.exhaust
 def test_a_map_of_lozi_is_stable_if_and_only_if_it_contracts_holds() -> None:
     outcome = found_of_lozi()
     assert outcome.finding.verdict == "in part"
@@ -65,6 +66,7 @@ def test_rejects_a_map_of_lozi_beyond_where_it_contracts() -> None:
     assert proved_by_sums(lozi("1/2 <= a and a < 1")) == ["map"]
 
 
+@pytest.mark.exhaust
 def test_a_point_at_which_a_map_jumps_is_not_said_to_be_stable_holds() -> None:
     """At u = 1 the point of a leaky integrator behind a comparator is 0, from whose left all states
     go to 2 and beyond.
