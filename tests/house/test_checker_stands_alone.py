@@ -16,13 +16,11 @@ from tests.house.graph import PACKAGES, ROOT, tree_of
 
 FOLDER = "certificates/checker"
 WHOLE = "juggleproof.certificates.checker"
-# The checker's own tests look inside; so do this one, and those of its description and of stored
-# certificates.
+# The checker's own tests look inside; so do this one, and those of its description.
 ITS_TESTS = (
     "tests/certificates/checker",
     "tests/docs/test_language.py",
     "tests/house/test_checker_stands_alone.py",
-    "tests/proofs/paper/test_stored_tampering.py",
 )
 METER = {"left", "work"}  # of a Work, and of what holds one
 MENTIONS = r"checker|\.(left|work)\s*([-+*/]?=[^=]|,)|setattr|\bdel\b"  # itself, or a meter changed
