@@ -85,6 +85,7 @@ def test_the_ends_of_the_box_where_a_predator_dies_out_holds() -> None:
     assert all(sympy.cancel(found[one] - expression(ends[one])) == 0 for one in ends)
 
 
+@pytest.mark.exhaust
 def test_a_predator_that_grows_too_slowly_dies_out_holds() -> None:
     of = where_it_dies_out("0 < c and c < 1")
     assert proved(of, contracting_box_candidates, 1)[-1] == "attracts"

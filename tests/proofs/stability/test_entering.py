@@ -88,6 +88,7 @@ def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:
     assert spaces_entered(at_point(system), True)[-1] == "y > a and x > a and x > 0 and y > 0"
 
 
+@pytest.mark.exhaust
 def test_the_part_that_orbits_enter_carries_the_proof_holds() -> None:
     """A. M. Amleh, E. A. Grove, G. Ladas and D. A. Georgiou (1999), in the whole range."""
     found = search_stability(rational("a + y/x, x", "x > 0 and y > 0", "a > 1"))

@@ -88,7 +88,7 @@ SETTLED = {  # the first line of what is printed: the map
 }
 
 
-LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter"}
+LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter", "cycle"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)

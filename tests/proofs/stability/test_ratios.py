@@ -81,6 +81,7 @@ def test_rejects_a_domain_in_which_the_point_is_not_stable() -> None:
     assert not list(ratio_candidates(at_point(RATIONAL)))
 
 
+@pytest.mark.exhaust
 def test_rejects_a_loss_that_is_too_large() -> None:
     setting = at_point(PIELOU, inside=True)
     proof, one = of_its_map(setting), next(ratio_candidates(setting))
@@ -125,6 +126,7 @@ def epidemic(domain: str) -> Map:
     return planar(EPIDEMIC, "b g", domain, "s i", INFECTED)
 
 
+@pytest.mark.exhaust
 def test_an_infection_dies_out_at_all_rates_holds() -> None:
     """By a loss that goes to 0 where b goes to g + 1/2."""
     setting = at_point(epidemic(SUBCRITICAL), "1", "0")

@@ -47,6 +47,7 @@ def test_a_map_of_lozi_is_stable_if_and_only_if_it_contracts_holds() -> None:
     assert len(str(outcome.proof.certificates)) < 45_000
 
 
+@pytest.mark.exhaust
 def test_no_statement_is_left_that_the_theorem_does_not_name_holds() -> None:
     rules = {rule.name: rule for rule in found_of_lozi().proof.rules}
     named = {text for rule in rules.values() for _, text in rule.rows}
@@ -58,6 +59,7 @@ def test_a_map_of_lozi_in_two_parameters_is_stable_where_it_contracts_holds() ->
     assert proved_by_sums(lozi_in_two("a + b < 1")) == ["map", "lyapunov"]
 
 
+@pytest.mark.exhaust
 def test_a_map_of_lozi_in_two_parameters_fails_without_a_contraction() -> None:
     assert proved_by_sums(lozi_in_two("a + b <= 1")) == ["map"]
 
