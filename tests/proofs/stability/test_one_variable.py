@@ -89,6 +89,7 @@ SETTLED = {  # the first line of what is printed: the map
 
 
 LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter", "cycle"}
+LONG |= {"threshold", "recessive", "logistic-by-name"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)

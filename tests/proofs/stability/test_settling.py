@@ -17,7 +17,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import CERTIFICATES, STATEMENTS
 from juggleproof.proofs.command.check import check
 from tests.proofs.command import running
-from tests.proofs.stability.maps import assert_settled, name_of
+from tests.proofs.stability.maps import assert_settled, marked, name_of
 
 STABLE, AWAY = "is stable and attracts every state", "does not attract"
 SETTLED = {  # the first line of what is printed: the map
@@ -94,7 +94,10 @@ def map_file(folder: Path, name: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"circle", "scaling", "share"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_is_settled_as_it_behaves_holds(line: str, tmp_path: Path) -> None:
     assert_settled(line, SETTLED[line], tmp_path)
 
