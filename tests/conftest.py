@@ -55,7 +55,6 @@ def kept_records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 LONGEST = (
     "tests/reports",
     "tests/proofs/coq",
-    "tests/certificates/reader/test_reader.py",
     "tests/scenes/part",
     "tests/docs/test_commands.py",
 )

@@ -20,8 +20,9 @@ from juggleproof.judging.register import load_register
 from juggleproof.papers.paper import opened
 from juggleproof.reports.tables import draw
 from juggleproof.statements.language import ClaimError
-from juggleproof.statements.store import DEFAULT, Store
+from juggleproof.statements.store import Store
 from tests.command import running
+from tests.judging.stores import part_of_store
 from tests.rows import each_row
 
 
@@ -50,11 +51,19 @@ def test_export_of_several_ids_is_one_script_holds(capsys: pytest.CaptureFixture
     assert found == ["unsat"] * text.count("(check-sat)") and len(found) >= len(heads(text))
 
 
-def test_export_of_the_whole_paper_writes_every_statement_holds(tmp_path: Path) -> None:
-    assert export_smt2([], tmp_path) == 0
-    written = {path.name for path in tmp_path.iterdir()}
-    assert written == {name.replace("/", ".") + ".smt2" for name in Store(DEFAULT).texts}
-    assert all(path.read_text(encoding="utf-8").count("(check-sat)") for path in tmp_path.iterdir())
+def test_export_without_ids_writes_every_statement_of_the_store_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a part of the paper's store, with every kind of statement."""
+    kept = part_of_store(
+        tmp_path / "store", lambda claim: claim.startswith(("theorem", "s2.2", "eq-2"))
+    )
+    monkeypatch.setattr(show, "DEFAULT", kept)
+    out = tmp_path / "out"
+    assert export_smt2([], out) == 0
+    names = {name.replace("/", ".") + ".smt2" for name in Store(kept).texts}
+    assert len(names) > 50 and {path.name for path in out.iterdir()} == names
+    assert all(path.read_text(encoding="utf-8").count("(check-sat)") for path in out.iterdir())
 
 
 def test_the_errata_are_printed_as_they_are_made_holds(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -238,10 +238,15 @@ def test_a_command_that_is_shown_runs(
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
+SESSIONS = [
+    # a basin takes as long as all others
+    pytest.param(page, one, marks=[pytest.mark.exhaust] * ("--basin" in one), id=name(page))
+    for page in PAGES
+    for one in code(page, "console")
+]
 
 
-@pytest.mark.parametrize(("page", "session"), SESSIONS, ids=[name(page) for page, _ in SESSIONS])
+@pytest.mark.parametrize(("page", "session"), SESSIONS)
 def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, run: Run) -> None:
     command, _, expected = session.removeprefix("$ ").partition("\n")
     printed = run(command, page).stdout

@@ -50,18 +50,16 @@ def changed(copied: Path, sources: Sources, file: str, more: str) -> Iterator[So
     for name, facts in sources.kept_facts.items():
         if sources.modules[name] != file:
             other.kept_facts[name] = facts
+    other.kept_digests = {one: kept for one, kept in sources.kept_digests.items() if one != file}
     yield other
     (copied / file).write_bytes(good)
 
 
 def asked(copied: Path, stages: Stages, file: str, more: str) -> set[str]:
     """The stages that are asked for when this is added to a file, which imports nothing new."""
+    before = stages.digests()
     with changed(copied, stages.sources, file, more) as other:
-        return {
-            name
-            for name, stage in stages.all.items()
-            if stage.digest(other) != stage.digest(stages.sources)
-        }
+        return {name for name, stage in stages.all.items() if stage.digest(other) != before[name]}
 
 
 def test_a_module_leads_to_all_that_it_imports_or_names_holds() -> None:

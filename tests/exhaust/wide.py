@@ -14,8 +14,8 @@ import tempfile
 from pathlib import Path
 from unittest import mock
 
-from juggleproof.certificates.sine import cover
 from juggleproof.certificates.sine.checker import CERTIFICATES, STATEMENTS, check_line
+from juggleproof.sine import cover
 from juggleproof.sine.cover import Tried, box_of, try_box
 from juggleproof.sine.search import find_certificate
 from juggleproof.sine.stored import WIDE, wide_rectangles

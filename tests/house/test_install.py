@@ -170,7 +170,14 @@ def environment(python: str, folder: Path) -> tuple[Path, Path]:
     return bin, site
 
 
-@pytest.fixture(scope="module", params=[*PYTHONS, "sdist", "editable"])
+# the wheel where tests run, and the editable install; what else there is takes minutes
+PLACES = [RUNNING, "editable"]
+PLACES += [
+    pytest.param(one, marks=pytest.mark.exhaust) for one in (*PYTHONS, "sdist") if one != RUNNING
+]
+
+
+@pytest.fixture(scope="module", params=PLACES)
 def place(
     request: pytest.FixtureRequest,
     checkout: Path,

@@ -12,9 +12,8 @@ import pytest
 from tests.house.graph import NAME, PACKAGES, ROOT, tree_of
 
 TESTS = ROOT / "tests"
-# What is no package: the house itself, the pages, the action, the long runs; the tables of rules, a
-# folder of cases for each rule of the checker, which is tested as one; and a reader of certificates
-# of its own.
+# What is no package: the house itself, the pages, the action, the long runs; and the tables of
+# rules, a folder of cases for each rule of the checker, which is tested as one.
 OTHERS = {
     "house",
     "docs",
@@ -23,7 +22,6 @@ OTHERS = {
     "certificates/checker",
     "certificates/checker/rules",
 }
-OTHERS |= {"certificates/reader"}
 UNTESTED = {"sine", "coq_store", "coq_orbits"}  # by tests/certificates/sine and tests/proofs/coq
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from juggleproof.map_stability import limits
 from juggleproof.map_stability.attracting import Strategy
@@ -64,6 +67,11 @@ def proved(
 def name_of(line: str) -> str:
     """The name of the map in the first line of what the command prints."""
     return line.partition(":")[0].rpartition(" ")[2]
+
+
+def marked(lines: Iterable[str], long: Container[str], mark: pytest.MarkDecorator) -> list[Any]:
+    """The lines as rows of a test, those of the maps that take long with a mark."""
+    return [pytest.param(one, marks=mark) if name_of(one) in long else one for one in lines]
 
 
 def assert_settled(line: str, text: str, folder: Path) -> None:

@@ -59,6 +59,7 @@ def test_rejects_a_fall_that_is_too_large() -> None:
     assert proof_by_factors(premise(shown), {}, (), "x_gap", POINTS) is None
 
 
+@pytest.mark.exhaust
 def test_a_factor_that_squares_alone_tell_the_sign_of_holds() -> None:
     """M. C. Mackey, L. Glass, "Oscillation and chaos in physiological control systems", Science
     197, 1977, without delay: (2 - 5 d/4)(1 + x^2) > d e (x + e), as d e (1 + e^2) < 1.

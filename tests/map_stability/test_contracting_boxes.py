@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 import sympy
 
 from juggleproof.map_stability.functions.candidates import Setting
@@ -45,11 +46,13 @@ def test_the_ends_of_the_box_of_two_competing_species_holds() -> None:
     assert all(sympy.cancel(found[one] - expression(ends[one])) == 0 for one in ends)
 
 
+@pytest.mark.exhaust
 def test_competing_species_come_to_rest_holds() -> None:
     of = setting(COMPETITION, "0 < c and c < 1/2")
     assert proved(of, contracting_box_candidates, 1)[-2:] == ["attracts-1", "attracts"]
 
 
+@pytest.mark.exhaust
 def test_like_species_come_to_rest_by_distances_holds() -> None:
     """For all rates: a step beyond the capacity takes back by what it does there."""
     piece = "b*x/(1 + x + c*y), b*y/(1 + y + c*x)"
@@ -82,6 +85,7 @@ def test_the_ends_of_the_box_where_a_predator_dies_out_holds() -> None:
     assert all(sympy.cancel(found[one] - expression(ends[one])) == 0 for one in ends)
 
 
+@pytest.mark.exhaust
 def test_a_predator_that_grows_too_slowly_dies_out_holds() -> None:
     of = where_it_dies_out("0 < c and c < 1")
     assert proved(of, contracting_box_candidates, 1)[-1] == "attracts"

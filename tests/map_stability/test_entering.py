@@ -46,6 +46,7 @@ def test_every_orbit_is_in_each_box_after_as_many_steps_holds(images: str) -> No
         assert np.all(holds(box, points))
 
 
+@pytest.mark.exhaust
 def test_a_filter_that_saturates_comes_to_rest_wherever_the_linear_one_does_holds() -> None:
     """P. M. Ebert, J. E. Mazo and M. G. Taylor (1969), in the whole triangle."""
     outcome = search_stability(read_file(EXAMPLES / "saturated-filter.map"))
@@ -54,6 +55,7 @@ def test_a_filter_that_saturates_comes_to_rest_wherever_the_linear_one_does_hold
     assert "saturated-filter/descends" in outcome.proof.known
 
 
+@pytest.mark.exhaust
 def test_rejects_a_filter_beyond_the_triangle() -> None:
     outcome = search_stability(planar(f"{CLIPPED}, x", "1/4 < a and a < 1 and 1 - a < b and b < 1"))
     assert outcome.finding.verdict == "refuted"
@@ -86,6 +88,7 @@ def test_the_bounds_of_a_rational_image_are_its_limits_holds() -> None:
     assert spaces_entered(at_point(system), True)[-1] == "y > a and x > a and x > 0 and y > 0"
 
 
+@pytest.mark.exhaust
 def test_the_part_that_orbits_enter_carries_the_proof_holds() -> None:
     """A. M. Amleh, E. A. Grove, G. Ladas and D. A. Georgiou (1999), in the whole range."""
     found = search_stability(rational("a + y/x, x", "x > 0 and y > 0", "a > 1"))

@@ -37,7 +37,9 @@ PROVED = {  # name: (text, first line, a hypothesis, a weaker one)
 POSITIVE = some.fractions(Fraction(1, 20), 20, max_denominator=20)
 
 
-@pytest.fixture(scope="module", params=PROVED)
+@pytest.fixture(
+    scope="module", params=["hassell", pytest.param("logistic", marks=pytest.mark.exhaust)]
+)
 def proved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the certificates."""
     name = request.param

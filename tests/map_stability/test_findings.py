@@ -134,7 +134,8 @@ def assert_true(outcome: Outcome, system: Map, truth: str) -> None:
         assert all(holds(truth, parameters) for parameters in corners(system))
 
 
-LONG = {"irrational-end", "saturated", "envelope", "box-entered"}
+LONG = {"irrational-end", "saturated", "envelope", "box-entered", "weighted-sum", "ratio"}
+LONG |= {"norm-in-a-circle", "two-corners", "corner", "norm"}
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from juggleproof.map_stability.search import search_stability
 from juggleproof.map_stability.settings import setting_of
 from juggleproof.search.psatz.linear_program import Program, normal_forms
 from juggleproof.statements.work import Budget, Exhausted
-from tests.map_stability.maps import assert_settled, map_of, name_of
+from tests.map_stability.maps import assert_settled, map_of, marked, name_of
 
 STABLE = "is stable and attracts every state"
 CONVERTER = (
@@ -88,7 +88,11 @@ SETTLED = {  # the first line of what is printed: the map
 }
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter", "cycle"}
+LONG |= {"threshold", "recessive", "logistic-by-name"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_is_settled_on_both_sides_of_its_condition_holds(line: str, tmp_path: Path) -> None:
     assert_settled(line, SETTLED[line], tmp_path)
 

@@ -12,7 +12,7 @@ import pytest
 from juggleproof import MapRule
 from juggleproof.map_stability.certifying import Proof
 from juggleproof.map_stability.search import search_stability
-from tests.map_stability.maps import assert_settled, map_of, name_of
+from tests.map_stability.maps import assert_settled, map_of, marked, name_of
 
 STABLE, AWAY = "is stable and attracts every state", "is not stable"
 COMPETITION = "state x y\nspace x > 0 and y > 0\npiece 5/2*x/(1 + x + C*y), 5/2*y/(1 + y + C*x)"
@@ -38,7 +38,10 @@ RECRUITMENT = (
 )
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"henon", "coexistence", "spirals"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_of_several_variables_is_settled_as_it_behaves_holds(
     line: str, tmp_path: Path
 ) -> None:
@@ -50,6 +53,7 @@ def weaker(rule: MapRule, row: tuple[str, str]) -> MapRule:
     return replace(rule, rows=tuple(row if one[0] == row[0] else one for one in rule.rows))
 
 
+@pytest.mark.exhaust
 def test_rejects_a_box_function_with_a_line_that_claims_more() -> None:
     found = search_stability(map_of(RECRUITMENT))
     assert found.finding.sentence == f"(2*p - 1, 2*p - 1) {STABLE}"

@@ -55,6 +55,7 @@ JUVENILES = planar(
 )
 
 
+@pytest.mark.exhaust
 def test_a_delayed_map_that_turns_is_stable_holds() -> None:
     found = search_stability(PIELOU)
     assert found.finding.verdict == "proved"
@@ -63,6 +64,7 @@ def test_a_delayed_map_that_turns_is_stable_holds() -> None:
     assert len(values) == 6  # those of x, y and x/y, and of their inverses
 
 
+@pytest.mark.exhaust
 def test_a_condition_with_a_root_is_found_holds() -> None:
     system = with_licences(RATIONAL)
     parameters = region(system.domain, system.parameters, limits.PARAMETERS)
@@ -79,6 +81,7 @@ def test_rejects_a_domain_in_which_the_point_is_not_stable() -> None:
     assert not list(ratio_candidates(at_point(RATIONAL)))
 
 
+@pytest.mark.exhaust
 def test_rejects_a_loss_that_is_too_large() -> None:
     setting = at_point(PIELOU, inside=True)
     proof, one = of_its_map(setting), next(ratio_candidates(setting))
@@ -123,6 +126,7 @@ def epidemic(domain: str) -> Map:
     return planar(EPIDEMIC, "b g", domain, "s i", INFECTED)
 
 
+@pytest.mark.exhaust
 def test_an_infection_dies_out_at_all_rates_holds() -> None:
     """By a loss that goes to 0 where b goes to g + 1/2."""
     setting = at_point(epidemic(SUBCRITICAL), "1", "0")
@@ -144,6 +148,7 @@ def test_parameters_close_to_the_ends_of_the_domain_are_in_it_holds() -> None:
     assert wide["b"].min() > 0 and wide["b"].max() < 1 and wide["g"].max() < 1 / 2
 
 
+@pytest.mark.exhaust
 def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -> None:
     setting = at_point(VECTORS, inside=True)
     assert "lyapunov" in proved(setting, ratio_candidates, 1)
@@ -153,5 +158,6 @@ def test_a_bilinear_map_is_stable_by_the_sign_of_its_slope_at_a_corner_holds() -
     assert len(corners) == 2  # one for each variable
 
 
+@pytest.mark.exhaust
 def test_juveniles_and_adults_come_to_rest_by_few_facts_holds() -> None:
     assert "lyapunov" in proved(at_point(JUVENILES, inside=True), ratio_candidates, 1)

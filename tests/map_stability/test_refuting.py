@@ -18,7 +18,7 @@ from juggleproof.map_stability.points import as_point
 from juggleproof.map_stability.refuting import instability_rules
 from juggleproof.map_stability.search import without_empty_pieces
 from tests.command import running
-from tests.map_stability.maps import assert_settled, at_point, map_of, name_of
+from tests.map_stability.maps import assert_settled, at_point, map_of, marked, name_of
 
 STABLE = "is stable and attracts every state"
 NO_FIXED_POINT = "no state of the space is a fixed point"
@@ -86,7 +86,11 @@ SETTLED = {  # the first line of what is printed: the map
 }
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"focus", "drift-beside-rest", "no-line", "quotient-in-a-guard", "boundary"}
+LONG |= {"unstable-cycle"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_is_refuted_where_it_has_the_hypothesis_holds(line: str, tmp_path: Path) -> None:
     assert_settled(line, SETTLED[line], tmp_path)
 
@@ -144,6 +148,7 @@ def test_growth_is_seen_where_the_rate_begins_at_1_holds() -> None:
     assert "1 + (h - 1)" in found
 
 
+@pytest.mark.exhaust
 def test_what_is_tried_names_the_roots_of_the_point_holds(tmp_path: Path) -> None:
     """R. M. May, Journal of Animal Ecology 47, 1978; numbers in place of l are advised."""
     path = tmp_path / "host.map"

@@ -17,7 +17,7 @@ from juggleproof.command.check import check
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import CERTIFICATES, STATEMENTS
 from tests.command import running
-from tests.map_stability.maps import assert_settled, name_of
+from tests.map_stability.maps import assert_settled, marked, name_of
 
 STABLE, AWAY = "is stable and attracts every state", "does not attract"
 SETTLED = {  # the first line of what is printed: the map
@@ -94,14 +94,17 @@ def map_file(folder: Path, name: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("line", SETTLED, ids=name_of)
+LONG = {"circle", "scaling", "share"}
+
+
+@pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
 def test_a_map_is_settled_as_it_behaves_holds(line: str, tmp_path: Path) -> None:
     assert_settled(line, SETTLED[line], tmp_path)
 
 
 def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
     """In two processes, whose hashes differ."""
-    path, results = map_file(tmp_path, "cobweb"), []
+    path, results = map_file(tmp_path, "tent"), []
     command = [sys.executable, "-m", "juggleproof.command.main", "stability", str(path)]
     for seed in ("1", "2"):
         folder = tmp_path / seed
@@ -114,7 +117,7 @@ def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
             timeout=240,
             check=False,
         )
-        assert done.returncode == 3
+        assert done.returncode == 0
         files = {one.name: one.read_bytes() for one in folder.rglob("*") if one.is_file()}
         results.append((done.stdout, files))
     assert results[0] == results[1] and len(results[0][1]) == 3

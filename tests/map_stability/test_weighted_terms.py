@@ -39,6 +39,7 @@ def found_of_lozi() -> Outcome:
     return search_stability(lozi("0 < a and a < 1"))
 
 
+@pytest.mark.exhaust
 def test_a_map_of_lozi_is_stable_if_and_only_if_it_contracts_holds() -> None:
     outcome = found_of_lozi()
     assert outcome.finding.verdict == "in part"
@@ -46,6 +47,7 @@ def test_a_map_of_lozi_is_stable_if_and_only_if_it_contracts_holds() -> None:
     assert len(str(outcome.proof.certificates)) < 45_000
 
 
+@pytest.mark.exhaust
 def test_no_statement_is_left_that_the_theorem_does_not_name_holds() -> None:
     rules = {rule.name: rule for rule in found_of_lozi().proof.rules}
     named = {text for rule in rules.values() for _, text in rule.rows}
@@ -57,6 +59,7 @@ def test_a_map_of_lozi_in_two_parameters_is_stable_where_it_contracts_holds() ->
     assert proved_by_sums(lozi_in_two("a + b < 1")) == ["map", "lyapunov"]
 
 
+@pytest.mark.exhaust
 def test_a_map_of_lozi_in_two_parameters_fails_without_a_contraction() -> None:
     assert proved_by_sums(lozi_in_two("a + b <= 1")) == ["map"]
 
@@ -65,6 +68,7 @@ def test_rejects_a_map_of_lozi_beyond_where_it_contracts() -> None:
     assert proved_by_sums(lozi("1/2 <= a and a < 1")) == ["map"]
 
 
+@pytest.mark.exhaust
 def test_a_point_at_which_a_map_jumps_is_not_said_to_be_stable_holds() -> None:
     """At u = 1 the point of a leaky integrator behind a comparator is 0, from whose left all states
     go to 2 and beyond.

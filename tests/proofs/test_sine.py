@@ -14,13 +14,13 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.sine import stored
 from juggleproof.judging.claims import CheckedApart, claims_in
 from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, Resources
 from juggleproof.judging.judging import judge
 from juggleproof.proofs.sine import everywhere
 from juggleproof.reports.results import results_of_run
 from juggleproof.search.certificate import search_certificate
+from juggleproof.sine import stored
 from juggleproof.sine.stored import STATEMENT, STORE, stored_outcomes
 from juggleproof.statements.store import DEFAULT, Store
 from juggleproof.statements.work import Budget, read

@@ -27,8 +27,9 @@ from juggleproof.reports.latex import latex_of, narrow, with_macros, without_mac
 from juggleproof.reports.tex import compiled, complaints, equation, files
 from juggleproof.reports.words import formulas_of
 from juggleproof.statements.language import ClaimError
-from tests.reports.comparison import differences, read_latex
+from tests.reports.read_back import NotRead, difference, differences, python_of
 from tests.reports.runs import contents, made_of
+from tests.rows import each_row
 
 # -------------------------------------------------------------------------------------------------
 # Formulas.
@@ -39,10 +40,66 @@ def texts() -> list[str]:
     return found + [premise.text for rule in contents().rules for premise in rule.premises]
 
 
+@cache
+def pairs() -> dict[tuple[str, str], None]:
+    """The formulas of all statements, each with its LaTeX."""
+    return dict.fromkeys(pair for text in texts() for pair in formulas_of(text))
+
+
 def test_every_formula_of_every_statement_reads_back_holds() -> None:
-    pairs = dict.fromkeys(pair for text in texts() for pair in formulas_of(text))
-    assert len(pairs) > 800
-    assert differences(pairs) == []
+    assert len(pairs()) > 800
+    assert differences(pairs()) == []
+
+
+@each_row(
+    ("text", "latex"),
+    [
+        ("not x < w", r"x \ge w"),
+        ("not (x < w and w != 2)", r"x \ge w \lor w = 2"),
+        ("0 <= x and x < w", r"0 \le x < w"),
+        ("x = w", r"x = w^{1}\cdot 1 + 0"),
+        ("beta0*r^2 != v_next", r"\bar\beta_0\dot\rho_0^2 \ne \dot{\bar\beta}_{\mathrm{next}}"),
+        ("not iff(x < w, w < u)", r"\lnot (x < w \iff w < u)"),
+        ("not implies(x < w, w < u)", r"x < w \land w \ge u"),
+        ("-x^2/(2*w)", r"-\frac{x^2}{2w}"),
+    ],
+)
+def test_what_means_the_same_agrees_holds(text: str, latex: str) -> None:
+    assert difference(text, latex) == ""
+
+
+@each_row(
+    ("text", "latex"),
+    [
+        ("x <= w", "x < w"),
+        ("x < w", "w > x"),
+        ("x = w", "x = 2w"),
+        ("x < w and w < u", r"x < w \lor w < u"),
+        ("x < w or w < u", r"w < u \lor x < w"),
+        ("implies(x < w, w < u)", r"x < w \iff w < u"),
+        ("not iff(x < w, w < u)", r"x < w \iff w < u"),
+        ("x < w", "x"),
+        ("x", "u"),
+        ("x^2", "x^3"),
+        ("x - (w - u)", "x - w - u"),
+        ("(-x)^2", "-x^2"),
+        ("beta", r"\dot{\bar\beta}"),
+        ("v0", r"\dot{\bar\beta}"),
+        ("x/(w - w)", r"\frac{x}{w - w}"),
+    ],
+)
+def test_what_means_another_thing_differs_holds(text: str, latex: str) -> None:
+    assert difference(text, latex)
+
+
+@each_row(
+    "latex",
+    ["x 2", "2 3", r"\frac{x}{w}^2", "x + ^2", "(x", "x)", r"\left(x)", r"\hat x", "E(", "0.5",
+     r"x < w \implies w < u \implies u < x"],
+)  # fmt: skip
+def test_rejects_what_has_no_meaning_or_two(latex: str) -> None:
+    with pytest.raises(NotRead):
+        python_of(latex)
 
 
 @pytest.mark.exhaust
@@ -83,14 +140,10 @@ def test_a_sentence_is_set_holds(sentence: str, set_as: str) -> None:
 
 
 def test_every_formula_is_read_with_its_macros_holds() -> None:
-    pairs = dict.fromkeys(pair for text in texts() for pair in formulas_of(text))
-    changed = [
-        (text, latex, without_macros(with_macros(latex)))
-        for text, latex in pairs
-        if "\\jug" in with_macros(latex)
-    ]
+    changed = [latex for _, latex in pairs() if "\\jug" in with_macros(latex)]
     assert len(changed) > 500
-    assert [one for one in changed if read_latex(one[1]) != read_latex(one[2])] == []
+    for latex in changed:
+        assert python_of(latex) == python_of(without_macros(with_macros(latex)))
 
 
 @pytest.mark.parametrize("text", ["f(x)", "x, y", "x if y else z", "x and", "1.5*x"])

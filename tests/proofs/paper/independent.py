@@ -1,19 +1,16 @@
-"""An evaluator of statements and outcomes that shares nothing with the checker."""
+"""An evaluator of statements that shares nothing with the checker."""
 
 from __future__ import annotations
 
 import ast
 import random
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from importlib import import_module
-from itertools import islice
 from math import isqrt
 from typing import Any
 
 from flint import fmpq
-
-from juggleproof.certificates import checker
 
 # -------------------------------------------------------------------------------------------------
 # An evaluator of statement texts that shares nothing with the checker: exact rationals, Python's
@@ -286,55 +283,7 @@ def square_root(value: fmpq) -> fmpq | None:
     return fmpq(isqrt(p), isqrt(q))
 
 
-# -------------------------------------------------------------------------------------------------
-# What an accepted certificate claims, put to points by the independent evaluator: `contradiction`
-# names a point where it is wrong.
-
-POINTS, PARAMETERS, INSIDE, STEPS = 1_000, 20, 20, 4
-
-
-def contradiction(
-    text: str, outcome: str, certificate: Any, texts: Mapping[str, str], known: Mapping[str, Any]
-) -> object:
-    """A point where the outcome that a certificate was accepted for is wrong; None where none of
-    the sample is one.
-
-    Irrational values are not evaluated: a certificate that adjoins a number says nothing here about
-    its point.
-    """
-    if outcome == "refuted":
-        point = named_values(certificate["refuted"], {})
-        statement = Independent(text)
-        holds = None if point is None else statement.at(point, moving=False)
-        return (
-            point
-            if holds or point is not None and holds is None and not statement.existing
-            else None
-        )
-    if "\nsharp " in text:
-        return sharp_contradiction(text, certificate["certified"], texts)
-    if "\niterates " in text:
-        return iterates_contradiction(text)
-    if isinstance(certificate["certified"], dict):
-        return premise_contradiction(text, known)
-    way, _, last = certificate["certified"]
-    statement = Independent(text, last if way == "witness" else None)
-    point = named_values(certificate["point"], {})
-    if point is not None and statement.at(point, moving=False) is False:
-        return point
-    return statement.counterexample(POINTS)
-
-
-def premise_contradiction(text: str, known: Mapping[str, Any]) -> object:
-    """A point at which a premise of a map rule is false, of those that are for all."""
-    (statement,) = checker.read_statements(text).values()
-    for premise in checker.premises_of(statement, known).values():
-        if (
-            not premise.get("exists")
-            and (point := Independent(premise.text()).counterexample(POINTS // 5)) is not None
-        ):
-            return premise.name, point
-    return None
+STEPS = 4
 
 
 def lines(text: str) -> dict[str, list[str]]:
@@ -344,69 +293,6 @@ def lines(text: str) -> dict[str, list[str]]:
         keyword, _, rest = line.partition(" ")
         said.setdefault(keyword, []).append(rest)
     return said
-
-
-def sharp_contradiction(text: str, certificate: Any, texts: Mapping[str, str]) -> object:
-    """Parameters in the domain at which the condition and the statements disagree."""
-    said = lines(text)
-    names = said["over"][0].split()
-    numbers = {}
-    for row in said.get("number", []):
-        name, root = row.split(" = ", 1)
-        numbers[name] = root_between(root)
-    inner = {
-        name: "\n".join(row for row in texts[name].splitlines() if not row.startswith("range "))
-        for name in said["sharp"][0].split()
-    }
-    statements = {name: Independent(one) for name, one in inner.items()}
-    chance = random.Random(1)
-    for parameters in islice(
-        iter(lambda: {name: sampled(name, chance) for name in names}, None), PARAMETERS
-    ):
-        values: Any = {**NAMES, **numbers, **parameters}
-        if not eval(compiled(said["domain"][0]), values):
-            continue
-        if eval(compiled(said["holds"][0]), values):
-            for one in statements.values():
-                for point in one.points(INSIDE, 1):
-                    if one.at({**point, **parameters}) is False:
-                        return {**point, **parameters}
-            continue
-        found = certificate[1]
-        while found[0] == "sign":
-            value = eval(compiled(found[1]), values)
-            found = found[2 + (value >= 0) + (value > 0)]
-        if found[0] == "empty":
-            return parameters
-        point = named_values(found, values)
-        if (
-            point is not None
-            and statements[found[0]].at({**parameters, **point}, moving=False) is True
-        ):
-            return {**parameters, **point}
-    return None
-
-
-def sampled(name: str, chance: random.Random) -> fmpq:
-    return fmpq(chance.randint(1, 8)) if name == "K" else fmpq(chance.randint(1, 60), 61)
-
-
-def root_between(text: str) -> fmpq:
-    """The root of a polynomial in one variable between two rationals, to within 2^-80: apart from
-    every parameter of the sample.
-    """
-    call = ast.parse(text.replace("^", "**"), mode="eval").body
-    if not isinstance(call, ast.Call):
-        raise ValueError(f"not a root: {text!r}")
-    polynomial, low, high = (ast.unparse(argument).replace(" ** ", "^") for argument in call.args)
-    (name,) = {node.id for node in ast.walk(call.args[0]) if isinstance(node, ast.Name)}
-    ends = [eval(compiled(end), dict(NAMES)) for end in (low, high)]
-    code = compiled(polynomial)
-    sign = eval(code, {**NAMES, name: ends[0]}) > 0
-    for _ in range(80):
-        middle = (ends[0] + ends[1]) / 2
-        ends[(eval(code, {**NAMES, name: middle}) > 0) != sign] = middle
-    return ends[0]
 
 
 def iterates_contradiction(text: str) -> Point | None:

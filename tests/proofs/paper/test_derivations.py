@@ -12,6 +12,8 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+import pytest
+
 from juggleproof.judging.judgement import Correction, statements_of
 from juggleproof.judging.run import findings_in
 from juggleproof.papers.derivations import (
@@ -48,6 +50,7 @@ def marked() -> dict[str, list[str]]:
     return found
 
 
+@pytest.mark.exhaust  # all is derived anew, twice
 def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None:
     """For every claim; what a statement contains is found by marks, in a process of its own."""
     mended = corrections()
@@ -74,6 +77,7 @@ def test_derivations_are_of_the_statements_that_were_judged_holds() -> None:
         assert {one.text().partition("\n")[2] for one in own} == stored.get(claim.id, set())
 
 
+@pytest.mark.exhaust
 def test_a_derivation_names_the_ones_that_it_calls_holds() -> None:
     """For every derivation behind a claim; what is called is noted in a process of its own."""
     with ProcessPoolExecutor(1, mp_context=get_context("fork")) as pool:

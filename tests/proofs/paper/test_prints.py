@@ -1,7 +1,7 @@
 """Every token of every print of the paper's claims matters.
 
-`make test` tries a share of the changes of each token, with JUGGLEPROOF_MUTANTS=many (as CI sets
-it) all of them.
+`make test` tries a share of the changes of each token, in one claim in four, with
+JUGGLEPROOF_MUTANTS=many (as CI sets it) all of them in all claims.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def normal(formula: Any) -> Any:
 # Every token of every print matters: a change is refused, changes what is judged, or is reviewed as
 # meaning the same.
 
-SHARE = share(3, 1)
+SHARE = share(30, 1)
 Change = tuple[str, str]  # what is changed, after its column, and the changed print
 REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 
@@ -124,7 +124,7 @@ def unnoticed(claim: Claim) -> list[Change]:
     return same
 
 
-@each_row("claim_id", sorted(claims()))
+@each_row("claim_id", sorted(claims())[:: share(4, 1)])
 def test_every_token_of_the_print_matters_holds(claim_id: str) -> None:
     known = reviewed()
     left = [

@@ -119,6 +119,7 @@ def unsaid(sentence: str, text: str) -> list[str]:
     ]
 
 
+@cache
 def with_definitions(line: str) -> str:
     """A line of a statement with definitions by name, also that of a set in an orbit rule."""
     keyword, _, text = line.partition(" ")
@@ -237,12 +238,9 @@ def test_rejects_a_statement_without_what_is_named(
     name: str, words: str, stands: tuple[str, ...]
 ) -> None:
     """Some claim names it, and the statements of that claim do not without it."""
-    claims = [
-        claim
-        for claim in opened().claims()
-        if name in dict(named(claim.says)) and statements(claim)
-    ]
+    naming = [claim for claim in opened().claims() if name in dict(named(claim.says))]
+    claims = [(claim, text) for claim in naming if (text := statements(claim))]
     assert claims
     without = re.compile("|".join(rf"(?<!\w)(?:{one})(?![\w'])" for one in stands))
-    for claim in claims:
-        assert name in missing(claim.says, without.sub("other", statements(claim))), words
+    for claim, text in claims:
+        assert name in missing(claim.says, without.sub("other", text)), words

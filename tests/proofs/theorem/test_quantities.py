@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from juggleproof.command import theorem
 from juggleproof.command.main import run
+from juggleproof.proofs.theorem import explaining as theorem
 from juggleproof.proofs.theorem import quantities
 from juggleproof.proofs.theorem.definition import (
     CORE,

@@ -8,9 +8,10 @@ from fractions import Fraction
 
 import pytest
 
+from juggleproof.proofs.counterexample_words import NOUNS, SIDES, meeting, named_terms
 from juggleproof.proofs.paper.names import definitions
 from juggleproof.reports import errata
-from juggleproof.reports.counterexample_words import NOUNS, SIDES, in_words, meeting, named_terms
+from juggleproof.reports.counterexample_words import in_words
 from juggleproof.statements.store import DEFAULT, Store
 
 NUMBER = r"-?\d+(?:/\d+)?"
@@ -82,37 +83,6 @@ def test_nouns_are_of_named_terms_or_variables_holds() -> None:
     written = "\n".join(text for _, text, _ in refuted())
     for name in NOUNS.keys() - terms:
         assert re.search(rf"\b{name}\b", written), name
-
-
-@pytest.mark.parametrize(
-    "name, line",
-    [
-        (
-            "s4.3.1-LaSalle/falls-in-flight.main",
-            "The ball is at height 2, at rest, in R, and meets the table only as the period ends,"
-            " at time 2; the kinetic energy relative to e_1 is 49/50 a period later, more than 9/50"
-            " at first.",
-        ),
-        (
-            "sB.2-B1/main",
-            "The ball is at height 1, rising at 2, and does not meet the table, which is no faster;"
-            " one condition is met: the height is 1, more than 0, and the time to collision by (6)"
-            " is -1, less than the period, 2; the other is not: no impact comes within the period.",
-        ),
-        (
-            "s4.2-less-energy-shorter/main",
-            "In b the ball is at height 0, rising at 1; in b_0 the ball is at height 5/9, rising at"
-            " 1/2; the energy of b is 1/2, less than that of b_0, 49/72; the time to the ground of"
-            " b is 2, more than that of b_0, 5/3.",
-        ),
-        (
-            "s3.5-fixed-points-of-f/of-f.main",
-            "No choice of b and b_0 meets all that is asserted.",
-        ),
-    ],
-)
-def test_lines_of_known_counterexamples_holds(name: str, line: str, lines: dict[str, str]) -> None:
-    assert lines[name] == line
 
 
 def test_ball_and_table_meet_where_their_heights_cross_holds() -> None:
