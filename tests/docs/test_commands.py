@@ -39,7 +39,6 @@ SMALLER = {
     "juggleproof simulate juggler --picture bifurcation": "--alpha 1/5:3/5:5",
     "juggleproof simulate part --sweep": "--ensembles 1 --horizon 0.1",
     "juggleproof simulate part --figure": "--horizon 0.05",
-    "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
     "juggleproof certify sine --picture wide.svg": "--alpha 0.05 --gamma 3.1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
