@@ -45,7 +45,6 @@ SMALLER = {
     "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
     "python -m juggleproof.benchmarks.commands": "--only=--help --runs 1",
     "python -m juggleproof.benchmarks.stability": "--only skew-tent",
-    "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
 # Commands that are run elsewhere: a file, and what in it runs them.
 ELSEWHERE = {
@@ -119,14 +118,9 @@ ELSEWHERE = {
         "tests/exhaust/stages.py",
         '"juggleproof.benchmarks.problems", "--votes"',
     ),
-    "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
     "juggleproof simulate part --sweep readings -o scenes/part/sweep.json": (
         "tests/proofs/command/test_simulate_part.py",
         '"--sweep", "readings", "-o", str(path)',
-    ),
-    "python -m juggleproof.benchmarks.engines": (
-        "tests/benchmarks/test_engines.py",
-        "engines.main([])",
     ),
     "python -m juggleproof.benchmarks.sine": ("tests/benchmarks/test_sine.py", "sine.main()"),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
@@ -138,7 +132,6 @@ ELSEWHERE = {
 NEEDS = {
     "simulate part": "numba",
     "--picture": "matplotlib",
-    "benchmarks.part": "numba",
     ".svg": "matplotlib",
     "--format pdf": "jinja2",
 }

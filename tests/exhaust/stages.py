@@ -24,7 +24,6 @@ SHARES = 8  # of the store, for Coq
 WIDE_SHARES = ("cover", *(f"{share}/24" for share in range(1, 25)))
 WITH_PEERS = (  # tests of what needs other solvers and engines
     "tests.benchmarks.bench.test_bench",
-    "tests.benchmarks.test_engines",
     "tests.benchmarks.test_peers",
     "tests.benchmarks.test_problems",
     "tests.certificates.sine.test_cover",

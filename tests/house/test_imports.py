@@ -47,8 +47,6 @@ FOREIGN = {
         "cvxpy",
         "scipy",
         "matplotlib",
-        "mujoco",
-        "pymunk",
         "rich",
     },
 }
