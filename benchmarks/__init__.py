@@ -2,7 +2,6 @@
 it but `juggleproof bench`.
 
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
-    peers      every stored statement by our search, by our check and by every peer
     processes  programs in processes of their own, ended in time
     figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts

@@ -124,10 +124,6 @@ ELSEWHERE = {
     ),
     "python -m juggleproof.benchmarks.sine": ("tests/benchmarks/test_sine.py", "sine.main()"),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
-    "python -m juggleproof.benchmarks.peers": (
-        "tests/benchmarks/test_peers.py",
-        'peers.main(["--share", ',
-    ),
 }
 NEEDS = {
     "simulate part": "numba",
