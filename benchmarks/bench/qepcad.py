@@ -53,7 +53,8 @@ def _formula(formula: Formula, short: Mapping[str, str]) -> str:
     if isinstance(formula, bool):
         return "0 = 0" if formula else "0 = 1"
     if isinstance(formula, Atom):
-        return f"{_polynomial(formula.poly, short)} {RELATIONS.get(formula.relation, formula.relation)} 0"
+        relation = RELATIONS.get(formula.relation, formula.relation)
+        return f"{_polynomial(formula.poly, short)} {relation} 0"
     sign = " /\\ " if formula.op == "and" else " \\/ "
     return f"[{sign.join(_formula(part, short) for part in formula.parts)}]"
 

@@ -29,7 +29,6 @@ from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports import part as part_tables
 from juggleproof.proofs.reports.part import keep_results
 from juggleproof.proofs.reports.tables import draw, whole
-from juggleproof.scenes.part.columns import Shown, write_csv
 from juggleproof.scenes.part.ensemble import in_words, no_vibration
 from juggleproof.scenes.part.onsets import (
     PAPER,
@@ -53,11 +52,14 @@ from juggleproof.scenes.part.readings import (
 )
 from juggleproof.scenes.part.resting import (
     ANY_ANGLE,
+    Clearing,
+    Orientation,
     Starts,
     between,
     clearing,
     listed,
     orientation,
+    write_csv,
 )
 
 WISHES = ("clear", "orientation", "sweep", "still", "figure")
@@ -370,7 +372,7 @@ def _starts(options: PartOptions) -> Starts:
     return listed([number(one, "--angles") for one in text.split(",")])
 
 
-def _told(result: Shown) -> None:
+def _told(result: Orientation | Clearing) -> None:
     """Title and columns."""
     print(f"{result.title()}.  Simulated: no certificate.")
     columns = result.columns()
@@ -381,7 +383,7 @@ def _told(result: Shown) -> None:
     draw([one.head() for one in columns], rows, Console(highlight=False))
 
 
-def _written(result: Shown, path: Path | None) -> None:
+def _written(result: Orientation | Clearing, path: Path | None) -> None:
     """The picture or the columns, in a file."""
     if path is None:
         return

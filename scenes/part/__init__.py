@@ -18,11 +18,9 @@ In reading order:
     ensemble    many blocks
     onsets      table I
     readings    what it leaves open, and how likely its prints are
-    columns     results as named columns, in files
     layout      how blocks are laid out in a picture
-    picture     figure 2
     resting     how often parts rest on each face; the least drive that clears faces
-    graphs      a graph of that
+    picture     figure 2, and a graph of that
 
 Kernels are compiled by numba, the optional extra `part`; importing this package loads what it needs
 only when a name is first used.

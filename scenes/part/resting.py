@@ -8,19 +8,21 @@ every part has a face on which it rests, also where the vibration never lets it 
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from importlib import import_module
 from math import pi, sqrt
 from statistics import NormalDist
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.columns import Column
 from juggleproof.scenes.part.ensemble import run
 from juggleproof.scenes.part.layout import vibration
 from juggleproof.scenes.part.onsets import MOST_POINTS
@@ -34,6 +36,41 @@ MOST_PARTS = 1_000_000
 JITTER = 1e-6  # degrees, either way, of starts that are drawn from a list
 SETTLING = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0)  # seconds on the still table, until all lie
 MOVING = -1  # instead of a face, for a part that does not lie by then
+
+# -------------------------------------------------------------------------------------------------
+# Results as named columns, and as pictures.
+
+
+class Column(NamedTuple):
+    """One column: its name, its unit, "" where it has none, and its values, one a row."""
+
+    name: str
+    unit: str
+    values: NDArray[Any]
+
+    def head(self) -> str:
+        """Name and unit, as the head of a column of text.
+
+        >>> Column("t", "s", np.zeros(1)).head(), Column("part", "", np.zeros(1)).head()
+        ('t [s]', 'part')
+        """
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+def write_csv(columns: Sequence[Column], file: BinaryIO) -> None:
+    """Writes a line a row, with floats to the last bit."""
+    text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
+    lines = csv.writer(text, lineterminator="\n")
+    lines.writerow([one.head() for one in columns])
+    lines.writerows(zip(*(one.values.tolist() for one in columns)))
+    text.detach()
+
+
+def _shares(*given: object) -> bytes:
+    """Return the picture of shares that `picture` draws, which loads matplotlib."""
+    drawn: bytes = import_module("juggleproof.scenes.part.picture").shares(*given)
+    return drawn
+
 
 # -------------------------------------------------------------------------------------------------
 # The face at the end, starts, and intervals.
@@ -217,12 +254,6 @@ def orientation(
     faces = resting_faces(setting, states, executor)
     counts = [int((faces == face).sum()) for face in range(len(setting.polygon().corners))]
     return Orientation(setting, starts, shaken, tuple(counts), int((faces == MOVING).sum()))
-
-
-def _shares(*given: object) -> bytes:
-    """Return the picture that `graphs.shares` draws, which loads matplotlib."""
-    drawn: bytes = import_module("juggleproof.scenes.part.graphs").shares(*given)
-    return drawn
 
 
 # -------------------------------------------------------------------------------------------------
