@@ -2,21 +2,17 @@
 it but `juggleproof bench`.
 
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
-    peers      every stored statement by our search, by our check and by every peer
     processes  programs in processes of their own, ended in time
     figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts
     classes    random SMT-LIB problems by classes: Z3, cvc5 and ours
     bounds     minima of the literature, enclosed and checked
-    orbits     the juggler's four arithmetics
-    part       the part on the vibrating table
-    engines    the same by pymunk and by MuJoCo: error against the impact law, and cost
     stability  the maps in examples: what is proved, and by a semidefinite program
     sine       the table that moves as a sine: growth with width, distance to the edges, processes
     feeder     drives and amplitudes that the certificates of that table hold for
     wedge      the share of the area between its curves that they cover
     words      words of flights that no ball follows, for `settles`
-    speed      whole commands: seconds and memory
+    commands   whole commands: seconds and memory
 
 Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.
 """

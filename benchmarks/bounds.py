@@ -14,21 +14,19 @@ from __future__ import annotations
 
 import argparse
 import statistics
-import subprocess
 import sys
 from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
+from juggleproof.benchmarks.commands import measure
 from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates import checker
 from juggleproof.command.bound import box, number
 from juggleproof.judging.bounds import Enclosure, enclose_minimum
 
-ROOT = Path(__file__).resolve().parents[1]
 HEART = (
     (
         "-x1*x6^3 + 3*x1*x6*x7^2 - x3*x7^3 + 3*x3*x7*x6^2 - x2*x5^3 + 3*x2*x5*x8^2 - x4*x8^3 +"
@@ -116,24 +114,8 @@ def seconds_of_checking(enclosure: Enclosure) -> float:
 
 def cold(polynomial: str, side: str, width: str) -> float:
     """CPU seconds of the whole command in a process of its own."""
-    began = cpu_seconds()
-    subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "juggleproof.command.main",
-            "bound",
-            polynomial,
-            "--box",
-            side,
-            "--width",
-            width,
-        ],
-        cwd=ROOT,
-        stdout=subprocess.DEVNULL,
-        check=False,
-    )
-    return cpu_seconds() - began
+    command = ("bound", polynomial, "--box", side, "--width", width)
+    return measure([sys.executable, "-m", "juggleproof.command.main", *command])[0]
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:

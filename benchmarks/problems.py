@@ -14,15 +14,15 @@ from __future__ import annotations
 import argparse
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
 from rich.console import Console
 
+from juggleproof.benchmarks.classes.classes import Made
+from juggleproof.benchmarks.classes.measuring import OUTCOMES, cvc5, z3
 from juggleproof.benchmarks.generated import DOCS, Generated
-from juggleproof.benchmarks.peers.routes import Check, cvc5, z3
 from juggleproof.benchmarks.processes import each
 from juggleproof.reports.problems import draw, summary
 from juggleproof.smtlib.answering import Answered, answer_files
@@ -71,13 +71,10 @@ SOLVERS = {"z3": z3, "cvc5": cvc5}
 def votes(peer: str, problems: Sequence[Problem], seconds: float) -> list[str]:
     """The answers of Z3 or cvc5 to scripts of each problem alone: sat, unsat or unknown."""
 
-    def start() -> Callable[[Problem], Callable[[], tuple[str, str]]]:
-        ask = SOLVERS[peer]()
-        return lambda problem: partial(
-            ask, Check("QF_NRA", "".join(f"{one}\n" for one in problem.commands), True)
-        )
-
-    return [one.answer[0] if one.answer else "unknown" for one in each(start, problems, seconds)]
+    asked = [Made("", one.name, one.status or "", one.script) for one in problems]
+    done = each(SOLVERS[peer], asked, seconds)
+    words = [one.answer.word if one.answer else "unknown" for one in done]
+    return [word if word in OUTCOMES else "unknown" for word in words]
 
 
 def peers() -> list[str]:

@@ -8,6 +8,7 @@ seconds.  In reading order:
     numerics   methods in interval arithmetic
     floats     methods in floating point
     solvers    methods that ask Z3, cvc5, QEPCAD B or Coq
+    qepcad     how QEPCAD B is asked
     methods    our method, and the table of all methods
     child      one method on one piece of work, in a process of its own
     table      what was measured, as text and as a plot

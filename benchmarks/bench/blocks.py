@@ -11,9 +11,9 @@ from fractions import Fraction
 import numpy as np
 
 from juggleproof.benchmarks.bench.answers import Drops, Strayed
-from juggleproof.benchmarks.part import THIRD_ROW
-from juggleproof.scenes.part import body, run
+from juggleproof.scenes.part import body, run, scene
 
+THIRD_ROW = scene(e=0.7, mu=0.08, f_x=30.0, A_x=1e-3)  # of table I: 30 Hz, 1 mm
 UNTIL = 0.2  # seconds
 KNOWN = (
     # Y, theta and omega of a start at rest otherwise, 1 mm above the table; X and theta at UNTIL,

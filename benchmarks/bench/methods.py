@@ -9,12 +9,12 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
@@ -105,19 +105,25 @@ and mpmath.iv are our own, measured beside."""
 Result = Answer | Strayed | Callable[[], Strayed]  # a distance that is computed untimed
 
 
+class Needs(NamedTuple):
+    """What a method needs: what to install where it is absent, and whether it is there."""
+
+    package: str = ""
+    present: Callable[[], bool] = lambda: True
+
+
 @dataclass(frozen=True)
 class Method:
     """A way to answer: `solve` gives the answer to a piece of work at a width (or for so much
-    work), `package` is what to install where it is absent, `peer` whether it is a certified peer of
-    the aim; `prepare` makes what is kept from run to run, before anything is measured.
+    work), `peer` says whether it is a certified peer of the aim; `prepare` makes what is kept from
+    run to run, before anything is measured.
     """
 
     name: str
     title: str
     worth: Worth
     solve: Callable[..., Result]
-    package: str = ""
-    present: Callable[[], bool] = lambda: True
+    needs: Needs = Needs()
     peer: bool = False
     prepare: Callable[[], object] = lambda: None
 
@@ -136,152 +142,83 @@ def later(place: str) -> Callable[[Work, Fraction], Result]:
     return solve
 
 
-def has(module: str) -> Callable[[], bool]:
-    """Whether a Python module is there, without loading it."""
-    return lambda: find_spec(module) is not None
+def library(name: str, module: str) -> Needs:
+    """A library of PyPI and the name under which it is imported; its presence is seen without
+    loading it.
+    """
+    shown = f"pip install {name}"
+    return Needs(f"{NAMES.get(name, name)} ({shown})", lambda: find_spec(module) is not None)
 
 
-def _qepcad() -> bool:
-    return shutil.which("qepcad") is not None
-
-
-Z3, CVC5, QEPCAD = (
-    "Z3 (pip install z3-solver)",
-    "cvc5 (pip install cvc5)",
-    "QEPCAD B (Debian package qepcad)",
+NAMES = {"z3-solver": "Z3"}
+FLINT, MPMATH, NUMBA = (
+    library(*pair) for pair in (("python-flint", "flint"), ("mpmath", "mpmath"), ("numba", "numba"))
 )
-COQ, SCIPY = "coq-interval (Debian packages coq and libcoq-interval)", "scipy (pip install scipy)"
-METHODS = {
-    one.name: one
-    for one in (
-        Method("bernstein", "exact Bernstein, ours", "certificate", bernstein),
-        Method(
-            "arb",
-            "Arb boxes",
-            "rigorous",
-            numerics.arb_boxes,
-            "python-flint (pip install python-flint)",
-            has("flint"),
-        ),
-        Method(
-            "mpmath",
-            "mpmath.iv boxes",
-            "rigorous",
-            numerics.mpmath_boxes,
-            "mpmath (pip install mpmath)",
-            has("mpmath"),
-        ),
-        Method(
-            "coq",
-            "coq-interval, one question",
-            "rigorous",
-            partial(solvers.asked_once, solvers.by_coq_interval),
-            COQ,
-            solvers.has_coq_interval,
-            peer=True,
-        ),
-        Method(
-            "z3",
-            "Z3, bisection",
-            "unchecked",
-            partial(solvers.bisected, solvers.by_z3),
-            Z3,
-            has("z3"),
-        ),
-        Method(
-            "z3-once",
-            "Z3, one question",
-            "unchecked",
-            partial(solvers.asked_once, solvers.by_z3),
-            Z3,
-            has("z3"),
-        ),
-        Method(
-            "cvc5",
-            "cvc5, bisection",
-            "unchecked",
-            partial(solvers.bisected, solvers.by_cvc5),
-            CVC5,
-            has("cvc5"),
-        ),
-        Method(
-            "cvc5-once",
-            "cvc5, one question",
-            "unchecked",
-            partial(solvers.asked_once, solvers.by_cvc5),
-            CVC5,
-            has("cvc5"),
-        ),
-        Method(
-            "cvc5-proof",
-            "cvc5, one question with its proof",
-            "unchecked",
-            partial(solvers.asked_once, solvers.by_cvc5_with_proof),
-            CVC5,
-            has("cvc5"),
-            peer=True,
-        ),
-        Method(
-            "qepcad",
-            "QEPCAD B, bisection",
-            "unchecked",
-            partial(solvers.bisected, solvers.by_qepcad),
-            QEPCAD,
-            _qepcad,
-            peer=True,
-        ),
-        Method(
-            "qepcad-once",
-            "QEPCAD B, one question",
-            "unchecked",
-            partial(solvers.asked_once, solvers.by_qepcad),
-            QEPCAD,
-            _qepcad,
-            peer=True,
-        ),
-        Method("sampling", "float sampling", "no proof", later("floats:sampling")),
-        Method(
-            "scipy",
-            "scipy.optimize",
-            "no proof",
-            later("floats:scipy_optimize"),
-            SCIPY,
-            has("scipy"),
-        ),
+Z3, CVC5, SCIPY = (
+    library(*pair) for pair in (("z3-solver", "z3"), ("cvc5", "cvc5"), ("scipy", "scipy"))
+)
+QEPCAD = Needs("QEPCAD B (Debian package qepcad)", lambda: shutil.which("qepcad") is not None)
+COQ = Needs("coq-interval (Debian packages coq and libcoq-interval)", solvers.has_coq_interval)
+
+
+def bisected(
+    name: str, title: str, ask: solvers.Exceeds, needs: Needs, peer: bool = False
+) -> Method:
+    """A solver that is asked by bisection."""
+    return Method(
+        name, f"{title}, bisection", "unchecked", partial(solvers.bisected, ask), needs, peer
     )
-}
-ORBITS = {
-    one.name: one
-    for one in (
-        Method("exact", "exact rationals", "rigorous", later("orbits:exact")),
-        Method(
-            "enclosed",
-            "Arb balls",
-            "rigorous",
-            later("orbits:enclosed"),
-            "python-flint (pip install python-flint)",
-            has("flint"),
-        ),
-        Method("fast", "float64 with a proved bound", "rigorous", later("orbits:fast")),
-        Method("mp", "mpmath, 50 digits", "no proof", later("orbits:mp")),
-        Method("floats", "float64 alone", "no proof", later("orbits:floats")),
+
+
+def once(name: str, title: str, ask: solvers.Exceeds, needs: Needs, peer: bool = False) -> Method:
+    """A solver that is asked one question."""
+    return Method(
+        name, f"{title}, one question", "unchecked", partial(solvers.asked_once, ask), needs, peer
     )
-}
-ENSEMBLE = {
-    "ensemble": Method(
-        "ensemble", "float64 with proved bounds", "rigorous", later("orbits:ensemble")
-    )
-}
-BLOCKS = {
-    "blocks": Method(
+
+
+def by_name(*methods: Method) -> dict[str, Method]:
+    """The methods by their names."""
+    return {one.name: one for one in methods}
+
+
+METHODS = by_name(
+    Method("bernstein", "exact Bernstein, ours", "certificate", bernstein),
+    Method("arb", "Arb boxes", "rigorous", numerics.arb_boxes, FLINT),
+    Method("mpmath", "mpmath.iv boxes", "rigorous", numerics.mpmath_boxes, MPMATH),
+    replace(once("coq", "coq-interval", solvers.by_coq_interval, COQ, True), worth="rigorous"),
+    bisected("z3", "Z3", solvers.by_z3, Z3),
+    once("z3-once", "Z3", solvers.by_z3, Z3),
+    bisected("cvc5", "cvc5", solvers.by_cvc5, CVC5),
+    once("cvc5-once", "cvc5", solvers.by_cvc5, CVC5),
+    replace(
+        once("cvc5-proof", "cvc5", solvers.by_cvc5_with_proof, CVC5, True),
+        title="cvc5, one question with its proof",
+    ),
+    bisected("qepcad", "QEPCAD B", solvers.by_qepcad, QEPCAD, True),
+    once("qepcad-once", "QEPCAD B", solvers.by_qepcad, QEPCAD, True),
+    Method("sampling", "float sampling", "no proof", later("floats:sampling")),
+    Method("scipy", "scipy.optimize", "no proof", later("floats:scipy_optimize"), SCIPY),
+)
+ORBITS = by_name(
+    Method("exact", "exact rationals", "rigorous", later("orbits:exact")),
+    Method("enclosed", "Arb balls", "rigorous", later("orbits:enclosed"), FLINT),
+    Method("fast", "float64 with a proved bound", "rigorous", later("orbits:fast")),
+    Method("mp", "mpmath, 50 digits", "no proof", later("orbits:mp")),
+    Method("floats", "float64 alone", "no proof", later("orbits:floats")),
+)
+ENSEMBLE = by_name(
+    Method("ensemble", "float64 with proved bounds", "rigorous", later("orbits:ensemble"))
+)
+BLOCKS = by_name(
+    Method(
         "blocks",
         "flights in closed form",
         "no proof",
         later("blocks:followed"),
-        "numba (pip install numba)",
-        has("numba"),
+        NUMBA,
         prepare=partial(later("blocks:followed"), Drops(copies=1), Fraction(1, 10**6)),
     )
-}
+)
 QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
 GROWTH = ("bernstein", "arb", "mpmath", "z3-once")  # measured as the number of variables grows

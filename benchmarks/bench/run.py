@@ -10,13 +10,14 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import NamedTuple
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Drops, Ensemble, Measured, Start, Work
+from juggleproof.benchmarks.bench.answers import Drops, Ensemble, Measured, Work
 from juggleproof.benchmarks.bench.methods import (
     BLOCKS,
     ENSEMBLE,
@@ -87,14 +88,27 @@ def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measu
     return measured
 
 
+Works = Callable[[Fraction], tuple[Work, Fraction, Fraction]]  # work, its own size, the truth
+
+
+def same(work: Work) -> Works:
+    """One work at each size, and answers as they are."""
+    return lambda size: (work, size, Fraction(0))
+
+
 def measure_all(
-    methods: Sequence[Method], work: Work, sizes: Sequence[Fraction], seconds: float, report: Report
+    methods: Sequence[Method],
+    works: Works,
+    sizes: Sequence[Fraction],
+    seconds: float,
+    report: Report,
 ) -> Iterator[Measured]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
         for size in sizes:
             report(f"{method.title}, {size}")
-            measured = measure(method, work, size, seconds)
+            work, own, truth = works(size)
+            measured = table.resized(measure(method, work, own, seconds), size, truth)
             yield measured
             if measured.answer is None:
                 break
@@ -104,17 +118,83 @@ def measure_all(
 # The whole benchmark.
 
 WIDTHS = tuple(Fraction(1, 10**k) for k in range(1, 13))
-STEPS = tuple(Fraction(10**k) for k in range(7))
-STATES = tuple(Fraction(10**k) for k in range(2, 7))
-BALLS = tuple(Fraction(k) for k in range(1, 6))
-TOLERANCES = tuple(Fraction(1, 10**k) for k in range(6, 13))  # metres
 QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6)), 2, 2.0
 SECONDS = 10.0
 ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
-NAMES = (*ENERGY, *STARTS, "variables", "states", "part")
 _WIDTH = re.compile(
     r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE
 )
+
+
+class Cost(NamedTuple):
+    """A question of cost as work grows: its methods, and those of a quick run, by the sizes of the
+    work; what is printed above it, and against what seconds are compared.  `works` gives for a size
+    the work, its own size, and the truth.
+    """
+
+    title: str
+    said: str
+    methods: Mapping[str, Method]
+    quick: Sequence[str]
+    sizes: tuple[Fraction, ...]
+    works: Works
+    against: str
+    inverse: bool = False
+
+
+def summed(size: Fraction) -> tuple[Work, Fraction, Fraction]:
+    """The energy that so many balls gain, to one width, and its closed form."""
+    problem, truth = balls(int(size))
+    return problem, VARIABLE_WIDTH, truth
+
+
+COSTS = {
+    **{
+        name: Cost(
+            start.title,
+            f"{start.title}: the state after so many periods; error: what is proved of it, or else"
+            " the distance to the exact orbit",
+            ORBITS,
+            tuple(ORBITS),
+            tuple(Fraction(10**k) for k in range(7)),
+            same(start),
+            "periods",
+        )
+        for name, start in STARTS.items()
+    },
+    "variables": Cost(
+        "variables",
+        "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a width"
+        f" of {table.power(VARIABLE_WIDTH)}",
+        {name: METHODS[name] for name in GROWTH},
+        GROWTH,
+        tuple(Fraction(k) for k in range(1, 6)),
+        summed,
+        "variables",
+    ),
+    "states": Cost(
+        "states",
+        f"so many random states, each followed for {STATE_STEPS} periods; error: the largest bound"
+        " of a state that is decided",
+        ENSEMBLE,
+        tuple(ENSEMBLE),
+        tuple(Fraction(10**k) for k in range(2, 7)),
+        same(Ensemble()),
+        "states",
+    ),
+    "part": Cost(
+        "the part on the vibrating table",
+        f"the part on the vibrating table: {Drops().copies} times 10 blocks that fall on it, for"
+        " 0.2 s, by tolerance in metres; error: the median distance to ends known to 35 digits",
+        BLOCKS,
+        tuple(BLOCKS),
+        tuple(Fraction(1, 10**k) for k in range(6, 13)),  # metres
+        same(Drops()),
+        "1/tolerance",
+        True,
+    ),
+}
+NAMES = (*ENERGY, *COSTS)
 
 
 @dataclass(frozen=True)
@@ -189,10 +269,8 @@ class Run:
             print(f"\n== {name}")
             if name in ENERGY:
                 self.energy(name)
-            elif name in STARTS:
-                self.orbit(STARTS[name])
             else:
-                {"variables": self.variables, "states": self.states, "part": self.part}[name]()
+                self.cost(name, COSTS[name])
         if sum(name in ENERGY for name in self.wanted.names) > 1:
             print(
                 "\n== the aim, over all questions and widths of this run\n"
@@ -215,7 +293,7 @@ class Run:
             f" {float(truth):.15g}\n"
         )
         truth *= problem.sign
-        results = self.measure(present, problem, self.wanted.widths)
+        results = self.measure(present, same(problem), self.wanted.widths)
         self.show(name, question.title, present, self.wanted.widths, results, truth)
         print("\n" + table.ratios(present, self.wanted.widths, results, self.wanted.seconds))
         judged = table.judged(name, present, self.wanted.widths, results, self.wanted.seconds)
@@ -225,68 +303,20 @@ class Run:
             print("no certified peer was measured")
         print("\n" + table.slopes(present, results, "1/width", True))
 
-    def orbit(self, start: Start) -> None:
-        """One orbit, by number of periods."""
-        present, sizes = self.present(ORBITS, tuple(ORBITS)), self.some(STEPS)
-        print(
-            f"{start.title}: the state after so many periods; error: what is proved of it, or else"
-            " the distance to the exact orbit\n"
-        )
-        results = self.measure(present, start, sizes)
-        self.show(start.name, start.title, present, sizes, results, Fraction(0))
-        print("\n" + table.slopes(present, results, "periods", False))
+    def cost(self, name: str, asked: Cost) -> None:
+        """A question of cost, by the size of the work."""
+        present = self.present(asked.methods, asked.quick)
+        sizes = asked.sizes[:QUICK_SIZES] if self.wanted.quick else asked.sizes
+        print(f"{asked.said}\n")
+        results = self.measure(present, asked.works, sizes)
+        self.show(name, asked.title, present, sizes, results, Fraction(0))
+        print("\n" + table.slopes(present, results, asked.against, asked.inverse))
 
-    def variables(self) -> None:
-        """The sum of the energy that balls gain, by their number."""
-        present, sizes = (
-            self.present({name: METHODS[name] for name in GROWTH}, GROWTH),
-            self.some(BALLS),
-        )
-        problems = {size: balls(int(size)) for size in sizes}
-        print(
-            "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a"
-            f" width of {table.power(VARIABLE_WIDTH)}\n"
-        )
-        measurements = []
-        for size, (problem, truth) in problems.items():
-            for one in self.measure(present, problem, [VARIABLE_WIDTH]).values():
-                measurements += [table.resized(each, size, truth) for each in one.values()]
-        results = table.by_method(measurements)
-        self.show("variables", "variables", present, sizes, results, Fraction(0))
-        print("\n" + table.slopes(present, results, "variables", False))
-
-    def states(self) -> None:
-        """Random states, by their number."""
-        present, sizes = self.present(ENSEMBLE, tuple(ENSEMBLE)), self.some(STATES)
-        print(
-            f"so many random states, each followed for {STATE_STEPS} periods; error: the"
-            " largest bound of a state that is decided\n"
-        )
-        results = self.measure(present, Ensemble(), sizes)
-        self.show("states", "states", present, sizes, results, Fraction(0))
-        print("\n" + table.slopes(present, results, "states", False))
-
-    def part(self) -> None:
-        """Blocks on the vibrating table, by the tolerance of their flights."""
-        present, sizes = self.present(BLOCKS, tuple(BLOCKS)), self.some(TOLERANCES)
-        title = "the part on the vibrating table"
-        print(
-            f"{title}: {Drops().copies} times 10 blocks that fall on it, for 0.2 s, by tolerance in"
-            " metres; error: the median distance to ends known to 35 digits\n"
-        )
-        results = self.measure(present, Drops(), sizes)
-        self.show("part", title, present, sizes, results, Fraction(0))
-        print("\n" + table.slopes(present, results, "1/tolerance", True))
-
-    def some(self, sizes: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
-        """The sizes that are asked for."""
-        return sizes[:QUICK_SIZES] if self.wanted.quick else sizes
-
-    def present(self, methods: dict[str, Method], quick: Sequence[str]) -> list[Method]:
+    def present(self, methods: Mapping[str, Method], quick: Sequence[str]) -> list[Method]:
         """The methods that are there, of a quick run's only some; prints which are absent."""
-        absent = [method for method in methods.values() if not method.present()]
+        absent = [method for method in methods.values() if not method.needs.present()]
         if absent:
-            print("absent: " + ", ".join(dict.fromkeys(method.package for method in absent)))
+            print("absent: " + ", ".join(dict.fromkeys(method.needs.package for method in absent)))
         return [
             method
             for name, method in methods.items()
@@ -294,12 +324,11 @@ class Run:
         ]
 
     def measure(
-        self, present: Sequence[Method], work: Work, sizes: Sequence[Fraction]
+        self, present: Sequence[Method], works: Works, sizes: Sequence[Fraction]
     ) -> table.Results:
         """All methods at all sizes."""
-        return table.by_method(
-            list(measure_all(present, work, sizes, self.wanted.seconds, self.report))
-        )
+        found = measure_all(present, works, sizes, self.wanted.seconds, self.report)
+        return table.by_method(list(found))
 
     def show(
         self,

@@ -16,6 +16,5 @@ simulate_options  what `simulate` takes
 simulate          `simulate`: one scene
 juggler           `simulate juggler`, a folder
 simulate_part     `simulate part`
-simulate_feeder   `simulate part` for designers of feeders
 simulate_table    `simulate table`
 """

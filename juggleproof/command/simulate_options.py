@@ -191,14 +191,8 @@ def add_part(scenes: Commands) -> None:
         metavar="G",
         help=(
             "table I over a grid: e=FROM:TO:COUNT,mu=FROM:TO:COUNT, or over all that it leaves"
-            " open: readings; or the onset at one vibration over any other two of e, mu, frequency"
-            " (Hz), amplitude (mm), phase (degrees), frequency-up, amplitude-up"
+            " open: readings"
         ),
-    )
-    wish.add_argument(
-        "--trajectory",
-        action="store_true",
-        help="follow the parts of --state or --parts; -o F.svg draws their angles against time",
     )
     wish.add_argument(
         "--orientation",
@@ -209,8 +203,9 @@ def add_part(scenes: Commands) -> None:
         "--clear",
         metavar="FACES",
         help=(
-            "faces such as 0,2: with --sweep amplitude=FROM:TO:COUNT, or another parameter, the"
-            " least value from which on no part is left on them (default: 200 --parts)"
+            "faces such as 0,2: with --sweep amplitude=FROM:TO:COUNT (mm), or e, mu, frequency"
+            " (Hz), phase (degrees), frequency-up or amplitude-up, the least value from which on no"
+            " part is left on them (default: 200 --parts)"
         ),
     )
     wish.add_argument(
@@ -221,29 +216,12 @@ def add_part(scenes: Commands) -> None:
     wish.add_argument(
         "--figure", type=Path, metavar="F", help="F.svg: figure 2, the blocks at 0, 0.8 and 3 s"
     )
-    wish.add_argument(
-        "--animation", type=Path, metavar="F", help="F.html: the same in motion, one file"
-    )
-    start = part.add_argument_group("which parts, for --trajectory, --orientation and --clear")
-    start.add_argument(
-        "--state",
-        action="append",
-        metavar="S",
-        help=(
-            "theta=30, and x, y (mm), vx, vy (m/s), omega (degrees a second) where it does not"
-            " stand on the table; may be given several times, for --trajectory"
-        ),
-    )
+    start = part.add_argument_group("which parts, for --orientation and --clear")
     start.add_argument("--parts", type=whole, metavar="N", help="so many parts, drawn by --seed")
     start.add_argument(
         "--angles",
         metavar="A",
         help="from which starting angles: FROM:TO degrees, or a list (default: 0:360)",
-    )
-    start.add_argument(
-        "--times",
-        metavar="T",
-        help="FROM:TO:COUNT seconds, of --trajectory (default: 2001 over the horizon)",
     )
     how = part.add_argument_group("what the paper leaves open")
     how.add_argument(
@@ -293,12 +271,6 @@ def add_part(scenes: Commands) -> None:
         ),
     )
     other.add_argument(
-        "--tilt",
-        default="0",
-        metavar="D",
-        help="degrees by which the table's right is up (default: 0)",
-    )
-    other.add_argument(
         "--along",
         metavar="H",
         help=(
@@ -308,15 +280,6 @@ def add_part(scenes: Commands) -> None:
     )
     other.add_argument(
         "--away", metavar="H", help="the same away from itself (default: 60:0.2, given)"
-    )
-    other.add_argument(
-        "--drive",
-        type=Path,
-        metavar="F.csv",
-        help=(
-            "a record of how it moves: time in seconds, along and away in millimetres; between"
-            " rows a cubic spline"
-        ),
     )
     run = part.add_argument_group("how it is computed")
     run.add_argument(
@@ -367,7 +330,7 @@ def add_part(scenes: Commands) -> None:
         type=Path,
         metavar="F",
         help=(
-            "F.csv or F.npz: table I; F.json: its sweep; F.csv, F.npz, F.parquet or the picture"
-            " F.svg: all others"
+            "F.csv or F.npz: table I; F.json: its sweep; F.csv or the picture F.svg: --orientation"
+            " and --clear"
         ),
     )

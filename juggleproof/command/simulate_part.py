@@ -1,4 +1,6 @@
-"""`juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation."""
+"""`juggleproof simulate part`: table I, a sweep, the still table, figure 2; the faces on which
+parts rest, and the least drive that clears faces.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,21 @@ from itertools import product
 from pathlib import Path
 from typing import BinaryIO
 
-from juggleproof.command import simulate_feeder as feeder
+from rich.console import Console
+
 from juggleproof.command.outputs import clear, fault_of, progress, written_aside
-from juggleproof.command.simulate_scene import number, others, reading_of, setting_of
+from juggleproof.command.simulate_scene import (
+    SceneOptions,
+    number,
+    others,
+    reading_of,
+    setting_of,
+)
 from juggleproof.judging.extras import needed
 from juggleproof.reports import part as part_tables
 from juggleproof.reports.part import keep_results
-from juggleproof.scenes.part.animation import HORIZON, animation
+from juggleproof.reports.tables import draw, whole
 from juggleproof.scenes.part.ensemble import in_words, no_vibration
-from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
     PAPER,
     Interrupted,
@@ -41,27 +49,51 @@ from juggleproof.scenes.part.readings import (
     stage,
     sweep,
 )
+from juggleproof.scenes.part.resting import (
+    ANY_ANGLE,
+    Clearing,
+    Orientation,
+    Starts,
+    between,
+    clearing,
+    listed,
+    orientation,
+    write_csv,
+)
 from juggleproof.statements.language import ClaimError
 
-WISHES = ("clear", "trajectory", "orientation", "sweep", "still", "figure", "animation")
+WISHES = ("clear", "orientation", "sweep", "still", "figure")
 PAPERS = ("table", "sweep", "still")  # of the paper's block and table
+FEEDERS = ("orientation", "clear")  # of parts that start at any angles
 READINGS = "readings"  # a sweep over all that table I leaves open
+PICTURE = ".svg"
 SUFFIXES = {
-    "figure": (".svg", ".pdf"),
-    "animation": (".html",),
+    "figure": (PICTURE, ".pdf"),
     "sweep": (".json",),
     "table": (".csv", ".npz"),
+    "orientation": (".csv", PICTURE),
+    "clear": (".csv", PICTURE),
 }
+MOST_VALUES = 1000  # of a parameter
 
 
-class PartOptions(feeder.FeederOptions):
+class PartOptions(SceneOptions):
     """What `juggleproof simulate part` takes."""
 
+    sweep: str | None
+    orientation: bool
+    clear: str | None
     still: bool
     figure: Path | None
-    animation: Path | None
+    parts: int | None
+    angles: str | None
+    ensembles: int
+    horizon: str
+    seed: int
+    check: bool
     jobs: int | None
     keep: Path | None
+    output: Path | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -79,30 +111,29 @@ def part(options: PartOptions) -> int:
         wishes.remove("sweep")  # of the drive
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
-    if options.keep is not None and wishes[0] != "table":
+    _refuse_left_out(options, wishes[0])
+    _refuse_unwritable(options, wishes[0])
+    with _threads(options.jobs) as executor:
+        return DONE_BY[wishes[0]](options, executor)
+
+
+def _refuse_left_out(options: PartOptions, wish: str) -> None:
+    """Raises ClaimError for an option that the wish would leave out in silence."""
+    if options.keep is not None and wish != "table":
         raise ClaimError(f"--keep {options.keep} goes with table I")
-    wish = "map" if wishes == ["sweep"] and not _of_table_one(options) else wishes[0]
+    if options.check and wish in FEEDERS:
+        raise ClaimError("--check goes with table I")
     if wish in PAPERS and others(options):
         raise ClaimError(
-            f"--{others(options)[0]} goes with --figure, --animation, --trajectory, --orientation,"
-            " --clear or a sweep of others than e and mu; table I, its sweeps and --still are of"
-            " the paper's block and table"
+            f"--{others(options)[0]} goes with --figure, --orientation or --clear; table I, its"
+            " sweeps and --still are of the paper's block and table"
         )
-    feeder.refuse_left_out(options, wish)
-    if wish in feeder.DONE_BY:
-        feeder.refuse_unwritable(options.output)
-    else:
-        _refuse_unwritable(options, wish)
-    with _threads(options.jobs) as executor:
-        return (DONE_BY | feeder.DONE_BY)[wish](options, executor)
-
-
-def _of_table_one(options: PartOptions) -> bool:
-    """Whether a sweep is of table I: over e and mu, which all of its rows have in common, or over
-    all that it leaves open.
-    """
-    grid = options.sweep
-    return grid is not None and (grid == READINGS or set(feeder.axes(grid)) == {"e", "mu"})
+    for name in ("parts", "angles"):
+        if getattr(options, name) is not None and wish not in FEEDERS:
+            raise ClaimError(f"--{name} goes with --orientation or --clear")
+    for name in ("e", "mu"):
+        if getattr(options, name) is not None and name in axes(options.sweep or ""):
+            raise ClaimError(f"--sweep takes {name} itself, not by --{name}")
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
@@ -114,22 +145,66 @@ def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
 
 
 def _refuse_unwritable(options: PartOptions, wish: str) -> None:
+    """Raises ClaimError for a file that could not be written after the run."""
     path = options.output
-    if wish in ("figure", "animation"):
+    if wish == "figure":
         if path is not None:
             raise ClaimError(
-                f"--output {path} goes with table I or a sweep; --{wish} names its own file"
+                f"--output {path} goes with table I or a sweep; --figure names its own file"
             )
-        path = getattr(options, wish)
+        path = options.figure
     if path is None:
         return
     if wish == "still":
         raise ClaimError(f"--output {path} goes with table I or a sweep")
     if path.suffix not in SUFFIXES[wish]:
         raise ClaimError(f"{path}: the name is to end in {' or '.join(SUFFIXES[wish])}")
+    if path.suffix == PICTURE:
+        needed("matplotlib", "picture")
     fault = fault_of(path)
     if fault:
         raise ClaimError(f"{path}: {fault}; name another file")
+
+
+# -------------------------------------------------------------------------------------------------
+# Numbers and grids, as they are written.
+
+
+def axis(text: str, name: str) -> list[float]:
+    """The numbers of FROM:TO:COUNT, rounded to ten digits."""
+    pieces = text.split(":")
+    if len(pieces) != 3:
+        raise ClaimError(f"{name}: {text[:40]!r} is not FROM:TO:COUNT")
+    low, high, count = (
+        number(pieces[0], name),
+        number(pieces[1], name),
+        number(pieces[2], f"the count of {name}"),
+    )
+    if not 1 <= count <= MOST_VALUES or count != int(count):
+        raise ClaimError(
+            f"{name}: a count of {pieces[2][:20]} is not a whole number from 1 to {MOST_VALUES}"
+        )
+    return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
+
+
+def axes(text: str) -> dict[str, str]:
+    """The names of --sweep with the text of each, in the order given."""
+    found: dict[str, str] = {}
+    for piece in text.split(","):
+        name, _, rest = (part.strip() for part in piece.partition("="))
+        if name in found:
+            raise ClaimError(f"--sweep: {name[:20]} is given twice; give each parameter once")
+        found[name] = rest
+    return found
+
+
+def grid_of(text: str) -> dict[str, list[float]]:
+    """The values of each parameter of --sweep."""
+    return {name: axis(rest, f"--sweep {name[:20]}") for name, rest in axes(text).items()}
+
+
+# -------------------------------------------------------------------------------------------------
+# Table I, its sweeps, the still table and figure 2.
 
 
 def _table(options: PartOptions, executor: Executor | None) -> int:
@@ -172,8 +247,6 @@ def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
 
 
 def _sweep(options: PartOptions, executor: Executor | None) -> int:
-    if options.e is not None or options.mu is not None:
-        raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
     whole = options.sweep == READINGS
     stages: list[Stage] = []
     tasks, interrupted = screened() if whole else _grid(options), False
@@ -205,7 +278,12 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
 
 def _grid(options: PartOptions) -> list[Task]:
     """The points of a grid of restitution and friction, all else as the options say."""
-    grid = feeder.grid_of(options.sweep or "")
+    grid = grid_of(options.sweep or "")
+    if set(grid) != {"e", "mu"}:
+        raise ClaimError(
+            f"--sweep {', '.join(grid)[:40]}: choose e and mu, or readings; one parameter goes with"
+            " --clear"
+        )
     plain, horizon = reading_of(options), number(options.horizon, "horizon")
     readings = [replace(plain, e=e, mu=mu) for e, mu in product(grid["e"], grid["mu"])]
     return [
@@ -220,18 +298,103 @@ def _still(options: PartOptions, executor: Executor | None) -> int:
 
 
 def _drawn(options: PartOptions, executor: Executor | None) -> int:
-    setting = setting_of(options, reading_of(options))
-    if options.figure is not None:
-        needed("matplotlib")
-        from juggleproof.scenes.part.picture import figure_two
+    from juggleproof.scenes.part.picture import figure_two
 
-        with written_aside(options.figure) as file:
-            figure_two(setting, file, options.figure.suffix[1:])
-    if options.animation is not None:
-        with written_aside(options.animation) as file:
-            animation(setting, ANGLES, HORIZON, file, executor)
-    print(f"{options.figure or options.animation}: written")
+    setting, path = setting_of(options, reading_of(options)), options.figure or Path()
+    with written_aside(path) as file:
+        figure_two(setting, file, path.suffix[1:])
+    print(f"{path}: written")
     return 0
+
+
+# -------------------------------------------------------------------------------------------------
+# The faces on which parts rest, and the least drive that clears faces.
+
+
+def _orientation(options: PartOptions, executor: Executor | None) -> int:
+    found = orientation(
+        setting_of(options, reading_of(options)),
+        _starts(options),
+        parts=1000 if options.parts is None else options.parts,
+        shaken=number(options.horizon, "horizon"),
+        seed=options.seed,
+        executor=executor,
+        report=progress(),
+    )
+    clear()
+    _told(found)
+    print("low, high: 95 % for the probability of the face alone, after Wilson")
+    if found.moving:
+        print(f"{found.moving} parts lie on no face 64 s after the table has stopped")
+    _written(found, options.output)
+    return 0
+
+
+def _clear(options: PartOptions, executor: Executor | None) -> int:
+    reading = reading_of(options)
+    setting = setting_of(options, reading)
+    if options.sweep is None:
+        raise ClaimError("--clear: over which drives? give --sweep amplitude=FROM:TO:COUNT")
+    texts = (options.clear or "").split(",")
+    try:
+        faces = [whole(one.strip()) for one in texts]
+    except argparse.ArgumentTypeError:
+        raise ClaimError(f"--clear {options.clear!r:.40} is no list of faces such as 0,2") from None
+    found = clearing(
+        setting,
+        faces,
+        grid_of(options.sweep),
+        starts=_starts(options),
+        parts=200 if options.parts is None else options.parts,
+        shaken=number(options.horizon, "horizon"),
+        seed=options.seed,
+        peak=reading.peak,
+        executor=executor,
+        report=progress(),
+    )
+    clear()
+    _told(found)
+    for line in found.in_words():
+        print(line)
+    _written(found, options.output)
+    return 0
+
+
+def _starts(options: PartOptions) -> Starts:
+    text = options.angles
+    if text is None:
+        return ANY_ANGLE
+    if ":" in text:
+        pieces = text.split(":")
+        if len(pieces) != 2:
+            raise ClaimError(f"--angles {text[:40]!r} is not FROM:TO, nor a list such as 0,30,90")
+        return between(number(pieces[0], "--angles"), number(pieces[1], "--angles"))
+    return listed([number(one, "--angles") for one in text.split(",")])
+
+
+def _told(result: Orientation | Clearing) -> None:
+    """Title and columns."""
+    print(f"{result.title()}.  Simulated: no certificate.")
+    columns = result.columns()
+    rows = [
+        [f"{value:.6g}" if isinstance(value, float) else str(value) for value in row]
+        for row in zip(*(one.values.tolist() for one in columns))
+    ]
+    draw([one.head() for one in columns], rows, Console(highlight=False))
+
+
+def _written(result: Orientation | Clearing, path: Path | None) -> None:
+    """The picture or the columns, in a file."""
+    if path is None:
+        return
+    drawn = result.picture() if path.suffix == PICTURE else None
+    with written_aside(path) as file:
+        if drawn is not None:
+            file.write(drawn)
+        else:
+            write_csv(result.columns(), file)
+    rows = f"{len(result.columns()[0].values)} rows " if drawn is None else ""
+    print(f"{path}: {rows}written")
 
 
 DONE_BY: dict[str, Callable[[PartOptions, Executor | None], int]] = {
@@ -239,5 +402,6 @@ DONE_BY: dict[str, Callable[[PartOptions, Executor | None], int]] = {
     "sweep": _sweep,
     "still": _still,
     "figure": _drawn,
-    "animation": _drawn,
+    "orientation": _orientation,
+    "clear": _clear,
 }

@@ -10,17 +10,16 @@ from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 
-from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.part.drive import Harmonics, Record, harmonics, read_record
+from juggleproof.scenes.part.drive import Harmonics, harmonics
 from juggleproof.scenes.part.readings import AMPLITUDES, FACES, Reading, chosen, recorded
 from juggleproof.scenes.part.setting import Launch, Scene
 from juggleproof.scenes.part.shape import Polygon, polygon
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import plain_file
 
-OTHERS = ("vibration", "shape", "tilt", "along", "away", "drive")
+OTHERS = ("vibration", "shape", "along", "away")
 VIBRATION = "30:1"  # of the paper's figure 2
-MOST_BYTES = 100_000_000  # of a file of corners or of a record
+MOST_BYTES = 1_000_000  # of a file of corners
 
 
 class SceneOptions(argparse.Namespace):
@@ -34,10 +33,8 @@ class SceneOptions(argparse.Namespace):
     launch: Launch
     vibration: str | None
     shape: str | None
-    tilt: str
     along: str | None
     away: str | None
-    drive: Path | None
     tolerance: str
     rest_speed: str
 
@@ -77,7 +74,7 @@ def reading_of(options: SceneOptions) -> Reading:
 
 def others(options: SceneOptions) -> list[str]:
     """The options of a part, a table or a vibration that is not table I's."""
-    return [name for name in OTHERS if getattr(options, name) not in (None, "0")]
+    return [name for name in OTHERS if getattr(options, name) is not None]
 
 
 def setting_of(options: SceneOptions, reading: Reading) -> Scene:
@@ -91,7 +88,6 @@ def setting_of(options: SceneOptions, reading: Reading) -> Scene:
         shape=None if options.shape is None else _shape(options.shape),
         drive=drive,
         **({"A_x": reading.peak * amplitude, "f_x": frequency} if drive is None else {}),
-        tilt=math.radians(number(options.tilt, "tilt")),
         tolerance=number(options.tolerance, "tolerance"),
         rest_speed=number(options.rest_speed, "rest speed"),
     )
@@ -128,20 +124,12 @@ def _exact(text: str, name: str) -> Fraction:
     raise ClaimError(f"{name} is no corner; write numbers as 0.7, 1e-3 or 2/3")
 
 
-def _drive(options: SceneOptions, reading: Reading) -> Harmonics | Record | None:
+def _drive(options: SceneOptions, reading: Reading) -> Harmonics | None:
     """How the table moves where it is no single sine along each axis; a harmonic without a phase
     starts at 0, the axis that is not given as in the reading.
     """
-    for name in ("along", "drive"):
-        if options.vibration is not None and getattr(options, name) is not None:
-            raise ClaimError(f"--vibration and --{name} do not go together; give one of them")
-    if options.drive is not None:
-        if options.along is not None or options.away is not None:
-            raise ClaimError("--drive goes without --along and --away; give one of them")
-        try:
-            return read_record(_read(options.drive), 1e-3)
-        except SceneError as fault:
-            raise ClaimError(f"{options.drive}: {fault}") from None
+    if options.vibration is not None and options.along is not None:
+        raise ClaimError("--vibration and --along do not go together; give one of them")
     if options.along is None and options.away is None:
         return None
     along = options.along or f"{options.vibration or VIBRATION}:{reading.phase_x}"

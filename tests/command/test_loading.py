@@ -35,9 +35,9 @@ NEEDS = {
     },
     "table --alpha 0.05 --gamma 3": set[str](),
     "table --alpha 0.05 --gamma 3 --picture orbit -o F.svg": {"matplotlib"},
-    f"part {PART} --trajectory --state theta=1 -o F.svg": {"numba", "matplotlib"},
+    f"part {PART} --orientation --parts 2 -o F.svg": {"numba", "matplotlib"},
     f"part {PART}": {"numba"},
-    f"part {PART} --trajectory --state theta=1 -o F.csv": {"numba"},
+    f"part {PART} --orientation --parts 2 -o F.csv": {"numba"},
     f"part --sweep e=0.5:0.6:2,mu=0:0.1:2 {SHORT}": {"numba"},
 }
 CODE = """

@@ -21,8 +21,10 @@ import pytest
 
 from juggleproof.command import simulate_part
 from juggleproof.command.main import run
+from juggleproof.scenes.part import scene
 from juggleproof.scenes.part.onsets import PAPER, Row, discrepancies
 from juggleproof.scenes.part.readings import STATED, Task, chosen, read, recorded
+from juggleproof.scenes.part.resting import between, orientation
 from tests.command.running import Done
 
 pytest.importorskip("numba")
@@ -30,6 +32,10 @@ SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
 SWEPT = [*SMALL, "--horizon", "0.1"]
 
 FIGURE = ["--figure", "f.svg"]
+ORIENTATION = ["--orientation", "--parts", "20"]
+CLEAR = ["--clear", "0,2", "--sweep", "amplitude=0.5:1:2", "--parts", "20"]
+READING = ["--e", "0.7", "--mu", "0.08", "--amplitudes", "peak", "--phase", "0"]
+SHORT = [*SMALL, *READING, "--horizon", "0.2"]
 
 BAD = [
     (["--mu", "-0.1"], "mu = -0.1 is below 0"),
@@ -42,23 +48,26 @@ BAD = [
     (["--launch", "thrown"], "launch = 'thrown': choose 'rest' or 'table'"),
     ([*FIGURE, "--vibration", "30"], "--vibration '30' is not HERTZ:MILLIMETRES"),
     ([*FIGURE, "--vibration", "-3:1"], "f_x = -3 is below 0"),
-    (["--vibration", "15:2"], "--vibration goes with --figure, --animation"),
+    (["--vibration", "15:2"], "--vibration goes with --figure, --orientation or --clear"),
     ([*FIGURE, "--vibration", "15:2", "--along", "30:1"], "--vibration and --along do not go"),
     (["--jobs", "0"], "--jobs 0 is outside 1 .. 1024"),
     (["--phase", "90,"], "phase = '' is no number"),
     (["--phase", "0,north"], "phase = 'north' is no number"),
     (["--sweep", "e=0:1:2,mu=0:0:1"], "horizon = 0.05 s is below 0.1 s"),
-    (["--sweep", "e=0:1:2"], "a sweep of e: choose 2 of e, mu, frequency"),
+    (["--sweep", "e=0:1:2"], "--sweep e: choose e and mu, or readings"),
+    (
+        ["--sweep", "frequency=1:2:2,mu=0:0:1"],
+        "--sweep frequency, mu: choose e and mu, or readings",
+    ),
     (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
     (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
-    (["--sweep", "e=0:1:2,mu=0:0:1", "--e", "0.5"], "--sweep takes e and mu itself"),
+    (["--sweep", "e=0:1:2,mu=0:0:1", "--e", "0.5"], "--sweep takes e itself, not by --e"),
     (["--still", "--sweep", "e=0:1:2,mu=0:0:1"], "do not go together"),
     (["--still", "--keep", "done"], "--keep done goes with table I"),
     (["--keep", "/dev/null/done"], "no folder to keep chunks in"),
     (["-o", "table.svg"], "table.svg: the name is to end in .csv or .npz"),
     (["-o", "/dev/null/table.csv"], "cannot be written"),
-    (["--shape", "0,0 4,0 4,2"], "--shape goes with --figure, --animation, --trajectory"),
-    (["--tilt", "5", "--still"], "--tilt goes with --figure, --animation"),
+    (["--shape", "0,0 4,0 4,2"], "--shape goes with --figure, --orientation or --clear"),
     ([*FIGURE, "--shape", "0,0 4 4,2"], "--shape: '4' is not X,Y"),
     ([*FIGURE, "--shape", "0,0 4,e 4,2"], "--shape: '4,e' is no corner"),
     ([*FIGURE, "--shape", "no such.txt"], "no such.txt: no such file"),
@@ -66,9 +75,25 @@ BAD = [
     ([*FIGURE, "--shape", "0,0 4,0 4,2", "--mu", "1.3"], "mu = 1.3 is not below 0.821426"),
     ([*FIGURE, "--along", "30"], "'30' is not HERTZ:MILLIMETRES[:DEGREES]"),
     ([*FIGURE, "--away", "30:4000"], "a harmonic of 2 m, 30 Hz and 0 rad is out of range"),
-    ([*FIGURE, "--away", "30:1", "--drive", "d.csv"], "--drive goes without --along and --away"),
-    ([*FIGURE, "--drive", "no.csv"], "no.csv: no such file"),
     (["--figure", "f.txt"], "f.txt: the name is to end in .svg or .pdf"),
+    ([*ORIENTATION, "--check"], "--check goes with table I"),
+    ([*ORIENTATION, "--still"], "do not go together; give one of them"),
+    ([*ORIENTATION, "--keep", "done"], "--keep done goes with table I"),
+    ([*ORIENTATION, "-o", "f.npz"], "f.npz: the name is to end in .csv or .svg"),
+    ([*ORIENTATION, "-o", "/dev/null/f.csv"], "cannot be written"),
+    (["--orientation", "--parts", "0"], "parts = 0 is outside"),
+    (["--still", "--parts", "3"], "--parts goes with --orientation or --clear"),
+    (["--orientation", "--angles", "90:0"], "angles from 90 to 0: give ends that grow"),
+    (["--orientation", "--angles", "0:1:2"], "'0:1:2' is not FROM:TO, nor a list such as 0,30,90"),
+    (["--orientation", "--angles", "up"], "--angles = 'up' is no number"),
+    (["--orientation", "--horizon", "-1"], "time = -1 s is outside 0 .. 100000"),
+    (["--clear", "0"], "--clear: over which drives? give --sweep amplitude=FROM:TO:COUNT"),
+    (["--clear", "up", "--sweep", "amplitude=0:1:2"], "--clear 'up' is no list of faces such as"),
+    (["--clear", "4", "--sweep", "amplitude=0:1:2"], "faces 4: choose from 0 to 3"),
+    (["--clear", "0", "--sweep", "width=0:1:2"], "a sweep of width: choose 1 of e, mu, frequency"),
+    (["--clear", "0", "--sweep", "e=0:1:2,e=0:1:2"], "e is given twice"),
+    (["--clear", "0", "--sweep", "e=0:1:2", "--e", "0.5"], "--sweep takes e itself, not by --e"),
+    (["--clear", "0", "--sweep", "frequency=-1:2:2"], "f_x = -1 is below 0"),
 ]
 
 
@@ -81,33 +106,9 @@ def test_rejects_a_wish_that_cannot_be_carried_out(
     assert len(lines) == 1 and reason in lines[0]
 
 
-RECORDS = [
-    ("t,x,y\n0,0,0\n0.1,0,nan\n0.2,0,0\n", "row 2 of the record has a number that is not finite"),
-    ("0,0,0\n0.1,0,0\n0.1,0,0\n", "the times of a record grow"),
-    ("0,0,0\n0.1,0\n", "line 2 has 2 columns"),
-    ("t,x,y\n0,0,0\n1,a,0\n", "line 3 has no three numbers"),
-    ("t,x,y\n", "no rows of time, x and y"),
-    ("0,0,0\n1,0,0\n", "a record of 2 rows"),
-    ("0,0,0\n1,0,0\n2,0,5000\n", "leaves the 1 m about 0"),
-    ("0,0,0\n1,0,0\n2,0,0\n", "time = 3 s is after the end of the record, 2 s"),
-]
-
-
-@pytest.mark.parametrize(("text", "reason"), RECORDS)
-def test_rejects_a_record_that_is_none(
-    text: str, reason: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "drive.csv"
-    path.write_text(text)
-    figure = ["simulate", "part", "--figure", str(tmp_path / "f.svg"), "--drive", str(path)]
-    assert run(figure) == 2
-    lines = capsys.readouterr().err.splitlines()
-    assert len(lines) == 1 and reason in lines[0]
-
-
-def test_figure_of_a_shape_on_a_tilted_table_of_harmonics_is_drawn_holds(tmp_path: Path) -> None:
+def test_figure_of_a_shape_on_a_table_of_harmonics_is_drawn_holds(tmp_path: Path) -> None:
     (tmp_path / "corners.txt").write_text("0,0\n3,0\n1,4\n")
-    shape = ["--shape", str(tmp_path / "corners.txt"), "--mu", "0.3", "--tilt", "3"]
+    shape = ["--shape", str(tmp_path / "corners.txt"), "--mu", "0.3"]
     shape += ["--away", "60:0.2,120:0.05"]
     path = tmp_path / "f.svg"
     assert run(["simulate", "part", "--figure", str(path), *shape]) == 0
@@ -256,19 +257,50 @@ def test_still_table_is_told_holds(capsys: pytest.CaptureFixture[str]) -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["f.svg", "f.pdf", "f.html"])
+@pytest.mark.parametrize("name", ["f.svg", "f.pdf"])
 def test_pictures_are_written_holds(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    wish, begins = {
-        "svg": ("--figure", b"<?xml"),
-        "pdf": ("--figure", b"%PDF"),
-        "html": ("--animation", b"<!DOCTYPE html>"),
-    }[name[2:]]
-    assert run([*SMALL, wish, str(tmp_path / name), "--e", "0.7", "--mu", "0.08"]) == 0
+    begins = {"svg": b"<?xml", "pdf": b"%PDF"}[name[2:]]
+    assert run([*SMALL, "--figure", str(tmp_path / name), "--e", "0.7", "--mu", "0.08"]) == 0
     assert (tmp_path / name).read_bytes().startswith(
         begins
     ) and "written" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("wish", [CLEAR, ORIENTATION])
+def test_columns_and_pictures_are_written_holds(
+    wish: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    for name in ("f.csv", "f.svg"):
+        assert run([*SHORT, *wish, "-o", str(tmp_path / name)]) == 0
+        assert f"{tmp_path / name}: " in capsys.readouterr().out
+    rows = list(csv.reader((tmp_path / "f.csv").open()))
+    assert len(rows) == (5 if wish == ORIENTATION else 3)
+    assert {len(row) for row in rows} == {len(rows[0])}
+    assert (tmp_path / "f.svg").read_bytes().startswith(b"<?xml")
+
+
+def test_orientation_is_told_with_intervals_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    wish = ["--orientation", "--parts", "50", "--angles", "0:90", "--vibration", "15:2"]
+    assert run([*SHORT, *wish]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    block = scene(e=0.7, mu=0.08, f_x=15.0, A_x=2e-3)
+    found = orientation(block, between(0, 90), parts=50, shaken=0.2)
+    for face, line in enumerate(lines[2:6]):
+        told = [float(one) for one in line.split()]
+        assert told[0] == face and told[3] == found.counts[face]
+        assert np.allclose(told[4:], found.share(face), rtol=1e-5)
+    assert lines[6] == "low, high: 95 % for the probability of the face alone, after Wilson"
+
+
+def test_the_least_drive_is_told_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*SHORT, *CLEAR, "--angles", "90"]) == 0
+    assert (
+        "amplitude 0.5 mm is the least of the grid that clears faces 0, 2, there and at all 1"
+        in capsys.readouterr().out
+    )
 
 
 def run_interrupted(after: int, folder: Path, arguments: list[str]) -> None:

@@ -39,14 +39,12 @@ SMALLER = {
     "juggleproof simulate juggler --picture bifurcation": "--alpha 1/5:3/5:5",
     "juggleproof simulate part --sweep": "--ensembles 1 --horizon 0.1",
     "juggleproof simulate part --figure": "--horizon 0.05",
-    "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
     "juggleproof certify sine --picture wide.svg": "--alpha 0.05 --gamma 3.1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.classes": "--only divisions --share 3",
     "python -m juggleproof.benchmarks.commands": "--only=--help --runs 1",
     "python -m juggleproof.benchmarks.stability": "--only skew-tent",
-    "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
 # Commands that are run elsewhere: a file, and what in it runs them.
 ELSEWHERE = {
@@ -120,26 +118,16 @@ ELSEWHERE = {
         "tests/exhaust/stages.py",
         '"juggleproof.benchmarks.problems", "--votes"',
     ),
-    "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
     "juggleproof simulate part --sweep readings -o juggleproof/scenes/part/sweep.json": (
         "tests/command/test_simulate_part.py",
         '"--sweep", "readings", "-o", str(path)',
     ),
-    "python -m juggleproof.benchmarks.engines": (
-        "tests/benchmarks/test_engines.py",
-        "engines.main([])",
-    ),
     "python -m juggleproof.benchmarks.sine": ("tests/benchmarks/test_sine.py", "sine.main()"),
     "python -m juggleproof.benchmarks.words": ("tests/benchmarks/test_words.py", "words.main()"),
-    "python -m juggleproof.benchmarks.peers": (
-        "tests/benchmarks/test_peers.py",
-        'peers.main(["--share", ',
-    ),
 }
 NEEDS = {
     "simulate part": "numba",
     "--picture": "matplotlib",
-    "benchmarks.part": "numba",
     ".svg": "matplotlib",
     "--format pdf": "jinja2",
 }

@@ -22,10 +22,8 @@ SINE = ("flights", "cells", "checker")
 FORMATS = ("html", "latex", "markdown", "json", "badge", "figures", "pdf")
 SHARES = 8  # of the store, for Coq
 WIDE_SHARES = ("cover", *(f"{share}/24" for share in range(1, 25)))
-WITH_PEERS = (  # tests of what needs other solvers and engines
+WITH_PEERS = (  # tests of what needs other solvers, or Dask
     "tests.benchmarks.bench.test_bench",
-    "tests.benchmarks.test_engines",
-    "tests.benchmarks.test_peers",
     "tests.benchmarks.test_problems",
     "tests.certificates.sine.test_cover",
     "tests.votes.test_smtlib",

@@ -52,8 +52,6 @@ FOREIGN = {
         "cvxpy",
         "scipy",
         "matplotlib",
-        "mujoco",
-        "pymunk",
         "rich",
     },
 }

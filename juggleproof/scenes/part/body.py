@@ -170,8 +170,7 @@ if numba is not None:
 # Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta =
 # 0 is as corners are given, a rectangle upright; it grows counterclockwise.  A state is (t, X, Y,
 # theta, V_X, V_Y, omega) of the centre of mass in the resting frame, X along the table and Y away
-# from it, then how the block is in contact.  G is what of gravity pulls it to the table, DRAG what
-# pulls it to the right along it.
+# from it, then how the block is in contact.
 
 
 class Floats(Protocol):
@@ -184,7 +183,6 @@ class Floats(Protocol):
 # the parameters of a scene: numbers, then corners and more from EDGES on
 (
     G,
-    DRAG,
     A_X,
     W_X,
     PHASE_X,
@@ -209,10 +207,10 @@ class Floats(Protocol):
     DRIVE,
     AT_DRIVE,
     EDGES,
-) = range(26)
+) = range(25)
 # of each corner: its place from the centre at theta = 0, and the direction of the edge to the next
 CORNER_X, CORNER_Y, EDGE_X, EDGE_Y = range(4)
-SINE, SINES, RECORD = 0.0, 1.0, 2.0  # how the table moves
+SINE, SINES = 0.0, 1.0  # how the table moves
 
 # a state; for the last two see `contact`
 TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)
@@ -245,7 +243,6 @@ DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, TOO_MANY_EVENTS = range(5)
 
 MOMENT = 1e-10  # seconds: how long a flight or a phase of contact lasts that would end at once
 TURN = 2 * pi
-SAME_TIME = 1e-11  # seconds: knots of a record are farther apart
 TINY_TURN, SMALL_TURN = 0.05, 1.5  # radians
 
 
@@ -374,72 +371,24 @@ def turned(c: float, s: float, step: float) -> tuple[float, float]:
 
 # -------------------------------------------------------------------------------------------------
 # The table: at (A_x sin(W_x t + phase_x), A_y sin(W_y t + phase_y)), or along each axis a sum of
-# such, or where a cubic spline through recorded places is.
+# such.
 #
-# For any of them A W^k bounds the derivatives from the second to the fourth: those of the spline
-# between its knots, on which steps end.  A sum stands from AT_DRIVE on as the count of its terms
-# and A, W, phase of each, first along, then up; a record as the count of its knots, their times,
-# then the places along and the accelerations at the knots, then those up.
-
-
-@compiled
-def knot(p: Floats, t: float) -> int:
-    """The last knot of a record that is not after t; the first or the last but one where t is
-    outside.
-    """
-    at = int(p[AT_DRIVE])
-    low, high = 0, int(p[at]) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if p[at + 1 + middle] <= t + SAME_TIME:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-@compiled
-def until_knot(p: Floats, t: float) -> float:
-    """The seconds until the next knot of a record."""
-    if p[DRIVE] != RECORD:
-        return 1e300
-    at = int(p[AT_DRIVE])
-    j = knot(p, t)
-    return p[at + 2 + j] - t if j + 2 < int(p[at]) else 1e300
+# For both A W^k bounds the derivatives from the second to the fourth.  A sum stands from AT_DRIVE
+# on as the count of its terms and A, W, phase of each, first along, then up.
 
 
 @compiled
 def shaken(p: Floats, t: float, axis: int, order: int) -> float:
-    """A derivative of the table's place, of order 0 to 3, along it (axis 0) or up (1)."""
+    """Return a derivative of the table's place, of order 0 to 3, along it (axis 0) or up (1)."""
     at = int(p[AT_DRIVE])
-    if p[DRIVE] == SINES:
-        if axis == 1:
-            at += 1 + 3 * int(p[at])
-        total = 0.0
-        for k in range(int(p[at])):
-            A, W, phase = p[at + 1 + 3 * k], p[at + 2 + 3 * k], p[at + 3 + 3 * k]
-            wave = sin(W * t + phase) if order % 2 == 0 else cos(W * t + phase)
-            total += (A if order < 2 else -A) * W**order * wave
-        return total
-    count, j = int(p[at]), knot(p, t)
-    start, end = p[at + 1 + j], p[at + 2 + j]
-    at += 1 + count * (1 + 2 * axis) + j
-    h, here, there = end - start, p[at], p[at + 1]
-    bent, bends = p[at + count], p[at + count + 1]
-    if order == 3:
-        return (bends - bent) / h
-    left, right = (end - t) / h, (t - start) / h
-    if order == 2:
-        return left * bent + right * bends
-    if order == 1:
-        return (there - here) / h + (
-            (1 - 3 * left * left) * bent + (3 * right * right - 1) * bends
-        ) * h / 6
-    return (
-        left * here
-        + right * there
-        + ((left * left - 1) * left * bent + (right * right - 1) * right * bends) * h * h / 6
-    )
+    if axis == 1:
+        at += 1 + 3 * int(p[at])
+    total = 0.0
+    for k in range(int(p[at])):
+        A, W, phase = p[at + 1 + 3 * k], p[at + 2 + 3 * k], p[at + 3 + 3 * k]
+        wave = sin(W * t + phase) if order % 2 == 0 else cos(W * t + phase)
+        total += (A if order < 2 else -A) * W**order * wave
+    return total
 
 
 @inlined

@@ -19,7 +19,6 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import kernel_digest
-from juggleproof.scenes.part.columns import Column, Shown
 from juggleproof.scenes.part.motion import follow_all, sample_all
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
@@ -37,30 +36,12 @@ WHY = {
     body.TOO_MANY_EVENTS: "more than a million events in a second; a larger rest speed ends them",
 }
 CONTACT = {body.FLIGHT: "in flight", body.PIVOT: "on a corner", body.FACE: "on a face"}
-STATE = {  # the columns of a state that are numbers, and their units
-    "t": "s",
-    "X": "m",
-    "Y": "m",
-    "theta": "rad",
-    "V_X": "m/s",
-    "V_Y": "m/s",
-    "omega": "rad/s",
-}
 J = TypeVar("J")  # a job
 R = TypeVar("R")  # its result
 
 
-def state_columns(states: Array) -> tuple[Column, ...]:
-    """States, shape (n, 10), as columns: time, place, angle, speeds, and in what contact."""
-    contact = np.array([CONTACT[mode] for mode in states[:, body.MODE].tolist()])
-    return (
-        *(Column(name, unit, states[:, k]) for k, (name, unit) in enumerate(STATE.items())),
-        Column("contact", "", contact),
-    )
-
-
 @dataclass(frozen=True)
-class Run(Shown):
+class Run:
     """Where blocks are after a run, shape (n, 10), and what was noted of them, shape (n, 16);
     columns are named in `juggleproof.scenes.part.body`.  `checked`: whether guarantees were.
     """
@@ -68,17 +49,6 @@ class Run(Shown):
     states: Array
     notes: Array
     checked: bool
-
-    def title(self) -> str:
-        return f"{len(self.states)} blocks after a run"
-
-    def columns(self) -> Sequence[Column]:
-        """A row a block: its state, and how many impacts it had."""
-        return (
-            Column("block", "", np.arange(len(self.states))),
-            *state_columns(self.states),
-            Column("impacts", "", self.notes[:, body.IMPACTS].astype(np.int64)),
-        )
 
     def violations(self) -> dict[str, int]:
         """How often an impact broke a guarantee of the impact law, and a flight ended with a corner
@@ -275,17 +245,6 @@ def frames(
 ) -> Array:
     """The states of blocks that start at these angles, in radians, at these times, in seconds,
     which do not fall: shape (len(times), n, 10).
-    """
-    return frames_of(setting, standing(setting, angles), times, executor)
-
-
-def frames_of(
-    setting: Scene,
-    states: Array,
-    times: Sequence[float] | Array,
-    executor: Executor | None = None,
-) -> Array:
-    """The same for blocks that start in these states, shape (n, 10).
 
     Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an
     earlier one may round its last event otherwise. Without an executor threads share the chunks.
@@ -298,6 +257,7 @@ def frames_of(
             f"times from {at[0]:.6g} to {at[-1]:.6g} s are not within 0 .. {LONGEST:g}"
         )
     refuse_long(setting, float(at[-1]))
+    states = standing(setting, angles)
     if len(states) * len(at) > MOST_STATES:
         raise SceneError(
             f"{len(states)} blocks at {len(at)} times are more than {MOST_STATES} states;"
@@ -362,8 +322,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     >>> split.as_printed(), split.upright < split.exact < split.lying, round(split.lying, 6)
     (True, True, 26.565051)
     """
-    if setting.shape is not None or setting.tilt:
-        raise SceneError("the angle that parts upright from lying is of a rectangle, and no tilt")
+    if setting.shape is not None:
+        raise SceneError("the angle that parts upright from lying is of a rectangle")
     still = replace(
         setting, A_x=0.0, f_x=0.0, phase_x=0.0, A_y=0.0, f_y=0.0, phase_y=0.0, drive=None
     )

@@ -2,17 +2,16 @@
 which cannot step over a meeting.
 
 A block turns in a step by no more than its sharpest turn from edge to edge, so that only two
-corners can be the lowest: the one that is, and the next as it turns, where it turns so far.  No
-step goes past a knot of a recorded drive.  The gap of a corner at time s of a
-flight is accelerated by -M at least, where M = g + A_y W_y^2 + omega^2 rho, and by push + jerk s
-- K s^2/2 at least, where push and jerk are derivatives now and K = A_y W_y^4 + omega^4 rho bounds
-the next. Each step goes no further than to the first root of a parabola below the gap, raised by
-9/10 of the tolerance; so no gap falls below the tolerance's negative, rounding included.  Where a
-corner comes down so near to the table that its derivatives tell to a hundredth of the tolerance
-when it is there, the flight ends there.  Where a corner in the table comes down so slowly that they
-do not, it is below the height from which it set out, if that was in the table, or below 0: the
-flight ends where it came through that, so that a corner that rattles, with hops below the
-tolerance, does not sink with every one of them.
+corners can be the lowest: the one that is, and the next as it turns, where it turns so far.  The
+gap of a corner at time s of a flight is accelerated by -M at least, where M = g + A_y W_y^2 +
+omega^2 rho, and by push + jerk s - K s^2/2 at least, where push and jerk are derivatives now and K
+= A_y W_y^4 + omega^4 rho bounds the next. Each step goes no further than to the first root of a
+parabola below the gap, raised by 9/10 of the tolerance; so no gap falls below the tolerance's
+negative, rounding included.  Where a corner comes down so near to the table that its derivatives
+tell to a hundredth of the tolerance when it is there, the flight ends there.  Where a corner in the
+table comes down so slowly that they do not, it is below the height from which it set out, if that
+was in the table, or below 0: the flight ends where it came through that, so that a corner that
+rattles, with hops below the tolerance, does not sink with every one of them.
 """
 
 from __future__ import annotations
@@ -24,7 +23,6 @@ from juggleproof.scenes.part.body import (
     CORNER,
     CORNER_Y,
     DONE,
-    DRAG,
     DRIVE,
     EDGE_X,
     EDGE_Y,
@@ -63,7 +61,6 @@ from juggleproof.scenes.part.body import (
     table_lift,
     table_rise,
     turned,
-    until_knot,
 )
 
 MOST_STEPS = 1_000_000  # of one flight
@@ -239,8 +236,6 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
         pushed, jerked = -lift - p[G], -jolt
         i, across, along = low, low_x, low_y
         advance = min(reach - s, furthest)
-        if not sine:
-            advance = min(advance, until_knot(p, t + s))
         back = 1e300
         for nearness in range(2):
             if nearness == 1:  # the next as the block turns, if it turns so far
@@ -288,7 +283,7 @@ def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
                 u, v = turned(u, v, on)
         lean = edge_x * d + edge_y * c
     z[TIME], z[THETA] = until if s >= reach else t + s, theta + omega * s
-    z[X], z[V_X] = z[X] + (z[V_X] + p[DRAG] / 2 * s) * s, z[V_X] + p[DRAG] * s
+    z[X] += z[V_X] * s
     z[Y], z[V_Y], z[CORNER] = y + (rise - half_g * s) * s, rise - p[G] * s, low
     notes[STEPS] += steps
     notes[LEAST_GAP] = min(least, z[Y] + low_x * d + low_y * c - level)

@@ -84,5 +84,4 @@ def vibration(setting: Scene) -> str:
             f"{setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz"
             f" {1e3 * setting.A_x:g} mm along"
         )
-    tilted = f", tilted by {np.degrees(setting.tilt):.4g} degrees" if setting.tilt else ""
-    return f"table: {table}{tilted}; e = {setting.e:g}, mu = {setting.mu:g}"
+    return f"table: {table}; e = {setting.e:g}, mu = {setting.mu:g}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -16,7 +15,6 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.columns import Column, Shown, graphs
 from juggleproof.scenes.part.ensemble import Job, Run, fresh_notes, joined, run_jobs, worker
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
@@ -87,56 +85,11 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Table(Shown):
+class Table:
     """The six rows, or those that are done, and the runs that they come from."""
 
     rows: tuple[Row, ...]
     run: Run
-
-    def title(self) -> str:
-        count = ensembles_in_words(len(self.rows[0].chaotic))
-        return f"Table I: from when on all blocks lie; {count} of {ANGLES} blocks"
-
-    def columns(self) -> Sequence[Column]:
-        """A row a row: vibration, the paper's onset (nan: chaotic), the median, 16 and 84 percent
-        (inf: after the end), and how many ensembles are chaotic and censored.
-        """
-        printed = [math.nan if row.paper is None else row.paper for row in self.rows]
-        return (
-            Column("f_x", "Hz", np.array([row.frequency for row in self.rows])),
-            Column("A_x", "m", np.array([row.amplitude for row in self.rows])),
-            Column("paper", "s", np.array(printed)),
-            *onset_columns(self.rows),
-        )
-
-    def picture(self) -> bytes:
-        """The onset of each ensemble beside the paper's."""
-        given = [
-            (
-                f"{row.frequency:g} Hz, {1e3 * row.amplitude:g} mm",
-                row.onsets,
-                sum(row.chaotic),
-                row.paper,
-            )
-            for row in self.rows
-        ]
-        note = f"simulated, each for {self.rows[0].horizon:g} s"
-        drawn: bytes = graphs().onsets_by_row(given, self.rows[0].horizon, (self.title(), note))
-        return drawn
-
-
-def onset_columns(rows: Sequence[Row]) -> tuple[Column, ...]:
-    """Of each row the median, 16 and 84 percent of the onsets, inf where that is after the end; how
-    many ensembles are chaotic, and how many are censored.
-    """
-    return (
-        *(
-            Column(name, "s", np.array([row.quantile(part) for row in rows]))
-            for name, part in (("median", 0.5), ("low", 0.16), ("high", 0.84))
-        ),
-        Column("chaotic", "", np.array([sum(row.chaotic) for row in rows])),
-        Column("censored", "", np.array([row.censored() for row in rows])),
-    )
 
 
 def jittered(ensembles: int, seed: int) -> Array:

@@ -1,17 +1,30 @@
-"""Figure 2 of the paper: 91 blocks at three times."""
+"""Figure 2 of the paper, 91 blocks at three times; and shares of parts with their intervals."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import cos, sin
 from typing import BinaryIO
 
+import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 
-from juggleproof.drawing.drawing import Plane, blank, pdf, polylines, styled, svg
+from juggleproof.drawing.drawing import (
+    Plane,
+    Title,
+    axes,
+    blank,
+    on_white,
+    pdf,
+    polylines,
+    spaced,
+    styled,
+    svg,
+    ticks,
+)
 from juggleproof.drawing.lines import Point, straight
 from juggleproof.drawing.look import B1, INK, KEPT, Look
 from juggleproof.scenes.errors import SceneError
@@ -226,3 +239,38 @@ def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, lo
             ),
             clip=False,
         )
+
+
+# -------------------------------------------------------------------------------------------------
+# Shares with their intervals.
+
+
+@styled
+def shares(
+    slug: str,
+    places: Sequence[float],
+    found: Sequence[tuple[float, float, float]],
+    label: str,
+    title: Title,
+    names: Mapping[float, str] | None = None,
+    mark: tuple[float, str] | None = None,
+) -> bytes:
+    """Shares, with the low and the high end of their intervals, over places, which have names or
+    are numbers; and a mark at one of them.
+    """
+    step = min(np.diff(places), default=1.0)
+    across = (places[0] - step, places[-1] + step)
+    plane = axes((560, 280), 20, across, (0, 1), title)
+    plane.frame(names or ticks(spaced(*across)), ticks(spaced(0, 1)), label, "share of parts", 32)
+    if mark is not None:
+        plane.line(
+            [straight((mark[0], 0.0), (mark[0], 1.0))], "mark", linewidth=0.7, linestyle=(0, (4, 3))
+        )
+        plane.text((mark[0], 1.0), mark[1], (4, -7), ha="left", fontsize=9)
+    plane.line(
+        [straight((x, low), (x, high)) for x, (_, low, high) in zip(places, found)],
+        "intervals",
+        edgecolor=B1.colour,
+    )
+    plane.dots([(x, share) for x, (share, _, _) in zip(places, found)], "shares", colour=B1.colour)
+    return on_white(plane.figure, slug)

@@ -23,7 +23,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.drive import Harmonics, Record
+from juggleproof.scenes.part.drive import Harmonics
 from juggleproof.scenes.part.ensemble import fresh_notes, run_jobs
 from juggleproof.scenes.part.motion import sample_all
 from juggleproof.scenes.part.onsets import (
@@ -127,7 +127,7 @@ class Reading:
         self,
         launch: Launch = "rest",
         shape: Polygon | None = None,
-        drive: Harmonics | Record | None = None,
+        drive: Harmonics | None = None,
         **numbers: float,
     ) -> Scene:
         """The scene with the vertical vibration of table I, and none along the table but for what

@@ -13,7 +13,6 @@ from juggleproof.scenes.part.body import (
     CONTACTS,
     CORNER,
     DONE,
-    DRAG,
     DRIVE,
     FALLS,
     FLIGHT,
@@ -60,7 +59,6 @@ from juggleproof.scenes.part.body import (
     table_place,
     table_push,
     table_rise,
-    until_knot,
 )
 from juggleproof.scenes.part.flight import safe_step
 from juggleproof.scenes.part.strike import foot, hold, stay, strike
@@ -169,7 +167,7 @@ def lift_off(p: Floats, t: float, end: float, notes: Floats) -> float:
         value, rate = p[G] + table_lift(p, t), shaken(p, t, 1, 3)
         if value <= FORCE_RESOLUTION and rate < 0:
             return t
-        step = min(safe_step(max(value + FORCE_RESOLUTION, 0.0), rate, fall), until_knot(p, t))
+        step = safe_step(max(value + FORCE_RESOLUTION, 0.0), rate, fall)
         if t + step >= end:
             return 1e300
         if t + step == t:  # the next float
@@ -183,7 +181,7 @@ def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, fl
     """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
     how fast that changes.
     """
-    value = grip * (p[G] + table_lift(p, t)) - way * (table_push(p, t) - p[DRAG])
+    value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
     if p[DRIVE] != SINE:
         return value, grip * shaken(p, t, 1, 3) - way * shaken(p, t, 0, 3)
     wy, wx = p[W_Y], p[W_X]
@@ -206,7 +204,7 @@ def slip_time(
     first = True
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        step = min(end - t, until_knot(p, t))
+        step = end - t
         nearest, side = 1e300, 1.0
         for way in (-1.0, 1.0):
             value, rate = face_margin(p, t, right if way > 0 else left, way)
@@ -241,13 +239,13 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float, notes: Fl
     first = True
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        speed = slide * (S - table_glide(p, t) + glide + p[DRAG] * (t - start)) - mu * (
+        speed = slide * (S - table_glide(p, t) + glide) - mu * (
             p[G] * (t - start) + table_rise(p, t) - rise
         )
-        rate = -slide * (table_push(p, t) - p[DRAG]) - mu * (p[G] + table_lift(p, t))
+        rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
         if speed <= SPEED_RESOLUTION and rate < 0 and not first:
             return t
-        step = min(safe_step(max(speed + SPEED_RESOLUTION, 0.0), rate, fall), until_knot(p, t))
+        step = safe_step(max(speed + SPEED_RESOLUTION, 0.0), rate, fall)
         if t + step >= end:
             return end
         if t + step == t and not first:  # the next float
@@ -286,7 +284,7 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 if mu * tall > (left if way > 0 else right):
                     over = -way
                 else:
-                    slide = -1.0 if table_push(p, t) > p[DRAG] else 1.0
+                    slide = -1.0 if table_push(p, t) > 0 else 1.0
         elif slide * mu * tall > right or -slide * mu * tall > left:
             over = 1.0 if slide * mu * tall > right else -1.0
         else:
@@ -295,11 +293,11 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 break
             h, rise = after - t, table_rise(p, t)
             fallen = p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h
-            x += vx * h - slide * mu * fallen + p[DRAG] / 2 * h * h
-            vx += p[DRAG] * h - slide * mu * (p[G] * h + table_rise(p, after) - rise)
+            x += vx * h - slide * mu * fallen
+            vx -= slide * mu * (p[G] * h + table_rise(p, after) - rise)
             t = after
             if t < end:
-                push = table_push(p, t) - p[DRAG]
+                push = table_push(p, t)
                 vx = table_glide(p, t)
                 slide = (
                     0.0
@@ -362,8 +360,8 @@ def pivoted(
     spin = omega + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
     if slide != 0:
         return (
-            x + h * (vx + h / 6 * (f1 + f2 + f3 + 3 * p[DRAG])),
-            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4 + 6 * p[DRAG]),
+            x + h * (vx + h / 6 * (f1 + f2 + f3)),
+            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4),
             after,
             spin,
         )
@@ -504,7 +502,7 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
-        h = min(p[STEP] * step_factor(p, theta, i, slide), until - t, until_knot(p, t))
+        h = min(p[STEP] * step_factor(p, theta, i, slide), until - t)
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
         if ended != LASTS:

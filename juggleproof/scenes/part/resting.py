@@ -1,4 +1,5 @@
-"""On which face parts come to rest: probabilities for a distribution of starts, with intervals.
+"""On which face parts come to rest: probabilities for a distribution of starts, with intervals;
+and from where on a drive leaves no part on stated faces.
 
 Parts start with their lowest corner on the table, are shaken for some time, and then the table
 stops at once: each part goes on as fast as it was, and falls on a still table until it lies.  So
@@ -7,21 +8,25 @@ every part has a face on which it rests, also where the vibration never lets it 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import csv
+import io
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from math import sqrt
+from importlib import import_module
+from math import pi, sqrt
 from statistics import NormalDist
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.columns import Column, Shown, graphs
 from juggleproof.scenes.part.ensemble import run
 from juggleproof.scenes.part.layout import vibration
-from juggleproof.scenes.part.setting import Array, Scene, centre_heights, standing
+from juggleproof.scenes.part.onsets import MOST_POINTS
+from juggleproof.scenes.part.setting import Array, Scene, centre_heights, changed, standing
 from juggleproof.scenes.part.shape import geometry
 
 Report = Callable[[int, int], None]
@@ -31,6 +36,41 @@ MOST_PARTS = 1_000_000
 JITTER = 1e-6  # degrees, either way, of starts that are drawn from a list
 SETTLING = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0)  # seconds on the still table, until all lie
 MOVING = -1  # instead of a face, for a part that does not lie by then
+
+# -------------------------------------------------------------------------------------------------
+# Results as named columns, and as pictures.
+
+
+class Column(NamedTuple):
+    """One column: its name, its unit, "" where it has none, and its values, one a row."""
+
+    name: str
+    unit: str
+    values: NDArray[Any]
+
+    def head(self) -> str:
+        """Name and unit, as the head of a column of text.
+
+        >>> Column("t", "s", np.zeros(1)).head(), Column("part", "", np.zeros(1)).head()
+        ('t [s]', 'part')
+        """
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+def write_csv(columns: Sequence[Column], file: BinaryIO) -> None:
+    """Writes a line a row, with floats to the last bit."""
+    text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
+    lines = csv.writer(text, lineterminator="\n")
+    lines.writerow([one.head() for one in columns])
+    lines.writerows(zip(*(one.values.tolist() for one in columns)))
+    text.detach()
+
+
+def _shares(*given: object) -> bytes:
+    """Return the picture of shares that `picture` draws, which loads matplotlib."""
+    drawn: bytes = import_module("juggleproof.scenes.part.picture").shares(*given)
+    return drawn
+
 
 # -------------------------------------------------------------------------------------------------
 # The face at the end, starts, and intervals.
@@ -133,7 +173,7 @@ def wilson(hits: int, count: int, confidence: float = CONFIDENCE) -> Interval:
 
 
 @dataclass(frozen=True)
-class Orientation(Shown):
+class Orientation:
     """On how many of the parts each face is below at the end; and how many lie on none."""
 
     setting: Scene
@@ -151,12 +191,14 @@ class Orientation(Shown):
         return self.counts[face] / self.parts(), *wilson(self.counts[face], self.parts())
 
     def title(self) -> str:
+        """Return how many parts there were, their starts, and how they were shaken."""
         return (
             f"{self.parts()} parts that start {self.starts.in_words()}, shaken for"
             f" {self.shaken:g} s; {vibration(self.setting)}"
         )
 
     def columns(self) -> Sequence[Column]:
+        """Return a row a face: its side, the angle at which it lies, and its share."""
         around = np.array(self.setting.polygon().corners)
         sides = np.hypot(*(np.roll(around, -1, axis=0) - around).T)
         found = np.array([self.share(face) for face in range(len(self.counts))])
@@ -171,10 +213,11 @@ class Orientation(Shown):
         )
 
     def picture(self) -> bytes:
-        drawing, count = graphs(), len(self.counts)
+        """Return the shares with their intervals, as SVG."""
+        count = len(self.counts)
         note = f"{self.parts()} parts that start {self.starts.in_words()}"
         none = f"; {self.moving} rest on none" if self.moving else ""
-        drawn: bytes = drawing.shares(
+        return _shares(
             "orientation",
             range(count),
             [self.share(face) for face in range(count)],
@@ -185,7 +228,6 @@ class Orientation(Shown):
             ),
             {k: f"{k}: {1e3 * side:g} mm" for k, side in enumerate(self.columns()[1].values)},
         )
-        return drawn
 
 
 def orientation(
@@ -212,3 +254,227 @@ def orientation(
     faces = resting_faces(setting, states, executor)
     counts = [int((faces == face).sum()) for face in range(len(setting.polygon().corners))]
     return Orientation(setting, starts, shaken, tuple(counts), int((faces == MOVING).sum()))
+
+
+# -------------------------------------------------------------------------------------------------
+# The least drive that clears faces.
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a scene that is swept: its name there, its unit, and how much of it one such unit
+    is.
+    """
+
+    field: str
+    unit: str
+    scale: float
+
+    def set_in(self, setting: Scene, value: float) -> Scene:
+        """Return the scene with another value, given in the unit; SceneError for one out of
+        range.
+        """
+        return changed(setting, **{self.field: self.scale * value})
+
+
+def parameters(peak: float = 1.0) -> Mapping[str, Parameter]:
+    """Return what can be swept, by name: of the motion along the table, and `-up`; `peak` is how
+    much of an amplitude is the scene's, 1/2 where it is from peak to peak.
+    """
+    return {
+        "e": Parameter("e", "", 1.0),
+        "mu": Parameter("mu", "", 1.0),
+        "frequency": Parameter("f_x", "Hz", 1.0),
+        "amplitude": Parameter("A_x", "mm", 1e-3 * peak),
+        "phase": Parameter("phase_x", "degrees", pi / 180),
+        "frequency-up": Parameter("f_y", "Hz", 1.0),
+        "amplitude-up": Parameter("A_y", "mm", 1e-3 * peak),
+    }
+
+
+def _named(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
+
+
+def _fixed(setting: Scene, swept: str) -> str:
+    """Return what is not swept, in words.
+
+    >>> from juggleproof.scenes.part.setting import scene
+    >>> _fixed(scene(e=0.7, mu=0.08, f_x=30.0), "amplitude")
+    'e = 0.7, mu = 0.08, 60 Hz 0.2 mm up, 30 Hz along'
+    """
+    parts = (
+        (("e", f"e = {setting.e:g}"),),
+        (("mu", f"mu = {setting.mu:g}"),),
+        (
+            ("frequency-up", f"{setting.f_y:g} Hz"),
+            ("amplitude-up", f"{1e3 * setting.A_y:g} mm"),
+            ("", "up"),
+        ),
+        (
+            ("frequency", f"{setting.f_x:g} Hz"),
+            ("amplitude", f"{1e3 * setting.A_x:g} mm"),
+            ("", "along"),
+        ),
+    )
+    kept = ([words for name, words in part if name != swept] for part in parts)
+    return ", ".join(" ".join(words) for words in kept if words not in ([], ["up"], ["along"]))
+
+
+@dataclass(frozen=True)
+class Clearing:
+    """How many of the parts rest on the stated faces, or on none, for each value of a parameter."""
+
+    setting: Scene
+    faces: tuple[int, ...]
+    name: str
+    unit: str
+    values: tuple[float, ...]
+    left: tuple[int, ...]
+    parts: int
+    starts: Starts
+    shaken: float
+
+    def least(self) -> float | None:
+        """The least value of the grid from which on, there and at every larger one, no part is left
+        on the faces; None where parts are left at the largest.
+        """
+        clear = None
+        for value, left in zip(reversed(self.values), reversed(self.left)):
+            if left:
+                break
+            clear = value
+        return clear
+
+    def islands(self) -> list[float]:
+        """Values that leave none, though a larger one does: clearing is not monotone there."""
+        least = self.least()
+        return [
+            value
+            for value, left in zip(self.values, self.left)
+            if not left and (least is None or value < least)
+        ]
+
+    def in_words(self) -> list[str]:
+        """What was found, in lines: the least drive, on what grid, and how sure it is."""
+        least, what = self.least(), f"{self.name} {{:g}}{self.unit and ' '}{self.unit}"
+        of = f"face{'s' * (len(self.faces) > 1)} {', '.join(map(str, self.faces))}"
+        if least is None:
+            lines = [
+                f"no {self.name} of the grid clears {of} for good: at"
+                f" {what.format(self.values[-1])} {self.left[-1]} of {self.parts} parts are left"
+            ]
+        else:
+            place = self.values.index(least)
+            sure = wilson(0, self.parts)[1]
+            lines = [
+                f"{what.format(least)} is the least of the grid that clears {of}, there and at all"
+                f" {len(self.values) - place - 1} larger ones: 0 of {self.parts} parts are left,"
+                f" a probability of at most {sure:.2%} at each (95 %, Wilson)"
+            ]
+            if place:
+                lines.append(
+                    f"below it, at {what.format(self.values[place - 1])}, {self.left[place - 1]} of"
+                    f" {self.parts} are left; nothing was run between the two"
+                )
+        islands = self.islands()
+        if islands:
+            lines.append(
+                "not monotone: none is left at"
+                f" {', '.join(f'{value:g}' for value in islands)}, but at larger ones"
+            )
+        return lines
+
+    def shares(self) -> list[tuple[float, float, float]]:
+        """The share that is left at each value, and the interval of its probability."""
+        return [(left / self.parts, *wilson(left, self.parts)) for left in self.left]
+
+    def title(self) -> str:
+        """Return the faces and the values, the starts, and what is not swept."""
+        return (
+            f"Parts left on {', '.join(map(str, self.faces))} over {self.name}: {len(self.values)}"
+            f" values, {self.parts} parts each that start {self.starts.in_words()}, shaken for"
+            f" {self.shaken:g} s; {_fixed(self.setting, self.name)}"
+        )
+
+    def columns(self) -> Sequence[Column]:
+        """Return a row a value: how many parts are left, and their share."""
+        found = np.array(self.shares())
+        return (
+            Column(self.name, self.unit, np.array(self.values)),
+            Column("left", "", np.array(self.left)),
+            Column("parts", "", np.full(len(self.values), self.parts)),
+            *(Column(name, "", found[:, k]) for k, name in enumerate(("share", "low", "high"))),
+        )
+
+    def picture(self) -> bytes:
+        """Return the shares with their intervals, as SVG."""
+        least = self.least()
+        return _shares(
+            "clearing",
+            self.values,
+            self.shares(),
+            _named(self.name, self.unit),
+            (
+                f"Parts left on face{'s' * (len(self.faces) > 1)}"
+                f" {', '.join(map(str, self.faces))} after {self.shaken:g} s",
+                f"{len(self.values)} values, {self.parts} parts each that start"
+                f" {self.starts.in_words()}; bars: 95 %; {_fixed(self.setting, self.name)}",
+            ),
+            None,
+            None if least is None else (least, f"clear from {least:g} on"),
+        )
+
+
+def clearing(
+    setting: Scene,
+    faces: Sequence[int],
+    grid: Mapping[str, Sequence[float]],
+    *,
+    starts: Starts = ANY_ANGLE,
+    parts: int = 200,
+    shaken: float = 12.0,
+    seed: int = 1,
+    peak: float = 1.0,
+    executor: Executor | None = None,
+    report: Report | None = None,
+) -> Clearing:
+    """How many parts of a distribution of starts are left on the faces at each value of one
+    parameter, the rest as in the scene; a part that lies on no face at the end counts as left.
+    Every value has the same starts.  SceneError for a face that there is not, and numbers out of
+    range.
+    """
+    known = parameters(peak)
+    if len(grid) != 1 or set(grid) - set(known):
+        raise SceneError(
+            f"a sweep of {', '.join(grid) or 'nothing'}: choose 1 of {', '.join(known)}"
+        )
+    ((name, values),) = grid.items()
+    swept = known[name]
+    if not 0 < len(values) <= MOST_POINTS:
+        raise SceneError(f"a sweep of {len(values)} points is outside 1 .. {MOST_POINTS}")
+    if any(one >= other for one, other in zip(values, values[1:])):
+        raise SceneError(f"{name}: give values that grow")
+    left = []
+    for done, value in enumerate(values):
+        here = swept.set_in(setting, value)
+        found = orientation(here, starts, parts=parts, shaken=shaken, seed=seed, executor=executor)
+        if not faces or not set(faces) <= set(range(len(found.counts))):
+            raise SceneError(
+                f"faces {', '.join(map(str, faces)) or 'none'}: choose from 0 to"
+                f" {len(found.counts) - 1}"
+            )
+        left.append(sum(found.counts[face] for face in set(faces)) + found.moving)
+        if report:
+            report(done + 1, len(values))
+    return Clearing(
+        setting,
+        tuple(sorted(set(faces))),
+        name,
+        swept.unit,
+        tuple(values),
+        tuple(left),
+        parts,
+        starts,
+        shaken,
+    )

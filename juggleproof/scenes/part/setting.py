@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.drive import Harmonics, Record
+from juggleproof.scenes.part.drive import Harmonics
 from juggleproof.scenes.part.shape import (
     Polygon,
     balances,
@@ -42,7 +42,6 @@ RANGES = {
     "f_y": (0.0, 1e4),
     "phase_x": (-100.0, 100.0),
     "phase_y": (-100.0, 100.0),
-    "tilt": (-1.0, 1.0),
     "rest_speed": (1e-8, 1.0),
     "tolerance": (LEAST_TOLERANCE, LARGEST_TOLERANCE),
 }
@@ -67,8 +66,8 @@ class Scene:
     phases in radians; made by `scene`.
 
     The table is at (A_x sin(2 pi f_x t + phase_x), A_y sin(2 pi f_y t + phase_y)), or where `drive`
-    says, along it and away from it; its right is up by `tilt` radians.  Of another `shape` than a
-    rectangle a and b are half the width and height at theta = 0.
+    says, along it and away from it.  Of another `shape` than a rectangle a and b are half the width
+    and height at theta = 0.
     """
 
     a: float
@@ -86,8 +85,7 @@ class Scene:
     rest_speed: float
     launch: Launch
     shape: Polygon | None = None
-    tilt: float = 0.0
-    drive: Harmonics | Record | None = None
+    drive: Harmonics | None = None
 
     def polygon(self) -> Polygon:
         """The block's corners, of a rectangle from the lower left one on."""
@@ -102,9 +100,9 @@ class Scene:
         (1, 3)
         """
         if self.shape is None:
-            return tuple(one for one in (1, 3) if one in stable_faces(self.polygon(), self.tilt))
+            return tuple(one for one in (1, 3) if one in stable_faces(self.polygon()))
         heights = geometry(self.shape).heights
-        holding = stable_faces(self.shape, self.tilt)
+        holding = stable_faces(self.shape)
         least = min(heights[i] for i in holding)
         return tuple(i for i in holding if heights[i] == least)
 
@@ -113,18 +111,17 @@ class Scene:
         count how often an impact breaks a guarantee.
         """
         block = geometry(self.polygon())
-        numbers, record = np.zeros(body.EDGES), [] if self.drive is None else self.drive.numbers()
+        numbers, drive = np.zeros(body.EDGES), [] if self.drive is None else self.drive.numbers()
         edges = [
             [*corner, *direction]
             for corner, direction in zip(self.polygon().corners, block.directions)
         ]
         faces = sorted(block.turns)
-        sides = balances(self.polygon(), self.tilt)
+        sides = balances(self.polygon())
         lies = [float(below in self.lying()) for _, below in sides]
-        tail = [*np.ravel(edges), *faces, *(angle for angle, _ in sides), *lies, *record]
+        tail = [*np.ravel(edges), *faces, *(angle for angle, _ in sides), *lies, *drive]
         p = np.concatenate([numbers, tail])
-        p[body.G], p[body.DRAG] = self.g * math.cos(self.tilt), -self.g * math.sin(self.tilt)
-        p[body.RESTITUTION], p[body.FRICTION] = self.e, self.mu
+        p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
         p[body.PHASE_X], p[body.PHASE_Y] = self.phase_x, self.phase_y
         (p[body.A_X], p[body.W_X]), (p[body.A_Y], p[body.W_Y]) = self.shaken()
         p[body.GYRATION], p[body.REACH] = block.gyration, block.reach
@@ -142,7 +139,7 @@ class Scene:
         p[body.AT_FACES] = body.EDGES + 4 * len(edges)
         p[body.AT_SIDES] = p[body.AT_FACES] + len(edges)
         p[body.AT_DRIVE] = p[body.AT_SIDES] + 2 * len(sides)
-        p[body.DRIVE] = body.SINE if self.drive is None else self.drive.KIND
+        p[body.DRIVE] = body.SINE if self.drive is None else body.SINES
         return p
 
     def shaken(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -199,8 +196,7 @@ def scene(
     rest_speed: float = 1e-3,
     launch: Launch = "rest",
     shape: Polygon | Sequence[Sequence[float]] | None = None,
-    tilt: float = 0.0,
-    drive: Harmonics | Record | None = None,
+    drive: Harmonics | None = None,
 ) -> Scene:
     """A scene; SceneError, one line, for numbers that make none.  `shape`: the corners of a convex
     polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
@@ -233,7 +229,6 @@ def scene(
         "g": g,
         "tolerance": tolerance,
         "rest_speed": rest_speed,
-        "tilt": tilt,
     }
     numbers = {name: _finite(value, name) for name, value in given.items()}
     for name in ("a", "b", "g", "rest_speed"):
@@ -267,8 +262,8 @@ def scene(
 
 
 def _refuse_block(made: Scene) -> None:
-    """SceneError for friction with which the block can jam, a tolerance that is coarse beside it,
-    and a tilt at which no face holds it.
+    """SceneError for friction with which the block can jam, and for a tolerance that is coarse
+    beside it.
     """
     block = geometry(made.polygon())
     if made.mu >= block.jams:
@@ -283,8 +278,6 @@ def _refuse_block(made: Scene) -> None:
             f" {'a' if made.shape is None else 'half the shortest side'} ="
             f" {block.shortest / 2:.6g} m"
         )
-    if not stable_faces(made.polygon(), made.tilt):
-        raise SceneError(f"tilt = {made.tilt:.6g} rad: no face holds the block, which rolls on")
 
 
 def changed(setting: Scene, **numbers: float) -> Scene:
@@ -392,7 +385,7 @@ def faces_below(setting: Scene, theta: Array) -> NDArray[np.int64]:
     >>> faces_below(scene(e=0.7, mu=0.08), np.radians([0.0, 26.5, 26.6, 90.0, 180.0])).tolist()
     [0, 0, 3, 3, 2]
     """
-    sides = balances(setting.polygon(), setting.tilt)
+    sides = balances(setting.polygon())
     rest = np.mod(np.asarray(theta) + math.pi, 2 * math.pi) - math.pi
     after = np.searchsorted([angle for angle, _ in sides], rest, side="right") % len(sides)
     return np.array([edge for _, edge in sides])[after]
@@ -417,11 +410,6 @@ def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
     if not 0 <= until <= LONGEST:
         raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")
     if setting.drive is not None:
-        if until > setting.drive.lasts():
-            raise SceneError(
-                f"{name} = {until:.6g} s is after the end of the record,"
-                f" {setting.drive.lasts():g} s"
-            )
         rounded = setting.drive.rounded(until)
     else:
         turns = 2 * math.pi * setting.f_y * until + abs(setting.phase_y)

@@ -270,39 +270,32 @@ def _least_on(q: Fraction, first: Fraction, last: Fraction) -> Fraction:
 # -------------------------------------------------------------------------------------------------
 # Rest.
 #
-# On a table tilted by some angle a face holds a block where the vertical through the centre meets
-# it between its ends.  Two faces that hold are parted by a corner that has the centre above it.
+# A face holds a block where the vertical through the centre meets it between its ends.  Two faces
+# that hold are parted by a corner that has the centre above it.
 
 
-def stable_faces(shape: Polygon, tilt: float = 0.0) -> tuple[int, ...]:
-    """The edges on which a polygon can rest, on a table whose right is up by `tilt` radians, if
-    friction holds it.
+def stable_faces(shape: Polygon) -> tuple[int, ...]:
+    """Return the edges on which a polygon can rest.
 
-    >>> stable_faces(polygon([(0, 0), (1, 0), (4, 1), (3, 1)])), stable_faces(
-    ...     polygon([(0, 0), (2, 0), (2, 4), (0, 4)]), 0.5)
-    ((1, 3), (1, 3))
+    >>> stable_faces(polygon([(0, 0), (1, 0), (4, 1), (3, 1)]))
+    (1, 3)
     """
-    found, lean = geometry(shape), math.tan(tilt)
-    return tuple(
-        i
-        for i, ((left, right), height) in enumerate(zip(found.ends, found.heights))
-        if left < -height * lean < right
-    )
+    return tuple(i for i, (left, right) in enumerate(geometry(shape).ends) if left < 0 < right)
 
 
-def balances(shape: Polygon, tilt: float = 0.0) -> list[tuple[float, int]]:
+def balances(shape: Polygon) -> list[tuple[float, int]]:
     """The angles in [-pi, pi) at which a polygon, at rest, can fall either way, in order; with each
     the edge that it falls on to from below that angle.
 
     >>> [edge for _, edge in balances(polygon([(0, 0), (2, 0), (2, 4), (0, 4)]))]
     [2, 1, 0, 3]
     """
-    found, lean, holding = geometry(shape), math.tan(tilt), stable_faces(shape, tilt)
+    found, holding = geometry(shape), stable_faces(shape)
     angles = []
     for i, (x, y) in enumerate(shape.corners):
         here, before = found.ends[i][0], found.ends[i - 1][1]
-        if here < -found.heights[i] * lean and before > -found.heights[i - 1] * lean:
-            angle = math.atan2(-x, -y) - tilt
+        if here < 0 < before:
+            angle = math.atan2(-x, -y)
             angles.append(angle + 2 * math.pi if angle < -math.pi else angle)
     angles.sort()
     below = [

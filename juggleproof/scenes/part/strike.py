@@ -11,7 +11,6 @@ from juggleproof.scenes.part.body import (
     CORNER,
     CORNER_Y,
     DONE,
-    DRAG,
     EDGE_X,
     EDGE_Y,
     EDGES,
@@ -167,7 +166,7 @@ def hold(
         normal = down / (B2 + slide * p[FRICTION] * B3)
         along = -slide * p[FRICTION] * normal
     else:
-        across = omega * omega * x + table_push(p, t) - p[DRAG]
+        across = omega * omega * x + table_push(p, t)
         full = B1 * B2 - B3 * B3
         along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
     return along, normal, (x * normal - y * along) / k2

@@ -72,8 +72,8 @@ def truth(name: str) -> Fraction:
     "method, name", [(method, name) for method in CERTIFYING for name in QUICKLY.get(method, NAMES)]
 )
 def test_every_enclosure_contains_the_closed_form_holds(method: str, name: str) -> None:
-    if not METHODS[method].present():
-        pytest.skip(f"absent: {METHODS[method].package}")
+    if not METHODS[method].needs.present():
+        pytest.skip(f"absent: {METHODS[method].needs.package}")
     answer = METHODS[method].solve(questions()[name].problem(), WIDTH)
     assert answer.low <= truth(name) <= answer.high <= answer.low + WIDTH
 
@@ -124,12 +124,13 @@ def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Frac
         (problem.of_box(truth(name) - 1, truth(name) + more), True),
         (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False),
     ):
-        from juggleproof.benchmarks.peers.routes import answer_of, checks, z3
+        from juggleproof.benchmarks.classes.classes import Made
+        from juggleproof.benchmarks.classes.measuring import z3
         from juggleproof.votes.questions import read_statement
         from juggleproof.votes.smtlib import script
 
-        answer = answer_of(z3(), checks(script(read_statement(text))))
-        assert answer.word == ("holds" if holds else "fails")
+        answer = z3()(Made("", name, "", script(read_statement(text))))()
+        assert answer.word == ("unsat" if holds else "sat")
 
 
 def test_ours_rests_on_the_checker_holds(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -291,8 +292,10 @@ def test_rejects_a_run_that_measures_nothing(
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    method = dataclasses.replace(methods_ours.BLOCKS["blocks"], present=lambda: present)
-    monkeypatch.setattr(run, "BLOCKS", {"blocks": method})
+    needs = methods_ours.Needs("numba", lambda: present)
+    method = dataclasses.replace(methods_ours.BLOCKS["blocks"], needs=needs)
+    asked = run.COSTS["part"]._replace(methods={"blocks": method})
+    monkeypatch.setitem(run.COSTS, "part", asked)
     monkeypatch.setattr(
         run, "measure", lambda method, work, size, _: Measured(method.name, size, reason="gave up")
     )
@@ -393,7 +396,10 @@ def test_absent_peers_are_named_holds(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     absent: dict[str, Method] = {
-        name: dataclasses.replace(METHODS[name], present=lambda: False) for name in ("cvc5", "coq")
+        name: dataclasses.replace(
+            METHODS[name], needs=METHODS[name].needs._replace(present=lambda: False)
+        )
+        for name in ("cvc5", "coq")
     }
     monkeypatch.setattr(run, "METHODS", absent)
     run.Run(run.Wish(("p-outside-R",), (COARSE,), 1.0, False), tmp_path, lambda what: None).all()

@@ -1,5 +1,5 @@
-"""The slow reference for any convex polygon, on a tilted table that moves by harmonics or as a
-natural cubic spline through recorded places; of exact numbers, and by other ways than the scene's.
+"""The slow reference for any convex polygon, on a table that moves by harmonics; of exact numbers,
+and by other ways than the scene's.
 """
 
 from __future__ import annotations
@@ -9,8 +9,6 @@ from fractions import Fraction
 
 from mpmath import mpf
 
-from juggleproof.scenes.part import body
-from juggleproof.scenes.part.drive import Record
 from juggleproof.scenes.part.setting import Scene
 from tests.scenes.part.reference import Model, setting
 
@@ -47,22 +45,14 @@ class ShapedModel(Model):
         self.k2 = self.lift(triangles(corners)[2])
         self.ends = [(self.lift(x), self.lift(y)) for x, y in corners]
         self.rho = max(self.context.hypot(x, y) for x, y in self.ends)
-        # as the scene takes them: these are its given numbers, whatever the tilt is
-        p = block.parameters()
-        self.g, self.drag = self.lift(float(p[body.G])), self.lift(float(p[body.DRAG]))
-        self.record = block.drive if isinstance(block.drive, Record) else None
-        self.sines: tuple[Sines, Sines] = ((), ())
+        self.sines: tuple[Sines, Sines]
         if block.drive is None:
             self.sines = (
                 [(block.A_x, block.f_x, block.phase_x)],
                 [(block.A_y, block.f_y, block.phase_y)],
             )
-        elif not isinstance(block.drive, Record):
-            self.sines = (block.drive.along, block.drive.away)
         else:
-            self.splines = tuple(
-                self.spline(places) for places in (block.drive.along, block.drive.away)
-            )
+            self.sines = (block.drive.along, block.drive.away)
 
     def table(self, t: mpf) -> tuple[mpf, mpf, mpf]:
         """Height, and the speeds along and upwards."""
@@ -71,8 +61,6 @@ class ShapedModel(Model):
 
     def moved(self, axis: int, t: mpf) -> tuple[mpf, mpf]:
         """Place and speed along an axis."""
-        if self.record is not None:
-            return self.on_spline(axis, t)
         place = speed = self.context.mpf(0)
         for A, f, phase in self.sines[axis]:
             W = 2 * self.context.pi * self.lift(f)
@@ -80,52 +68,8 @@ class ShapedModel(Model):
             place, speed = place + self.lift(A) * sine, speed + self.lift(A) * W * cosine
         return place, speed
 
-    def spline(self, places: Sequence[float]) -> list[list[mpf]]:
-        """Four coefficients of each piece, from the conditions themselves: places at both ends,
-        slopes and bends that agree, and no bend at the first and the last end.
-        """
-        times = [self.lift(one) for one in self.record.times]
-        count = len(times) - 1
-        rows, right = self.context.zeros(4 * count), self.context.zeros(4 * count, 1)
-        row = 0
-        for k in range(count):
-            h = times[k + 1] - times[k]
-            for powers, value in (([1, 0, 0, 0], places[k]), ([1, h, h**2, h**3], places[k + 1])):
-                rows[row, 4 * k : 4 * k + 4] = self.context.matrix([powers])
-                right[row], row = self.lift(value), row + 1
-            if k + 1 < count:
-                for here, there in (([0, 1, 2 * h, 3 * h**2], 1), ([0, 0, 2, 6 * h], 2)):
-                    rows[row, 4 * k : 4 * k + 4] = self.context.matrix([here])
-                    rows[row, 4 * k + 4 + there] = -there
-                    row += 1
-            if k in (0, count - 1):
-                bend = [0, 0, 2, 0] if k == 0 else [0, 0, 2, 6 * h]
-                rows[row, 4 * k : 4 * k + 4] = self.context.matrix([bend])
-                row += 1
-                if count == 1:
-                    rows[row, 0:4] = self.context.matrix([[0, 0, 2, 6 * h]])
-        found = self.context.lu_solve(rows, right)
-        return [[found[4 * k + n] for n in range(4)] for k in range(count)]
-
-    def on_spline(self, axis: int, t: mpf) -> tuple[mpf, mpf]:
-        """Place and speed of the spline."""
-        times = self.record.times
-        k = max((k for k in range(len(times) - 1) if times[k] <= t), default=0)
-        c0, c1, c2, c3 = self.splines[axis][k]
-        s = t - self.lift(times[k])
-        return c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2 * c2 + s * 3 * c3)
-
     def steepest(self) -> mpf:
-        """A bound of the table's acceleration upwards: of a cubic, the larger at its ends."""
-        if self.record is not None:
-            steps = [
-                self.lift(after) - self.lift(before)
-                for before, after in zip(self.record.times, self.record.times[1:])
-            ]
-            return max(
-                max(abs(2 * c[2]), abs(2 * c[2] + 6 * c[3] * h))
-                for c, h in zip(self.splines[1], steps)
-            )
+        """A bound of the table's acceleration upwards."""
         return sum(
             (abs(self.lift(A)) * (2 * self.context.pi * self.lift(f)) ** 2)
             for A, f, _ in self.sines[1]

@@ -1,4 +1,4 @@
-"""Convex polygons, tilted tables and other drives: what follows from corners, bad corners, and
+"""Convex polygons and other drives: what follows from corners, bad corners, and
 orbits against the reference.
 """
 
@@ -14,7 +14,7 @@ import pytest
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, fresh_notes, run, scene, standing
-from juggleproof.scenes.part.drive import harmonics, record
+from juggleproof.scenes.part.drive import harmonics
 from juggleproof.scenes.part.flight import fly
 from juggleproof.scenes.part.setting import Array, Scene, changed, faces_below
 from juggleproof.scenes.part.shape import (
@@ -40,12 +40,6 @@ HEXAGON = [
     (-0.004, 0.015),
 ]
 SHAKEN = {"A_y": 2e-4, "f_y": 60.0, "A_x": 1e-3, "f_x": 30.0}
-TIMES = [0.0, 0.013, 0.02, 0.041, 0.06, 0.078, 0.1, 0.12, 0.145, 0.17, 0.2, 0.22]
-RECORDED = record(
-    TIMES,
-    [1e-3 * math.sin(70 * t) for t in TIMES],
-    [4e-4 * math.cos(90 * t) for t in TIMES],
-)
 SUMMED = harmonics([(1e-3, 30.0, 0.5)], [(2e-4, 60.0, 0.0), (-1e-4, 120.0, 1.0)])
 
 
@@ -121,8 +115,6 @@ def test_rejects_corners_that_make_no_shape(corners: list[tuple[float, ...]], me
         ({"shape": TRIANGLE, "mu": 2.0}, "mu = 2 is not below"),
         ({"shape": TRIANGLE, "tolerance": 2e-4}, "tolerance"),
         ({"shape": [(0, 0), (1e-7, 0), (0, 1e-7)]}, "a = 5e-08 m is outside"),
-        ({"tilt": 2.0}, "tilt = 2 is outside"),
-        ({"shape": [(math.cos(t), math.sin(t)) for t in range(6)], "tilt": 0.9}, "rolls on"),
         ({"drive": SUMMED, "A_x": 1e-3}, "give them or a drive"),
     ],
 )
@@ -175,8 +167,6 @@ def test_shape_jams_at_the_bound_and_not_below_it_holds() -> None:
 SCENES: dict[str, dict[str, object]] = {
     "triangle": {"shape": TRIANGLE},
     "hexagon": {"shape": HEXAGON},
-    "rectangle tilted": {"tilt": 0.1},
-    "hexagon tilted": {"shape": HEXAGON, "tilt": -0.15},
 }
 
 
@@ -186,7 +176,7 @@ def test_block_at_rest_falls_to_the_face_below_it_holds(name: str) -> None:
     to lie there.
     """
     block = scene(e=0.0, mu=0.7, A_y=0.0, **SCENES[name])
-    holding = stable_faces(block.polygon(), block.tilt)
+    holding = stable_faces(block.polygon())
     rests = 2 * math.pi * np.array(geometry(block.polygon()).turns)
     angles = np.radians(np.arange(1.0, 360.0, 10.0))
     faces = faces_below(block, angles)
@@ -212,17 +202,6 @@ def test_face_that_does_not_hold_is_left_at_once_holds() -> None:
     assert after.states[0, body.MODE] == body.FACE and after.states[0, body.CORNER] == 1
 
 
-def test_block_slides_down_a_tilted_table_where_friction_does_not_hold_holds() -> None:
-    """At g (sin - mu cos) of the tilt; and stays where it does."""
-    for mu, slides in ((0.1, True), (0.3, False)):
-        block = scene(e=0.0, mu=mu, A_y=0.0, tilt=0.2)
-        after = run(block, standing(block, [math.pi / 2]), 1.0).states[0]
-        rate = 9.81 * (math.sin(0.2) - mu * math.cos(0.2)) if slides else 0.0
-        assert after[body.X] == pytest.approx(-rate / 2, abs=1e-8)
-        assert after[body.V_X] == pytest.approx(-rate, abs=1e-8)
-        assert after[body.MODE] == body.FACE
-
-
 def test_table_of_one_harmonic_moves_as_the_sine_holds() -> None:
     given = {"e": 0.5, "mu": 0.2, "shape": TRIANGLE}
     sine = scene(**given, **SHAKEN)
@@ -244,10 +223,7 @@ UNTIL = 0.2
 ORBITS: dict[str, dict[str, object]] = {
     "triangle": {"shape": TRIANGLE, **SHAKEN},
     "hexagon": {"shape": HEXAGON, **SHAKEN},
-    "rectangle tilted": {"tilt": 0.3, **SHAKEN},
-    "hexagon tilted": {"shape": HEXAGON, "tilt": -0.2, **SHAKEN},
     "harmonics": {"shape": HEXAGON, "drive": SUMMED},
-    "record": {"shape": TRIANGLE, "drive": RECORDED},
 }
 STARTS = ((0.7, 0.08, 0.4, 0.0), (0.8, 0.5, 2.0, 30.0), (0.6, 0.3, -1.3, -8.0))
 
@@ -294,7 +270,7 @@ def test_orbit_is_that_of_the_reference_holds(name: str) -> None:
     assert compared >= 8
 
 
-def test_changed_scene_keeps_shape_tilt_and_drive_holds() -> None:
-    block = scene(e=0.5, mu=0.2, shape=HEXAGON, tilt=0.1, drive=SUMMED)
+def test_changed_scene_keeps_shape_and_drive_holds() -> None:
+    block = scene(e=0.5, mu=0.2, shape=HEXAGON, drive=SUMMED)
     assert changed(block, e=0.6).polygon() == block.polygon()
     assert changed(block, e=0.5) == block
