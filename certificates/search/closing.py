@@ -15,12 +15,10 @@ from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import close_in_one_variable
-from juggleproof.certificates.search.psatz.by_monomials import search_by_monomials
 from juggleproof.certificates.search.psatz.by_parameter import search_by_parameter
 from juggleproof.certificates.search.psatz.candidates import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
-    DEEP,
     FIRST,
     QUICK,
     SQUARES,
@@ -57,8 +55,7 @@ FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought a
 MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 LONG = 12  # terms of a node, beyond which a shorter one is looked for
 BY_PARAMETER = 25_000  # units of work for that
-BY_MONOMIALS = 25_000  # the same, for products along monomials
-FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
+FORMS = 8000  # units of work for quadratic forms
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 MOST_KEPT = 1000  # facts
@@ -254,11 +251,9 @@ class Closing:
             node = (
                 close_over_box(inside, FEW_BOXES, self.budget)
                 or self.usual(problem, False)
-                or (None if depth else self.forms(inside, False))
-                or (None if depth or self.effort == 1 else self.by_monomials(problem))
+                or (None if depth else self.forms(inside))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
-                or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
 
@@ -272,25 +267,18 @@ class Closing:
             return node
         return few if node is None or few and len(str(few)) < len(str(node)) else node
 
-    def by_monomials(self, problem: Problem) -> Node | None:
-        """Products of bounds along the monomials of the goal, with little work."""
-        try:
-            return search_by_monomials(problem, self.budget.part(BY_MONOMIALS))
-        except Exhausted:
-            return None
-
-    def forms(self, state: State, coupled: bool) -> Node | None:
-        """Quadratic forms with parameters in a box, with little work where not `coupled`."""
-        part = self.budget.part(FORMS_LAST if coupled else FORMS_FIRST)
+    def forms(self, state: State) -> Node | None:
+        """Quadratic forms with parameters in a box, with little work."""
+        part = self.budget.part(FORMS)
         facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
-        key = (*state.context.index, *facts, coupled, part.left)
+        key = (*state.context.index, *facts, part.left)
         problem = self.problem(state)
         if key in _no_forms:  # the same facts come back at greater effort
             self.budget.spend(_no_forms[key])
             return None
         before, node = part.left, None
         try:
-            node = search_forms(state, problem.ring, part, coupled)
+            node = search_forms(state, problem.ring, part)
         except Exhausted:
             pass
         if node is None:
@@ -373,8 +361,6 @@ class Closing:
             node = search_orthant(problem, MANY, self.budget)
         if node is None and self.effort > 1 and depth < DEPTH:
             node = self.split(state, problem, depth)
-        if node is None and self.effort > 1 and depth == 0:
-            node = search(problem, DEEP, self.budget)
         return under(lemmas, node)
 
     def lemma(self, state: State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, State]:

@@ -94,7 +94,7 @@ def cover(
             point = (
                 _failing_point(task, normal, state, condition, choice) if task.effort > 1 else None
             )
-            values = confirmed(task, normal, state, choice, keys, samples) if not point else None
+            values = confirmed(task, normal, state, choice, keys) if not point else None
             if values is not None:
                 return values
             failing += [point] if point and point not in [*samples, *failing] else []

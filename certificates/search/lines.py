@@ -311,7 +311,7 @@ class LineCover:
             for choice in choices:
                 try:
                     less = replace(task, budget=task.budget.part(part))
-                    values = confirmed(less, self.normal, state, choice, self.keys, self.samples)
+                    values = confirmed(less, self.normal, state, choice, self.keys)
                 except Exhausted:
                     if task.budget.left <= 0:
                         raise

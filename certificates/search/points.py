@@ -18,17 +18,12 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.hints.isolated import isolated_points
-from juggleproof.certificates.search.hints.models import (
-    approximate_points,
-    model_assignments,
-    whole_models,
-)
+from juggleproof.certificates.search.hints.models import model_assignments, whole_models
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
-from juggleproof.certificates.search.triangular import DIGITS, Towers, values_of_tower
 from juggleproof.certificates.search.witness_terms import Known, Task
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget, Exhausted, unfolded
+from juggleproof.certificates.work import Budget, unfolded
 
 # For each effort: rounds of (values tried for a variable, values kept for the last one,
 # substitutions in all, irrational ones too).
@@ -79,68 +74,8 @@ def search_values(
         if exists and purpose == "counterexample"
         else None
     )
-    if (
-        exists
-        or purpose == "witness"
-        or unfolding.integers
-        or sharp
-        or not effort
-        or not any(r == "=" for _, r in condition.facts())
-    ):
-        return _sampled(
-            statement,
-            state,
-            condition,
-            goal,
-            names,
-            frozenset(unfolding.integers),
-            purpose,
-            known,
-            budget,
-            sharp,
-            effort,
-            roles,
-        )
-    try:
-        part = budget.part(budget.left * 6 // 10)
-        values = _sampled(
-            statement,
-            state,
-            condition,
-            goal,
-            names,
-            frozenset(),
-            purpose,
-            known,
-            part,
-            sharp,
-            effort,
-            roles,
-        )
-    except Exhausted:
-        values = None
-    return values or _by_towers(
-        statement, state, condition, names, purpose, known, budget, effort, roles
-    )
-
-
-def _sampled(
-    statement: checker.Statement,
-    state: State,
-    condition: Condition,
-    goal: Condition | None,
-    names: Sequence[str],
-    integers: frozenset[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
-    roles: Roles,
-) -> Values | None:
-    """A point from samples and models, with one irrational number at most."""
-    failures = 0
-    many = goal is not None
+    many, failures = goal is not None, 0
+    integers = frozenset(unfolding.integers)
     for assignment in assignments(condition, names, integers, budget, effort, many, roles):
         if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
@@ -153,31 +88,6 @@ def _sampled(
             failures += 5
         if failures >= 30 * (effort + 1):
             break
-    return None
-
-
-def _by_towers(
-    statement: checker.Statement,
-    state: State,
-    condition: Condition,
-    names: Sequence[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    effort: int,
-    roles: Roles,
-) -> Values | None:
-    """A point with several irrational values, guided by points in floats."""
-    for guide in approximate_points(condition, names, budget):
-        failures = 0
-        for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
-            for digits in DIGITS:
-                values = values_of_tower(statement, state, tower, purpose, known, budget, digits)
-                if values is not None and state.is_served_by(values, known, purpose, statement):
-                    return values
-            failures += 1
-            if failures >= 2 * effort:
-                break
     return None
 
 
