@@ -55,8 +55,8 @@ def search_values(
     """
     unfolding = unfolded(statement, sharp)
     roles = with_scales(roles, unfolding)
+    task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
     if base:
-        task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
         return _terms_on_state(task, state)
     exists = bool(statement.get("exists"))
     parts = list(unfolding.premises)
@@ -80,9 +80,7 @@ def search_values(
         if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
-            values = values_of_assignment(
-                statement, state, assignment, names, purpose, known, budget, sharp, effort
-            )
+            values = values_of_assignment(task, state, assignment, names)
             if values is not None:
                 return values
             failures += 5
@@ -163,48 +161,41 @@ def disjunctions(condition: Condition) -> int:
 
 
 def values_of_assignment(
-    statement: checker.Statement,
-    state: State,
-    assignment: Assignment,
-    names: Sequence[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
+    task: Task, state: State, assignment: Assignment, names: Sequence[str]
 ) -> Values | None:
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
     does not serve.
     """
-    nodes: list[Node] = [("close",)] * (2 if purpose == "counterexample" else 1)
+    nodes: list[Node] = [("close",)] * (2 if task.purpose == "counterexample" else 1)
     if assignment.number is None:
         terms = {name: str(fraction(assignment.values[name][0])) for name in names}
-        if purpose == "counterexample" and statement.get("exists"):
-            node = _goal_node(statement, state, terms, known, budget, sharp, effort)
+        if task.purpose == "counterexample" and task.statement.get("exists"):
+            own, unfolding = _unfolding(task, state, [], terms)
+            aim = own.branch(unfolding.goal(True), unfolding.context)
+            node = search_closing(aim, task.known, task.budget, min(task.effort, 1))
             if node is None:
                 return None
             nodes[1] = node
-        values = values_at(statement.name, [], terms, nodes)
-        return (
-            values if state.is_served_by(values, known, purpose, statement, sharp=sharp) else None
-        )
+        return _served(task, state, values_at(task.statement.name, [], terms, nodes))
     for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
-        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", statement))
+        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", task.statement))
         terms = {name: adjoined.text(assignment.values[name]) for name in names}
-        closed = _nodes_at_number(statement, state, terms, adjoined, sharp, purpose)
+        closed = _nodes_at_number(task, state, terms, adjoined)
         if closed is not None:
-            values = values_at(statement.name, [adjoined.entry()], terms, closed)
-            if state.is_served_by(values, known, purpose, statement, sharp=sharp):
+            values = values_at(task.statement.name, [adjoined.entry()], terms, closed)
+            if _served(task, state, values):
                 return values
     return None
 
 
+def _served(task: Task, state: State, values: Values) -> Values | None:
+    """The values, where the checker accepts them."""
+    ok = state.is_served_by(values, task.known, task.purpose, task.statement, sharp=task.sharp)
+    return values if ok else None
+
+
 def _unfolding(
-    statement: checker.Statement,
-    state: State,
-    adjoined: Sequence[Adjoined],
-    terms: Mapping[str, str],
-    sharp: list[ast.expr] | None,
+    task: Task, state: State, adjoined: Sequence[Adjoined], terms: Mapping[str, str]
 ) -> tuple[State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of values without
     a base.
@@ -213,45 +204,19 @@ def _unfolding(
     for name, text, low, high, _, _ in adjoined:
         state.adjoin(name, text, low, high)
     values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
-    return state, checker.Unfolding(statement, checker.Context(state.context, values), sharp)
-
-
-def _goal_node(
-    statement: checker.Statement,
-    state: State,
-    terms: Mapping[str, str],
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
-) -> Node | None:
-    state, unfolding = _unfolding(statement, state, [], terms, sharp)
-    return search_closing(
-        state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
-    )
+    context = checker.Context(state.context, values)
+    return state, checker.Unfolding(task.statement, context, task.sharp)
 
 
 def _nodes_at_number(
-    statement: checker.Statement,
-    state: State,
-    terms: Mapping[str, str],
-    adjoined: AdjoinedNumber,
-    sharp: list[ast.expr] | None,
-    purpose: str,
+    task: Task, state: State, terms: Mapping[str, str], adjoined: AdjoinedNumber
 ) -> list[Node] | None:
     """The nodes of values at an adjoined number; None where one is missing."""
     try:
-        state, unfolding = _unfolding(statement, state, [adjoined.entry()], terms, sharp)
-        branches = [
-            state.branch(
-                checker.negate(
-                    checker.join(
-                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
-                    )
-                )
-            )
-        ]
-        if purpose == "counterexample":
+        state, unfolding = _unfolding(task, state, [adjoined.entry()], terms)
+        assumed = unfolding.goals if task.purpose == "witness" else unfolding.premises
+        branches = [state.branch(checker.negate(checker.join("and", assumed)))]
+        if task.purpose == "counterexample":
             branches.append(state.branch(unfolding.goal(True), unfolding.context))
         nodes: list[Node] = []
         for branch in branches:

@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.certificate import point_or_counterexample, search_proof
 from juggleproof.certificates.search.points import assignments, values_of_assignment
+from juggleproof.certificates.search.witness_terms import Task
 from juggleproof.certificates.states import State
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
@@ -255,17 +256,8 @@ def refuted_there(
     for effort in (0, 1):
         some = assignments(condition, names, integers, budget, effort, roles=roles)
         for assignment in islice(some, 8):
-            refutation = values_of_assignment(
-                plain,
-                State(checker.Context()),
-                assignment,
-                names,
-                "counterexample",
-                {},
-                budget,
-                None,
-                1,
-            )
+            task = Task(plain, "counterexample", {}, {}, budget, effort=1)
+            refutation = values_of_assignment(task, State(checker.Context()), assignment, names)
             if refutation is not None:
                 return refutation
     return None
