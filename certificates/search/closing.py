@@ -15,6 +15,7 @@ from juggleproof.certificates.search.boxes.squares import close_by_bounds
 from juggleproof.certificates.search.by_variables import close_by_variables
 from juggleproof.certificates.search.hints.clauses import search_by_conflicts
 from juggleproof.certificates.search.one_variable import close_in_one_variable
+from juggleproof.certificates.search.psatz.by_monomials import search_by_monomials
 from juggleproof.certificates.search.psatz.by_parameter import search_by_parameter
 from juggleproof.certificates.search.psatz.candidates import Pool
 from juggleproof.certificates.search.psatz.forms import search_forms
@@ -55,6 +56,7 @@ FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought a
 MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 LONG = 12  # terms of a node, beyond which a shorter one is looked for
 BY_PARAMETER = 25_000  # units of work for that
+BY_MONOMIALS = 25_000  # the same, for products along monomials
 FORMS = 8000  # units of work for quadratic forms
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -252,6 +254,7 @@ class Closing:
                 close_over_box(inside, FEW_BOXES, self.budget)
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside))
+                or (None if depth or self.effort == 1 else self.by_monomials(problem))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
             )
@@ -266,6 +269,13 @@ class Closing:
         except Exhausted:
             return node
         return few if node is None or few and len(str(few)) < len(str(node)) else node
+
+    def by_monomials(self, problem: Problem) -> Node | None:
+        """Products of bounds along the monomials of the goal, with little work."""
+        try:
+            return search_by_monomials(problem, self.budget.part(BY_MONOMIALS))
+        except Exhausted:
+            return None
 
     def forms(self, state: State) -> Node | None:
         """Quadratic forms with parameters in a box, with little work."""

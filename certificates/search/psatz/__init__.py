@@ -11,6 +11,7 @@ Annalen 207 (1974).  The files, each after those that it imports:
 - `problem`: the facts of one leaf, ready for a search; whether floats see a point that meets them
 - `lifting`: identities between them as nodes over the facts of the state
 - `linear`: products of facts, by a linear program
+- `by_monomials`: products of bounds along the monomials of a fact, by a linear program
 - `orthant`: facts times monomials, in coordinates that the facts make nonnegative
 - `sums_of_squares`: facts times sums of squares, by a semidefinite program
 - `parameters`: which variables of a goal are parameters, and products of their bounds
