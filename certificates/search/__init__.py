@@ -22,6 +22,7 @@ The files and folders, each after those that it imports:
 - `ranges`: sets of one parameter, and verdicts along it
 - `lines`: terms over one parameter, piece by piece
 - `families`: terms on all of a state, split by signs; conditions solved for a parameter
+- `triangular`: points by equations, each root over the ones before it
 - `points`: points, counterexamples and witnesses, as the checker's `finds` takes them
 - `certificate`: the certificate of a statement for all reals or of existence, and of map rules:
   `universal`, `iterates`, `map`, `relation`, `descends`, `contracts`, `lyapunov`, `attracts`,

@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, ring_of
@@ -18,12 +19,17 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.hints.isolated import isolated_points
-from juggleproof.certificates.search.hints.models import model_assignments, whole_models
+from juggleproof.certificates.search.hints.models import (
+    approximate_points,
+    model_assignments,
+    whole_models,
+)
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
+from juggleproof.certificates.search.triangular import DIGITS, Towers, values_of_tower
 from juggleproof.certificates.search.witness_terms import Known, Task
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget, unfolded
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 # For each effort: rounds of (values tried for a variable, values kept for the last one,
 # substitutions in all, irrational ones too).
@@ -74,9 +80,35 @@ def search_values(
         if exists and purpose == "counterexample"
         else None
     )
-    many, failures = goal is not None, 0
     integers = frozenset(unfolding.integers)
-    for assignment in assignments(condition, names, integers, budget, effort, many, roles):
+    if (
+        exists
+        or purpose == "witness"
+        or integers
+        or sharp
+        or not effort
+        or not any(r == "=" for _, r in condition.facts())
+    ):
+        return _sampled(task, state, condition, goal, names, integers)
+    try:
+        less = replace(task, budget=budget.part(budget.left * 6 // 10))
+        values = _sampled(less, state, condition, goal, names, integers)
+    except Exhausted:
+        values = None
+    return values or _by_towers(task, state, condition, names)
+
+
+def _sampled(
+    task: Task,
+    state: State,
+    condition: Condition,
+    goal: Condition | None,
+    names: Sequence[str],
+    integers: frozenset[str],
+) -> Values | None:
+    """A point from samples and models, with one irrational number at most."""
+    failures, many, budget, roles = 0, goal is not None, task.budget, task.roles
+    for assignment in assignments(condition, names, integers, budget, task.effort, many, roles):
         if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
@@ -84,8 +116,22 @@ def search_values(
             if values is not None:
                 return values
             failures += 5
-        if failures >= 30 * (effort + 1):
+        if failures >= 30 * (task.effort + 1):
             break
+    return None
+
+
+def _by_towers(
+    task: Task, state: State, condition: Condition, names: Sequence[str]
+) -> Values | None:
+    """A point with several irrational values, guided by points in floats."""
+    for guide in approximate_points(condition, names, task.budget):
+        search = Towers(task.budget, names, guide, 60 * task.effort, 1, task.roles)
+        for tower in islice(search.search(condition), 2 * task.effort):
+            for digits in DIGITS:
+                values = values_of_tower(task, state, tower, digits)
+                if values is not None and _served(task, state, values):
+                    return values
     return None
 
 
