@@ -9,6 +9,7 @@ from fractions import Fraction
 from flint import fmpq_poly, fmpz_poly
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import HOLDS
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
     fraction,
@@ -16,7 +17,7 @@ from juggleproof.certificates.algebra.numbers import (
     tree_below_zero,
 )
 from juggleproof.certificates.nodes import Adjoined, Node
-from juggleproof.certificates.search.one_variable import HOLDS, dense_poly, dense_text
+from juggleproof.certificates.search.one_variable import dense_poly, dense_text
 from juggleproof.certificates.states import State
 
 

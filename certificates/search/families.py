@@ -24,7 +24,7 @@ from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.hints.asking import ask
 from juggleproof.certificates.search.lines import LineCover
-from juggleproof.certificates.search.ranges import QUICK
+from juggleproof.certificates.search.ranges import MIRRORED, QUICK
 from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
@@ -192,7 +192,6 @@ def _shortest(choices: Sequence[Choice]) -> list[Choice]:
 # certificates that the checker accepts.
 
 WORK = 200_000  # units for the sign of one slope
-TURNED = {">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -> str | None:
@@ -273,14 +272,13 @@ def _interval(
     ]
     if exact:
         return exact[0] if len(bounds) == 1 else None
-    low = next(
-        (f"{text} {TURNED[relation]} " for relation, text in bounds.items() if relation[0] == ">"),
-        f"{ends[0][0]} {ends[0][1]} " if ends[0] else "",
-    )
-    high = next(
-        (f" {relation} {text}" for relation, text in bounds.items() if relation[0] == "<"),
-        f" {ends[1][1]} {ends[1][0]}" if ends[1] else "",
-    )
+    low = f"{ends[0][0]} {ends[0][1]} " if ends[0] else ""
+    high = f" {ends[1][1]} {ends[1][0]}" if ends[1] else ""
+    for relation, text in bounds.items():
+        if relation[0] == ">":
+            low = f"{text} {MIRRORED[relation]} "
+        else:
+            high = f" {relation} {text}"
     return low + parameter + high
 
 
@@ -299,7 +297,7 @@ def _bound(
     top, bottom = (value.top, value.bottom) if up else (-value.top, -value.bottom)
     scale = lcm(*(int(c.q) for part in (top, bottom) for c in part.coeffs()))
     above, below = (term_of(part * scale) for part in (top, bottom))
-    return relation if rising else TURNED[relation], (
+    return relation if rising else MIRRORED[relation], (
         str(above) if str(below) == "1" else str(above / below)
     )
 

@@ -14,6 +14,7 @@ from juggleproof.certificates.algebra.conditions import Condition, candidate_num
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
     exact,
+    polynomial_text,
     real_roots,
     simplest_between,
     with_one_change,
@@ -246,11 +247,7 @@ def _cut(
         # A rational inside an open cell on which all statements hold.
         k = opened[len(opened) // 2]
         value = simplest_between(line.numbers[k // 2 - 1]._high, line.numbers[k // 2]._low)
-        text = (
-            f"{int(value.q)}*{parameter} - {int(value.p)}"
-            if value.q != 1
-            else f"{parameter} - {int(value.p)}"
-        )
+        text = polynomial_text([-int(value.p), int(value.q)], parameter)
         return text, [{i for i in cells if i < k}, set(), {i for i in cells if i > k}]
     changes = [k for k in failing if k % 2 and failing[0] < k < failing[-1]] or gaps
     if not changes:
