@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import total_ordering
 from math import comb, floor, lcm, prod
+from typing import TypeVar
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
 
 # -------------------------------------------------------------------------------------------------
 # Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and
@@ -30,6 +31,31 @@ def exact(value: int | Fraction) -> fmpq:
 def sign(value: fmpq) -> int:
     """-1, 0 or 1."""
     return 0 if not value else 1 if value > 0 else -1
+
+
+Entry = TypeVar("Entry", fmpq_poly, fmpq_mpoly)
+
+
+def determinant(rows: Sequence[Sequence[Entry]], one: Entry) -> Entry:
+    """The determinant of a small matrix, along its first row.
+
+    >>> x = fmpq_poly([0, 1])
+    >>> determinant([[x, x**0], [x**0, x]], x**0)
+    x^2 + (-1)
+    """
+    if not rows:
+        return one
+    total = one * 0
+    first, *rest = rows
+    for k, entry in enumerate(first):
+        if entry:
+            total += entry * determinant([without(row, k) for row in rest], one) * (-1) ** k
+    return total
+
+
+def without(row: Sequence[Entry], k: int) -> list[Entry]:
+    """The row without its k-th entry."""
+    return [*row[:k], *row[k + 1 :]]
 
 
 @total_ordering

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from flint import fmpq_poly, fmpz_poly
 
+from juggleproof.algebra.conditions import HOLDS
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     fraction,
@@ -15,7 +16,7 @@ from juggleproof.algebra.numbers import (
     tree_below_zero,
 )
 from juggleproof.certificates import checker
-from juggleproof.search.one_variable import HOLDS, dense_poly, dense_text
+from juggleproof.search.one_variable import dense_poly, dense_text
 from juggleproof.statements.nodes import Adjoined, Node
 from juggleproof.statements.states import State
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from juggleproof.algebra.conditions import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.closing import SQUARED, Hints, search_closing
 from juggleproof.search.first.linear_system import search_linear
@@ -290,15 +291,6 @@ def search_proof(
     return None
 
 
-# The signs of p, of -1, 0 and 1, with which p relation 0 holds.
-HOLDS = {
-    ">": (False, False, True),
-    ">=": (False, True, True),
-    "=": (False, True, False),
-    "!=": (True, False, True),
-}
-
-
 def lemma_atoms(context: checker.Context, text: str) -> list[checker.Atom]:
     """The atoms of a lemma, which are about the variables, and what is named, of a statement."""
     atoms: list[checker.Atom] = []
@@ -323,7 +315,7 @@ def search_by_lemmas(
         return close(state)
     (_, poly, relation), *others = lemmas
     text = state.context.show(poly)
-    cases = [*zip(HOLDS[relation], state.by_sign(text))]
+    cases = [(HOLDS[relation](k - 1), case) for k, case in enumerate(state.by_sign(text))]
     nodes: dict[int, Node] = {}
     for k in sorted(range(3), key=lambda k: cases[k][0]):
         holds, case = cases[k]

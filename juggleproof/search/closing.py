@@ -19,7 +19,6 @@ from juggleproof.search.psatz.by_parameter import search_by_parameter
 from juggleproof.search.psatz.candidates import Pool
 from juggleproof.search.psatz.forms import search_forms
 from juggleproof.search.psatz.linear import (
-    DEEP,
     FIRST,
     QUICK,
     SQUARES,
@@ -58,7 +57,7 @@ MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
 LONG = 12  # terms of a node, beyond which a shorter one is looked for
 BY_PARAMETER = 25_000  # units of work for that
 BY_MONOMIALS = 25_000  # the same, for products along monomials
-FORMS_FIRST, FORMS_LAST = 8000, 25_000  # units of work for quadratic forms, before signs and after
+FORMS = 8000  # units of work for quadratic forms
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 MOST_KEPT = 1000  # facts
@@ -254,11 +253,10 @@ class Closing:
             node = (
                 close_over_box(inside, FEW_BOXES, self.budget)
                 or self.usual(problem, False)
-                or (None if depth else self.forms(inside, False))
+                or (None if depth else self.forms(inside))
                 or (None if depth or self.effort == 1 else self.by_monomials(problem))
                 or self.with_lemmas(inside, problem, depth)
                 or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
-                or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
 
@@ -279,18 +277,18 @@ class Closing:
         except Exhausted:
             return None
 
-    def forms(self, state: State, coupled: bool) -> Node | None:
-        """Quadratic forms with parameters in a box, with little work where not `coupled`."""
-        part = self.budget.part(FORMS_LAST if coupled else FORMS_FIRST)
+    def forms(self, state: State) -> Node | None:
+        """Quadratic forms with parameters in a box, with little work."""
+        part = self.budget.part(FORMS)
         facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
-        key = (*state.context.index, *facts, coupled, part.left)
+        key = (*state.context.index, *facts, part.left)
         problem = self.problem(state)
         if key in _no_forms:  # the same facts come back at greater effort
             self.budget.spend(_no_forms[key])
             return None
         before, node = part.left, None
         try:
-            node = search_forms(state, problem.ring, part, coupled)
+            node = search_forms(state, problem.ring, part)
         except Exhausted:
             pass
         if node is None:
@@ -373,8 +371,6 @@ class Closing:
             node = search_orthant(problem, MANY, self.budget)
         if node is None and self.effort > 1 and depth < DEPTH:
             node = self.split(state, problem, depth)
-        if node is None and self.effort > 1 and depth == 0:
-            node = search(problem, DEEP, self.budget)
         return under(lemmas, node)
 
     def lemma(self, state: State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, State]:

@@ -22,7 +22,7 @@ from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
 from juggleproof.search.hints.asking import ask
 from juggleproof.search.lines import LineCover
-from juggleproof.search.ranges import QUICK
+from juggleproof.search.ranges import MIRRORED, QUICK
 from juggleproof.search.samples import state_condition
 from juggleproof.search.scales import Normal
 from juggleproof.search.templates import TemplateSearch
@@ -94,7 +94,7 @@ def cover(
             point = (
                 _failing_point(task, normal, state, condition, choice) if task.effort > 1 else None
             )
-            values = confirmed(task, normal, state, choice, keys, samples) if not point else None
+            values = confirmed(task, normal, state, choice, keys) if not point else None
             if values is not None:
                 return values
             failing += [point] if point and point not in [*samples, *failing] else []
@@ -192,7 +192,6 @@ def _shortest(choices: Sequence[Choice]) -> list[Choice]:
 # certificates that the checker accepts.
 
 WORK = 200_000  # units for the sign of one slope
-TURNED = {">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -> str | None:
@@ -273,14 +272,13 @@ def _interval(
     ]
     if exact:
         return exact[0] if len(bounds) == 1 else None
-    low = next(
-        (f"{text} {TURNED[relation]} " for relation, text in bounds.items() if relation[0] == ">"),
-        f"{ends[0][0]} {ends[0][1]} " if ends[0] else "",
-    )
-    high = next(
-        (f" {relation} {text}" for relation, text in bounds.items() if relation[0] == "<"),
-        f" {ends[1][1]} {ends[1][0]}" if ends[1] else "",
-    )
+    low = f"{ends[0][0]} {ends[0][1]} " if ends[0] else ""
+    high = f" {ends[1][1]} {ends[1][0]}" if ends[1] else ""
+    for relation, text in bounds.items():
+        if relation[0] == ">":
+            low = f"{text} {MIRRORED[relation]} "
+        else:
+            high = f" {relation} {text}"
     return low + parameter + high
 
 
@@ -299,7 +297,7 @@ def _bound(
     top, bottom = (value.top, value.bottom) if up else (-value.top, -value.bottom)
     scale = lcm(*(int(c.q) for part in (top, bottom) for c in part.coeffs()))
     above, below = (term_of(part * scale) for part in (top, bottom))
-    return relation if rising else TURNED[relation], (
+    return relation if rising else MIRRORED[relation], (
         str(above) if str(below) == "1" else str(above / below)
     )
 

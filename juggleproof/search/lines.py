@@ -49,14 +49,7 @@ from juggleproof.statements.work import Exhausted
 
 def linear_text(value: fmpq, parameter: str) -> str:
     """A polynomial of degree 1 that rises through 0 at a rational."""
-    lead = parameter if value.q == 1 else f"{int(value.q)}*{parameter}"
-    return (
-        lead
-        if value == 0
-        else f"{lead} - {int(value.p)}"
-        if value > 0
-        else f"{lead} + {-int(value.p)}"
-    )
+    return polynomial_text([-int(value.p), int(value.q)], parameter)
 
 
 def cut_between(left: Interval, right: Interval, parameter: str) -> tuple[str, int | None] | None:
@@ -311,7 +304,7 @@ class LineCover:
             for choice in choices:
                 try:
                     less = replace(task, budget=task.budget.part(part))
-                    values = confirmed(less, self.normal, state, choice, self.keys, self.samples)
+                    values = confirmed(less, self.normal, state, choice, self.keys)
                 except Exhausted:
                     if task.budget.left <= 0:
                         raise

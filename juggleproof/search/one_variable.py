@@ -16,6 +16,7 @@ from math import comb
 
 from flint import fmpq, fmpq_poly
 
+from juggleproof.algebra.conditions import HOLDS
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     bernstein,
@@ -327,15 +328,6 @@ class Line:
             for value, size, pairs in zip(values, sizes, powers)
             if value
         ]
-
-
-# the relation between the sign of a polynomial and 0
-HOLDS: dict[str, Callable[[int], bool]] = {
-    ">": lambda sign: sign > 0,
-    ">=": lambda sign: sign >= 0,
-    "=": lambda sign: sign == 0,
-    "!=": lambda sign: sign != 0,
-}
 
 
 def _after(end: End | None, root: AlgebraicNumber, root_only: bool = True) -> bool:

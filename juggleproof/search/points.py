@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from juggleproof.algebra.conditions import Condition, ring_of
 from juggleproof.algebra.numbers import fraction
@@ -60,8 +61,8 @@ def search_values(
     """
     unfolding = unfolded(statement, sharp)
     roles = with_scales(roles, unfolding)
+    task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
     if base:
-        task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
         return _terms_on_state(task, state)
     exists = bool(statement.get("exists"))
     parts = list(unfolding.premises)
@@ -79,105 +80,58 @@ def search_values(
         if exists and purpose == "counterexample"
         else None
     )
+    integers = frozenset(unfolding.integers)
     if (
         exists
         or purpose == "witness"
-        or unfolding.integers
+        or integers
         or sharp
         or not effort
         or not any(r == "=" for _, r in condition.facts())
     ):
-        return _sampled(
-            statement,
-            state,
-            condition,
-            goal,
-            names,
-            frozenset(unfolding.integers),
-            purpose,
-            known,
-            budget,
-            sharp,
-            effort,
-            roles,
-        )
+        return _sampled(task, state, condition, goal, names, integers)
     try:
-        part = budget.part(budget.left * 6 // 10)
-        values = _sampled(
-            statement,
-            state,
-            condition,
-            goal,
-            names,
-            frozenset(),
-            purpose,
-            known,
-            part,
-            sharp,
-            effort,
-            roles,
-        )
+        less = replace(task, budget=budget.part(budget.left * 6 // 10))
+        values = _sampled(less, state, condition, goal, names, integers)
     except Exhausted:
         values = None
-    return values or _by_towers(
-        statement, state, condition, names, purpose, known, budget, effort, roles
-    )
+    return values or _by_towers(task, state, condition, names)
 
 
 def _sampled(
-    statement: checker.Statement,
+    task: Task,
     state: State,
     condition: Condition,
     goal: Condition | None,
     names: Sequence[str],
     integers: frozenset[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
-    roles: Roles,
 ) -> Values | None:
     """A point from samples and models, with one irrational number at most."""
-    failures = 0
-    many = goal is not None
-    for assignment in assignments(condition, names, integers, budget, effort, many, roles):
+    failures, many, budget, roles = 0, goal is not None, task.budget, task.roles
+    for assignment in assignments(condition, names, integers, budget, task.effort, many, roles):
         if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
-            values = values_of_assignment(
-                statement, state, assignment, names, purpose, known, budget, sharp, effort
-            )
+            values = values_of_assignment(task, state, assignment, names)
             if values is not None:
                 return values
             failures += 5
-        if failures >= 30 * (effort + 1):
+        if failures >= 30 * (task.effort + 1):
             break
     return None
 
 
 def _by_towers(
-    statement: checker.Statement,
-    state: State,
-    condition: Condition,
-    names: Sequence[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    effort: int,
-    roles: Roles,
+    task: Task, state: State, condition: Condition, names: Sequence[str]
 ) -> Values | None:
     """A point with several irrational values, guided by points in floats."""
-    for guide in approximate_points(condition, names, budget):
-        failures = 0
-        for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
+    for guide in approximate_points(condition, names, task.budget):
+        search = Towers(task.budget, names, guide, 60 * task.effort, 1, task.roles)
+        for tower in islice(search.search(condition), 2 * task.effort):
             for digits in DIGITS:
-                values = values_of_tower(statement, state, tower, purpose, known, budget, digits)
-                if values is not None and state.is_served_by(values, known, purpose, statement):
+                values = values_of_tower(task, state, tower, digits)
+                if values is not None and _served(task, state, values):
                     return values
-            failures += 1
-            if failures >= 2 * effort:
-                break
     return None
 
 
@@ -253,48 +207,41 @@ def disjunctions(condition: Condition) -> int:
 
 
 def values_of_assignment(
-    statement: checker.Statement,
-    state: State,
-    assignment: Assignment,
-    names: Sequence[str],
-    purpose: str,
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
+    task: Task, state: State, assignment: Assignment, names: Sequence[str]
 ) -> Values | None:
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
     does not serve.
     """
-    nodes: list[Node] = [("close",)] * (2 if purpose == "counterexample" else 1)
+    nodes: list[Node] = [("close",)] * (2 if task.purpose == "counterexample" else 1)
     if assignment.number is None:
         terms = {name: str(fraction(assignment.values[name][0])) for name in names}
-        if purpose == "counterexample" and statement.get("exists"):
-            node = _goal_node(statement, state, terms, known, budget, sharp, effort)
+        if task.purpose == "counterexample" and task.statement.get("exists"):
+            own, unfolding = _unfolding(task, state, [], terms)
+            aim = own.branch(unfolding.goal(True), unfolding.context)
+            node = search_closing(aim, task.known, task.budget, min(task.effort, 1))
             if node is None:
                 return None
             nodes[1] = node
-        values = values_at(statement.name, [], terms, nodes)
-        return (
-            values if state.is_served_by(values, known, purpose, statement, sharp=sharp) else None
-        )
+        return _served(task, state, values_at(task.statement.name, [], terms, nodes))
     for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
-        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", statement))
+        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", task.statement))
         terms = {name: adjoined.text(assignment.values[name]) for name in names}
-        closed = _nodes_at_number(statement, state, terms, adjoined, sharp, purpose)
+        closed = _nodes_at_number(task, state, terms, adjoined)
         if closed is not None:
-            values = values_at(statement.name, [adjoined.entry()], terms, closed)
-            if state.is_served_by(values, known, purpose, statement, sharp=sharp):
+            values = values_at(task.statement.name, [adjoined.entry()], terms, closed)
+            if _served(task, state, values):
                 return values
     return None
 
 
+def _served(task: Task, state: State, values: Values) -> Values | None:
+    """The values, where the checker accepts them."""
+    ok = state.is_served_by(values, task.known, task.purpose, task.statement, sharp=task.sharp)
+    return values if ok else None
+
+
 def _unfolding(
-    statement: checker.Statement,
-    state: State,
-    adjoined: Sequence[Adjoined],
-    terms: Mapping[str, str],
-    sharp: list[ast.expr] | None,
+    task: Task, state: State, adjoined: Sequence[Adjoined], terms: Mapping[str, str]
 ) -> tuple[State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of values without
     a base.
@@ -303,45 +250,19 @@ def _unfolding(
     for name, text, low, high, _, _ in adjoined:
         state.adjoin(name, text, low, high)
     values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
-    return state, checker.Unfolding(statement, checker.Context(state.context, values), sharp)
-
-
-def _goal_node(
-    statement: checker.Statement,
-    state: State,
-    terms: Mapping[str, str],
-    known: Known,
-    budget: Budget,
-    sharp: list[ast.expr] | None,
-    effort: int,
-) -> Node | None:
-    state, unfolding = _unfolding(statement, state, [], terms, sharp)
-    return search_closing(
-        state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
-    )
+    context = checker.Context(state.context, values)
+    return state, checker.Unfolding(task.statement, context, task.sharp)
 
 
 def _nodes_at_number(
-    statement: checker.Statement,
-    state: State,
-    terms: Mapping[str, str],
-    adjoined: AdjoinedNumber,
-    sharp: list[ast.expr] | None,
-    purpose: str,
+    task: Task, state: State, terms: Mapping[str, str], adjoined: AdjoinedNumber
 ) -> list[Node] | None:
     """The nodes of values at an adjoined number; None where one is missing."""
     try:
-        state, unfolding = _unfolding(statement, state, [adjoined.entry()], terms, sharp)
-        branches = [
-            state.branch(
-                checker.negate(
-                    checker.join(
-                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
-                    )
-                )
-            )
-        ]
-        if purpose == "counterexample":
+        state, unfolding = _unfolding(task, state, [adjoined.entry()], terms)
+        assumed = unfolding.goals if task.purpose == "witness" else unfolding.premises
+        branches = [state.branch(checker.negate(checker.join("and", assumed)))]
+        if task.purpose == "counterexample":
             branches.append(state.branch(unfolding.goal(True), unfolding.context))
         nodes: list[Node] = []
         for branch in branches:

@@ -13,6 +13,7 @@ from juggleproof.algebra.conditions import Condition, candidate_numbers, evaluat
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     exact,
+    polynomial_text,
     real_roots,
     simplest_between,
     with_one_change,
@@ -53,83 +54,110 @@ from juggleproof.statements.work import Budget, Exhausted, unfolded
 # The certificate of a sharp range: counterexamples on every interval outside on which one
 # statement fails, then proofs inside.
 
+Known = Mapping[str, checker.Statement]
 FIRST = 600_000  # units of work for a proof with little effort
 OUTSIDE = 2_500_000  # units of work for the families; those that are found at all are found early
 
 
-def sharp_certificate(
-    statement: checker.Statement,
-    statements: Sequence[checker.Statement],
-    parameter: str,
-    line: Line,
-    verdicts: Mapping[str, Sequence[bool]],
-    known: Mapping[str, checker.Statement],
-    budget: Budget,
-    roles: Roles,
-) -> tuple[Sharp | None, str]:
-    """(certificate, "") or (None, what could not be certified); nothing is raised where the budget
-    ends.
-    """
-    (domain,) = statement.get("domain")
-    named = {each.name: each for each in statements}
-    try:
-        points = points_of(statement, statements, known, budget, roles)
-        outside = _outside(
-            outside_state(statement, statements),
-            named,
-            parameter,
-            line,
-            verdicts,
-            domain,
-            dict(known),
-            budget.part(OUTSIDE),
-            roles,
-        )
-    except Exhausted:
-        points = outside = None
-    if outside is None or points is None:
-        return None, "no family of counterexamples outside the range"
-    try:
-        inside, failure = proofs_inside(statement, statements, known, budget, roles)
-    except Exhausted:
-        return None, "the budget ran out"
-    return (None, failure) if inside is None else ((inside, outside, points), "")
+@dataclass(frozen=True)
+class RangeSearch:
+    """The statements whose range is sought or certified, and what their proofs may use."""
 
+    statements: Sequence[checker.Statement]
+    known: Known
+    roles: Roles
 
-def proofs_inside(
-    statement: checker.Statement,
-    statements: Sequence[checker.Statement],
-    known: Mapping[str, checker.Statement],
-    budget: Budget,
-    roles: Roles,
-) -> tuple[dict[str, Proof] | None, str]:
-    """({name: proof}, "") where the condition holds, or (None, which proof is missing); it is left
-    to the caller to have the proofs checked.
+    def proofs_inside(
+        self, statement: checker.Statement, budget: Budget
+    ) -> tuple[dict[str, Proof] | None, str]:
+        """({name: proof}, "") where the condition holds, or (None, which proof is missing); it is
+        left to the caller to have the proofs checked.
 
-    Raises Exhausted where the budget ends.
-    """
-    (domain,), (condition,) = statement.get("domain"), statement.get("holds")
-    inside: dict[str, Proof] = {}
-    for each in statements:
-        proof = None
-        for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
-            try:
-                proof = proof or search_proof(
+        Raises Exhausted where the budget ends.
+        """
+        (domain,), (condition,) = statement.get("domain"), statement.get("holds")
+        inside: dict[str, Proof] = {}
+        for each in self.statements:
+            proof = None
+            for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
+                try:
+                    proof = proof or search_proof(
+                        each,
+                        dict(self.known),
+                        budget.part(part),
+                        sharp=[domain, condition],
+                        effort=effort,
+                        confirm=False,
+                        roles=self.roles,
+                    )
+                except Exhausted:
+                    if effort == 2:
+                        raise
+            if proof is None:
+                return None, f"no proof of {each.name} inside the range"
+            inside[each.name] = proof
+        return inside, ""
+
+    def points(self, statement: checker.Statement, budget: Budget) -> dict[str, Values] | None:
+        """{name: a point of the domain that meets what the statement is given}; None where one was
+        not found.
+
+        Raises Exhausted where the budget ends.
+        """
+        (domain,) = statement.get("domain")
+        points: dict[str, Values] = {}
+        for each in self.statements:
+            for depth in (0, 1, 2):
+                point = search_values(
                     each,
-                    dict(known),
-                    budget.part(part),
-                    sharp=[domain, condition],
-                    effort=effort,
-                    confirm=False,
-                    roles=roles,
+                    State(checker.Context()),
+                    "point",
+                    {},
+                    dict(self.known),
+                    budget,
+                    [domain],
+                    depth,
+                    self.roles,
                 )
-            except Exhausted:
-                if effort == 2:
-                    raise
-        if proof is None:
-            return None, f"no proof of {each.name} inside the range"
-        inside[each.name] = proof
-    return inside, ""
+                if point is not None:
+                    points[each.name] = point
+                    break
+            else:
+                return None
+        return points
+
+    def outside_state(self, statement: checker.Statement) -> State:
+        """The state that assumes the domain and not the condition."""
+        (over,), (domain,), (condition,) = (
+            statement.get(keyword) for keyword in ("over", "domain", "holds")
+        )
+        state = State(checker.Context())
+        for parameter in over:
+            state.context.declare(parameter, parameter in whole_parameters(over, self.statements))
+        state.assume(state.context.formula(domain))
+        state.assume(checker.negate(state.context.formula(condition)))
+        return state
+
+    def family(
+        self,
+        each: checker.Statement,
+        state: State,
+        domain: ast.expr,
+        budget: Budget,
+        depth: int,
+    ) -> Values | None:
+        """A family of counterexamples to one statement on a part of the domain."""
+        base = {name: state.context.values[name] for name in state.context.index}
+        scaled = with_scales(self.roles, unfolded(each, [domain]))
+        known = dict(self.known)
+        task = Task(each, "counterexample", base, known, budget, [domain], roles=scaled)
+        return cover(task, state, base_samples(state, budget, scaled), depth=depth)
+
+    def checked(self, statement: checker.Statement, certificate: Sharp) -> bool:
+        """Whether the checker accepts the certificate."""
+        settled: Certificate = {"certified": certificate}
+        named = {each.name: each for each in self.statements}
+        return not checker.check_one(statement, settled, dict(self.known), named)[1]
 
 
 def whole_parameters(
@@ -141,104 +169,65 @@ def whole_parameters(
     )
 
 
-def outside_state(statement: checker.Statement, statements: Sequence[checker.Statement]) -> State:
-    """The state that assumes the domain and not the condition."""
-    (over,), (domain,), (condition,) = (
-        statement.get(keyword) for keyword in ("over", "domain", "holds")
-    )
-    state = State(checker.Context())
-    for parameter in over:
-        state.context.declare(parameter, parameter in whole_parameters(over, statements))
-    state.assume(state.context.formula(domain))
-    state.assume(checker.negate(state.context.formula(condition)))
-    return state
+@dataclass(frozen=True)
+class LineSearch(RangeSearch):
+    """The same along a line of one parameter."""
 
+    parameter: str
 
-def points_of(
-    statement: checker.Statement,
-    statements: Sequence[checker.Statement],
-    known: Known,
-    budget: Budget,
-    roles: Roles,
-) -> dict[str, Values] | None:
-    """{name: a point of the domain that meets what the statement is given}; None where one was not
-    found.
+    def certified(
+        self, statement: checker.Statement, line: Line, verdicts: Verdicts, budget: Budget
+    ) -> tuple[Sharp | None, str]:
+        """(certificate, "") that the checker accepts, or (None, what could not be certified);
+        nothing is raised where the budget ends.
+        """
+        (domain,) = statement.get("domain")
+        try:
+            points = self.points(statement, budget)
+            part = budget.part(OUTSIDE)
+            outside = self.outside(self.outside_state(statement), line, verdicts, domain, part)
+        except Exhausted:
+            points = outside = None
+        if outside is None or points is None:
+            return None, "no family of counterexamples outside the range"
+        try:
+            inside, failure = self.proofs_inside(statement, budget)
+        except Exhausted:
+            return None, "the budget ran out"
+        if inside is None:
+            return None, failure
+        certificate = inside, outside, points
+        if not self.checked(statement, certificate):
+            return None, "the checker does not accept the certificate"
+        return certificate, ""
 
-    Raises Exhausted where the budget ends.
-    """
-    (domain,) = statement.get("domain")
-    points: dict[str, Values] = {}
-    for each in statements:
-        for depth in (0, 1, 2):
-            point = search_values(
-                each,
-                State(checker.Context()),
-                "point",
-                {},
-                dict(known),
-                budget,
-                [domain],
-                depth,
-                roles,
-            )
-            if point is not None:
-                points[each.name] = point
-                break
-        else:
+    def outside(
+        self, state: State, line: Line, verdicts: Verdicts, domain: ast.expr, budget: Budget
+    ) -> Values | None:
+        """Families of counterexamples where the line has failures, cut where no single one serves;
+        None where one is missing.
+        """
+        failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
+        if not failing:
+            node = search_closing(state, dict(self.known), budget, 2)
+            return None if node is None else ("empty", node)
+        for each in sorted(self.statements, key=lambda one: one.name):
+            if not any(verdicts[each.name][k] for k in failing):
+                values = self.family(each, state, domain, budget, 4)
+                if values is not None:
+                    return values
+        cut = _cut(line, failing, verdicts, self.parameter, domain)
+        if cut is None:
             return None
-    return points
-
-
-def _outside(
-    state: State,
-    named: Mapping[str, checker.Statement],
-    parameter: str,
-    line: Line,
-    verdicts: Mapping[str, Sequence[bool]],
-    domain: ast.expr,
-    known: dict[str, checker.Statement],
-    budget: Budget,
-    roles: Roles,
-) -> Values | None:
-    base = {parameter: state.context.values[parameter]}
-    failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
-    if not failing:
-        node = search_closing(state, known, budget, 2)
-        return None if node is None else ("empty", node)
-    whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
-    for name in whole:
-        task = task_outside(named[name], base, known, budget, domain, roles)
-        values = cover(task, state, base_samples(state, budget, task.roles), depth=4)
-        if values is not None:
-            return values
-    cut = _cut(line, failing, verdicts, parameter, domain)
-    if cut is None:
-        return None
-    text, pieces = cut
-    cases: list[Values] = []
-    for branch, piece in zip(state.by_sign(text), pieces):
-        part = Line(
-            line.numbers,
-            tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts)),
-        )
-        values = _outside(branch, named, parameter, part, verdicts, domain, known, budget, roles)
-        if values is None:
-            return None
-        cases.append(values)
-    return by_sign(text, cases)
-
-
-def task_outside(
-    statement: checker.Statement,
-    base: dict[str, checker.Poly],
-    known: dict[str, checker.Statement],
-    budget: Budget,
-    domain: ast.expr,
-    roles: Roles,
-) -> Task:
-    """The task of a family of counterexamples to a statement on a part of the domain."""
-    scaled = with_scales(roles, unfolded(statement, [domain]))
-    return Task(statement, "counterexample", base, known, budget, [domain], roles=scaled)
+        text, pieces = cut
+        cases: list[Values] = []
+        for branch, piece in zip(state.by_sign(text), pieces):
+            own = tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts))
+            values = self.outside(branch, Line(line.numbers, own), verdicts, domain, budget)
+            if values is None:
+                return None
+            cases.append(values)
+        return by_sign(text, cases)
 
 
 def _cut(
@@ -258,11 +247,7 @@ def _cut(
         # A rational inside an open cell on which all statements hold.
         k = opened[len(opened) // 2]
         value = simplest_between(line.numbers[k // 2 - 1]._high, line.numbers[k // 2]._low)
-        text = (
-            f"{int(value.q)}*{parameter} - {int(value.p)}"
-            if value.q != 1
-            else f"{parameter} - {int(value.p)}"
-        )
+        text = polynomial_text([-int(value.p), int(value.q)], parameter)
         return text, [{i for i in cells if i < k}, set(), {i for i in cells if i > k}]
     changes = [k for k in failing if k % 2 and failing[0] < k < failing[-1]] or gaps
     if not changes:
@@ -308,7 +293,6 @@ VERDICTS = 2_000_000  # units of work for the verdicts along the line
 NOWHERE = 300_000  # units of work for one family on the whole domain
 # Where a statement has to fail before a family on the whole domain is tried, in parts of its length
 PROBES = (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))
-Known = Mapping[str, checker.Statement]
 
 
 @dataclass
@@ -343,6 +327,7 @@ def find_sharp_range(
         Range(failure="the budget ran out before the verdicts were known"),
     )
     roles = among(roles, {parameter: (domain,)})
+    search = LineSearch(statements, known, roles, parameter)
     try:
         violations = [Violation.of(s, tree, roles) for s in statements]
         probes = probes_of(*ends_of(tree, parameter))
@@ -359,11 +344,9 @@ def find_sharp_range(
                 verdict is False for verdicts in probed.values() for verdict in verdicts
             )
             simple = (
-                find_everywhere(statements, parameter, domain, name, known, budget, roles)
+                find_everywhere(search, domain, name, budget)
                 if whole
-                else find_nowhere(
-                    statements, parameter, domain, name, known, budget, failing, roles
-                )
+                else find_nowhere(search, domain, name, budget, failing)
             )
             if simple is not None:
                 return simple
@@ -371,8 +354,8 @@ def find_sharp_range(
             stated = stated_range(name, statements, parameter, domain, line)
             result = Range(stated, list(line.simplified().numbers), line=line)
             if certify:
-                result.certificate, result.failure = _certified(
-                    read(stated), statements, parameter, line, verdicts, known, budget, roles
+                result.certificate, result.failure = search.certified(
+                    read(stated), line, verdicts, budget
                 )
             if not result.failure:
                 return result
@@ -427,70 +410,32 @@ def stated_range(
     )
 
 
-def find_everywhere(
-    statements: Sequence[checker.Statement],
-    parameter: str,
-    domain: Formula,
-    name: str,
-    known: Known,
-    budget: Budget,
-    roles: Roles,
-) -> Range | None:
+def find_everywhere(search: LineSearch, domain: Formula, name: str, budget: Budget) -> Range | None:
     """The whole domain, where all statements are proved on it with a part of the work; None where
     they are not.
     """
-    stated, line = (
-        SharpRange(name, tuple(s.name for s in statements), (parameter,), domain, domain),
-        Line((), (True,)),
-    )
-    verdicts: Verdicts = {s.name: (True,) for s in statements}
-    try:
-        certificate, _ = _certified(
-            read(stated),
-            statements,
-            parameter,
-            line,
-            verdicts,
-            known,
-            budget.part(EVERYWHERE),
-            roles,
-        )
-    except Exhausted:
-        return None
+    names = tuple(each.name for each in search.statements)
+    stated = SharpRange(name, names, (search.parameter,), domain, domain)
+    line = Line((), (True,))
+    verdicts: Verdicts = dict.fromkeys(names, (True,))
+    part = budget.part(EVERYWHERE)
+    certificate, _ = search.certified(read(stated), line, verdicts, part)
     return None if certificate is None else Range(stated, [], certificate, line=line)
 
 
 def find_nowhere(
-    statements: Sequence[checker.Statement],
-    parameter: str,
-    domain: Formula,
-    name: str,
-    known: Known,
-    budget: Budget,
-    failing: Sequence[str],
-    roles: Roles,
+    search: LineSearch, domain: Formula, name: str, budget: Budget, failing: Sequence[str]
 ) -> Range | None:
     """The empty range, where one family breaks a statement on the whole domain; None where a short
     search finds none.
     """
-    stated = SharpRange(
-        name, tuple(s.name for s in statements), (parameter,), domain, disjunction([])
-    )
-    statement, line = read(stated), Line((), (False,))
-    for one in (s for s in statements if s.name in failing):
-        try:
-            certificate, _ = _certified(
-                statement,
-                statements,
-                parameter,
-                line,
-                {s.name: (s is not one,) for s in statements},
-                known,
-                budget.part(NOWHERE),
-                roles,
-            )
-        except Exhausted:
-            continue
+    names = tuple(each.name for each in search.statements)
+    stated = SharpRange(name, names, (search.parameter,), domain, disjunction([]))
+    line = Line((), (False,))
+    for one in (each for each in names if each in failing):
+        verdicts: Verdicts = {each: (each != one,) for each in names}
+        part = budget.part(NOWHERE)
+        certificate, _ = search.certified(read(stated), line, verdicts, part)
         if certificate is not None:
             return Range(stated, [], certificate, line=line)
     return None
@@ -522,9 +467,8 @@ def search_sharp(
             [Violation.of(s, domain, roles) for s in chosen], over[0], domain, budget, own
         ).guesses():
             if _agrees(line, claimed, over[0]):
-                return _certified(statement, chosen, over[0], line, verdicts, known, budget, roles)[
-                    0
-                ]
+                search = LineSearch(chosen, known, roles, over[0])
+                return search.certified(statement, line, verdicts, budget)[0]
     except (Exhausted, Undecided):
         pass
     return None
@@ -533,27 +477,6 @@ def search_sharp(
 def read(statement: SharpRange) -> checker.Statement:
     """The statement as the checker reads it."""
     return next(iter(checker.read_statements(statement.text()).values()))
-
-
-def _certified(
-    statement: checker.Statement,
-    statements: Sequence[checker.Statement],
-    parameter: str,
-    line: Line,
-    verdicts: Verdicts,
-    known: Known,
-    budget: Budget,
-    roles: Roles,
-) -> tuple[Sharp | None, str]:
-    certificate, failure = sharp_certificate(
-        statement, statements, parameter, line, verdicts, known, budget, roles
-    )
-    named = {s.name: s for s in statements}
-    if certificate is not None:
-        settled: Certificate = {"certified": certificate}
-        if checker.check_one(statement, settled, dict(known), named)[1]:
-            return None, "the checker does not accept the certificate"
-    return certificate, failure
 
 
 def _agrees(line: Line, claimed: Condition, parameter: str) -> bool:

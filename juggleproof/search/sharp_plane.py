@@ -21,19 +21,15 @@ from juggleproof.algebra.numbers import sign
 from juggleproof.algebra.polynomials import relation_of
 from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
-from juggleproof.search.families import cover
 from juggleproof.search.hints.asking import ask
 from juggleproof.search.ranges import Violation
 from juggleproof.search.samples import base_samples
 from juggleproof.search.sharp import (
     Known,
     Range,
+    RangeSearch,
     among,
-    outside_state,
-    points_of,
-    proofs_inside,
     read,
-    task_outside,
     whole_parameters,
 )
 from juggleproof.search.terms import Sample
@@ -45,7 +41,7 @@ from juggleproof.statements.language import (
     conjunction,
     disjunction,
 )
-from juggleproof.statements.nodes import Certificate, Sharp, Values
+from juggleproof.statements.nodes import Sharp, Values
 from juggleproof.statements.states import State
 from juggleproof.statements.work import Budget, Exhausted
 
@@ -89,9 +85,8 @@ def find_sharp_region(
             statement = SharpRange(
                 name, tuple(s.name for s in statements), tuple(parameters), domain, condition
             )
-            certificate, failure = _certified(
-                read(statement), statements, samples, known, budget, roles
-            )
+            search = RangeSearch(statements, known, roles)
+            certificate, failure = _certified(search, read(statement), budget)
             return Range(statement, [], certificate, failure)
     except Exhausted:
         return Range(failure="the budget ran out")
@@ -193,31 +188,23 @@ def _formula(guess: Guess) -> Formula:
 
 
 def _certified(
-    statement: checker.Statement,
-    statements: Sequence[checker.Statement],
-    samples: Sequence[Sample],
-    known: Known,
-    budget: Budget,
-    roles: Roles,
+    search: RangeSearch, statement: checker.Statement, budget: Budget
 ) -> tuple[Sharp | None, str]:
-    inside, failure = proofs_inside(statement, statements, known, budget, roles)
+    inside, failure = search.proofs_inside(statement, budget)
     if inside is None:
         return None, failure
-    state = outside_state(statement, statements)
+    state = search.outside_state(statement)
     (domain,) = statement.get("domain")
-    base = {name: state.context.values[name] for name in state.context.index}
-    node = search_closing(state, dict(known), budget, 1)
+    node = search_closing(state, dict(search.known), budget, 1)
     outside: Values | None = None if node is None else ("empty", node)
-    for each in statements if outside is None else ():
-        task = task_outside(each, base, dict(known), budget, domain, roles)
-        outside = cover(task, state, base_samples(state, budget, task.roles), depth=3)
+    for each in search.statements if outside is None else ():
+        outside = search.family(each, state, domain, budget, 3)
         if outside is not None:
             break
-    points = points_of(statement, statements, known, budget, roles)
+    points = search.points(statement, budget)
     if outside is None or points is None:
         return None, "no family of counterexamples outside the range"
-    settled: Certificate = {"certified": (inside, outside, points)}
-    if checker.check_one(statement, settled, dict(known), {s.name: s for s in statements})[1]:
+    if not search.checked(statement, (inside, outside, points)):
         return None, "the checker does not accept the certificate"
     return (inside, outside, points), ""
 

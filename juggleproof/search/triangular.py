@@ -31,7 +31,7 @@ from juggleproof.algebra.numbers import (
 from juggleproof.certificates import checker
 from juggleproof.search.candidates import trials
 from juggleproof.search.closing import search_closing
-from juggleproof.search.witness_terms import adjoined_entry
+from juggleproof.search.witness_terms import Task, adjoined_entry
 from juggleproof.statements.language import Roles
 from juggleproof.statements.nodes import Adjoined, Values, values_at
 from juggleproof.statements.states import State
@@ -220,19 +220,11 @@ class Towers:
         return Tower(roots, values)
 
 
-def values_of_tower(
-    statement: checker.Statement,
-    state: State,
-    tower: Tower,
-    purpose: str,
-    known: dict[str, checker.Statement],
-    budget: Budget,
-    digits: int,
-) -> Values | None:
+def values_of_tower(task: Task, state: State, tower: Tower, digits: int) -> Values | None:
     """The point as `states.finds` takes it, with roots between neighbouring decimals; None where a
     node is missing.
     """
-    own = state.branch()
+    own, known, budget = state.branch(), task.known, task.budget
     entries: list[Adjoined] = []
     for name, poly, approximation in tower.roots:
         place, ring = places(poly.context()), poly.context()
@@ -249,13 +241,14 @@ def values_of_tower(
     terms = {name: to_text(value) for name, value in sorted(tower.values.items())}
     try:
         values = {name: own.context.value(checker.parse(text)) for name, text in terms.items()}
-        unfolding = checker.Unfolding(statement, checker.Context(own.context, values))
+        unfolding = checker.Unfolding(task.statement, checker.Context(own.context, values))
     except checker.Rejected:
         return None
     aims = [own.branch(checker.negate(checker.join("and", unfolding.premises)))]
-    aims += (
-        [own.branch(unfolding.goal(True), unfolding.context)] if purpose == "counterexample" else []
-    )
+    if task.purpose == "counterexample":
+        aims.append(own.branch(unfolding.goal(True), unfolding.context))
     nodes = [search_closing(aim, known, budget, 1) for aim in aims]
     closed = [node for node in nodes if node is not None]
-    return values_at(statement.name, entries, terms, closed) if len(closed) == len(nodes) else None
+    if len(closed) < len(nodes):
+        return None
+    return values_at(task.statement.name, entries, terms, closed)

@@ -13,7 +13,6 @@ from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from juggleproof.algebra.conditions import (
     Condition,
     coefficients_in,
-    constant_of,
     projected,
     ring_of,
     to_flint,
@@ -23,7 +22,7 @@ from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
 from juggleproof.search.psatz.facts import Weight
 from juggleproof.search.scales import Normal
-from juggleproof.search.terms import SPARE, Choice, Quotient, Root, Sample
+from juggleproof.search.terms import SPARE, Choice, Quotient, Root
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import Adjoined, Node, Values, by_sign, values_at
 from juggleproof.statements.states import State
@@ -165,9 +164,7 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients of dehomogenised polynomials in a context; a bottom without a licence is
-    adjoined, as a root.
-    """
+    """Writes quotients of dehomogenised polynomials, whose bottoms the context licenses."""
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
         self.context, self.renamed, self.normal = context, renamed, normal
@@ -184,7 +181,6 @@ class TermWriter:
                 dehomogenised = normal.dehomogenised(whole)
                 if not dehomogenised.is_constant():
                     self.licensed.append((whole, dehomogenised))
-        self.inverses: dict[str, tuple[str, fmpq_mpoly]] = {}
 
     def fresh(self, name: str) -> str:
         """A name that the context does not have."""
@@ -206,28 +202,23 @@ class TermWriter:
         ]
 
     def text(self, value: Quotient, weight: Weight = ()) -> str:
-        """The quotient as text, of this weight; `inverses` grows by what has to be adjoined for
-        it.
+        """The quotient as text, of this weight.  Raises ValueError where no licence has a factor of
+        its bottom.
         """
         normal = self.normal
-        top, bottoms, inverses = value.top, [], []
+        top, bottoms = value.top, []
         scale, factors = value.bottom.factor()
         top = top / scale
         need = list(weight)
         for factor, power in factors:
-            licence = self.licence(factor) if not factor.is_constant() else None
-            if licence is not None:
-                top = top * (licence[1] / factor) ** power
-                bottoms += [(self.renamed.text(licence[0]), power)]
-                need = [
-                    n + power * w
-                    for n, w in zip(need, normal.weight(normal.at_scale_one(licence[0])))
-                ]
-            else:
-                key = self.renamed.text(factor)
-                if key not in self.inverses:
-                    self.inverses[key] = (self.fresh("inverse"), factor)
-                inverses += [(self.inverses[key][0], power)]
+            licence = self.licence(factor)
+            if licence is None:
+                raise ValueError(f"{factor} has no licence")
+            top = top * (licence[1] / factor) ** power
+            bottoms += [(self.renamed.text(licence[0]), power)]
+            need = [
+                n + power * w for n, w in zip(need, normal.weight(normal.at_scale_one(licence[0])))
+            ]
         missing = [n - w for n, w in zip(need, normal.weight(top))]
         whole = normal.lift(top)
         for scale, power in zip(normal.scales, missing):
@@ -238,8 +229,6 @@ class TermWriter:
             elif power < 0 and top != 0:
                 bottoms.append((scale, -power))
         text = self.renamed.text(whole)
-        if inverses:
-            text = "*".join([_whole(text), *(n if e == 1 else f"{n}^{e}" for n, e in inverses)])
         if bottoms:
             below = "*".join(_whole(b) if e == 1 else f"{_whole(b)}^{e}" for b, e in bottoms)
             text = f"{_whole(text)}/" + (below if len(bottoms) == 1 else f"({below})")
@@ -256,13 +245,12 @@ def confirmed(
     state: State,
     choice: Choice,
     keys: dict[str, str],
-    samples: Sequence[Sample],
 ) -> Values | None:
     """The choice as values with all nodes, confirmed by the checker; None where a node is missing.
 
     Raises Exhausted where the budget ends.
     """
-    values = _with_nodes(task, normal, state, choice, keys, samples, 3)
+    values = _with_nodes(task, normal, state, choice, keys, 3)
     ok = values is not None and state.is_served_by(
         values, task.known, task.purpose, task.statement, task.base, task.sharp
     )
@@ -275,7 +263,6 @@ def _with_nodes(
     state: State,
     choice: Choice,
     keys: dict[str, str],
-    samples: Sequence[Sample],
     depth: int,
 ) -> Values | None:
     """The values; cases by the signs of what they divide by come first where no licence settles
@@ -288,24 +275,24 @@ def _with_nodes(
     spare = {root.name for root in choice.roots}
     for value in choice.values.values():
         for factor in writer.unlicensed(value):
-            if not spare & {n for n, e in zip(choice.ring.names(), factor.degrees()) if e}:
-                if depth == 0:
+            used = {n for n, e in zip(choice.ring.names(), factor.degrees()) if e}
+            if depth == 0 or spare & used:
+                return None
+            text = renamed.text(normal.lift(factor))
+            cases: list[Values] = []
+            for case, branch in enumerate(own.by_sign(text)):
+                node = search_closing(branch, known, budget, min(effort, 1))
+                if node is None and case == 1:
                     return None
-                text = renamed.text(normal.lift(factor))
-                cases: list[Values] = []
-                for case, branch in enumerate(own.by_sign(text)):
-                    node = search_closing(branch, known, budget, min(effort, 1))
-                    if node is None and case == 1:
-                        return None
-                    part: Values | None = (
-                        ("empty", node)
-                        if node is not None
-                        else _with_nodes(task, normal, branch, choice, keys, samples, depth - 1)
-                    )
-                    if part is None:
-                        return None
-                    cases.append(part)
-                return by_sign(text, cases)
+                part: Values | None = (
+                    ("empty", node)
+                    if node is not None
+                    else _with_nodes(task, normal, branch, choice, keys, depth - 1)
+                )
+                if part is None:
+                    return None
+                cases.append(part)
+            return by_sign(text, cases)
     adjoined: list[Adjoined] = []
     try:
         for root in choice.roots:
@@ -320,11 +307,6 @@ def _with_nodes(
                 if key in choice.values
                 else renamed.names[key]
             )
-        for name, factor in list(writer.inverses.values()):
-            entry = _adjoined_inverse(task, own, name, factor, renamed, samples)
-            if entry is None:
-                return None
-            adjoined.append(entry)
         values = {
             variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
         }
@@ -379,35 +361,6 @@ def _adjoined_root(
         )
         if entry is not None:
             return entry
-    return None
-
-
-def _adjoined_inverse(
-    task: Task,
-    state: State,
-    name: str,
-    factor: fmpq_mpoly,
-    renamed: Renamed,
-    samples: Sequence[Sample],
-) -> Adjoined | None:
-    values = [constant_of(factor.subs(dict(s))) for s in samples]
-    known_values = [v for v in values if v]
-    if not known_values or len({v > 0 for v in known_values}) > 1:
-        return None
-    least = min(abs(v) for v in known_values)
-    sign = 1 if known_values[0] > 0 else -1
-    for bound in (1, 2, 4, 10, 100):
-        if fmpq(1, bound) <= least:
-            text, low, high = f"({renamed.text(factor)})*{name} - 1", "0", str(bound)
-            if sign < 0:
-                # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse
-                # rises there.
-                text, low, high = f"1 - ({renamed.text(factor)})*{name}", str(-bound), "0"
-            entry = adjoined_entry(
-                state, name, text, low, high, task.known, task.budget, task.effort
-            )
-            if entry is not None:
-                return entry
     return None
 
 

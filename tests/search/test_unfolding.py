@@ -83,6 +83,6 @@ def test_a_form_that_was_not_found_is_counted_again_holds() -> None:
     left = []
     for _ in range(3):
         closing = Closing({}, Budget(10**6), 2)
-        assert closing.forms(state, True) is None
+        assert closing.forms(state) is None
         left.append(closing.budget.left)
     assert left[0] == left[1] == left[2] < 10**6

@@ -4,9 +4,10 @@ believed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from math import lcm
 from weakref import WeakKeyDictionary
 
@@ -56,7 +57,8 @@ def ask(
     )
     solver.set("rlimit", resources)
     rows = [f"(declare-const |{name}| {_sort(name, whole)})" for name in names]
-    rows.append(f"(assert {_formula(condition, condition.tree, whole)})")
+    written = partial(_term, integers=whole)
+    rows.append(f"(assert {formula_text(condition, condition.tree, written)})")
     if unreachable is not None:
         goal = unreachable[0]
         inner = goal.variables()
@@ -65,7 +67,7 @@ def ask(
             f"(declare-const |{name}| {_sort(name, whole)})"
             for name in sorted(inner - set(names) - set(unreachable[1]))
         ]
-        text = f"(not {_formula(goal, goal.tree, whole)})"
+        text = f"(not {formula_text(goal, goal.tree, written)})"
         rows.append(
             f"(assert (forall ({' '.join(bound)}) {text}))" if bound else f"(assert {text})"
         )
@@ -90,7 +92,7 @@ def conflict(
     session = session_of(budget)
     names = sorted({name for poly, _ in atoms for name in poly.context().names()})
     rows = [f"(declare-const |{name}| Real)" for name in names]
-    rows += [f"(assert {_atom(poly, relation, frozenset())})" for poly, relation in atoms]
+    rows += [f"(assert {_atom(_term(poly, frozenset()), relation)})" for poly, relation in atoms]
     solver = z3.Tactic("qfnra-nlsat", ctx=session.context).solver()
     solver.set("rlimit", resources)
     solver.set("unsat_core", True)
@@ -144,18 +146,18 @@ def _sort(name: str, integers: frozenset[str]) -> str:
     return "Int" if name in integers else "Real"
 
 
-def _formula(condition: Condition, tree: Tree, integers: frozenset[str]) -> str:
-    """A condition as an s-expression."""
+def formula_text(condition: Condition, tree: Tree, term: Callable[[fmpq_mpoly], str]) -> str:
+    """A condition as an s-expression, its polynomials written by `term`."""
     if isinstance(tree, bool):
         return "true" if tree else "false"
     if isinstance(tree[0], int):
-        return _atom(condition.polys[tree[0]], tree[1], integers)
-    return f"({tree[0]} {' '.join(_formula(condition, part, integers) for part in tree[1])})"
+        return _atom(term(condition.polys[tree[0]]), tree[1])
+    return f"({tree[0]} {' '.join(formula_text(condition, part, term) for part in tree[1])})"
 
 
-def _atom(poly: fmpq_mpoly, relation: str, integers: frozenset[str]) -> str:
-    """A relation of a polynomial to 0 as an s-expression."""
-    text = f"({'=' if relation == '!=' else relation} {_term(poly, integers)} 0.0)"
+def _atom(term: str, relation: str) -> str:
+    """A relation of a term to 0 as an s-expression."""
+    text = f"({'=' if relation == '!=' else relation} {term} 0.0)"
     return f"(not {text})" if relation == "!=" else text
 
 

@@ -18,25 +18,18 @@ import z3
 
 from juggleproof.algebra.conditions import ring_of, to_flint
 from juggleproof.certificates import checker
+from juggleproof.search.first.linear_system import Fact, FactKey, key_of
 from juggleproof.search.hints.asking import conflict, session_of
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import State
 from juggleproof.statements.work import Budget
 
-Fact = tuple[checker.Poly, str]
-Key = tuple[frozenset[tuple[int, int]], int, str]  # of a fact
 Alternative = Union[checker.Atom, checker.Join]
 Choice = Sequence[Alternative]
 
 RESOURCES = 60_000  # of Z3, for one choice of alternatives
 MOST_CONFLICTS, MOST_CASES = 400, 20_000
 SMALL = 8  # facts: what smaller conflicts miss weighs more
-
-
-def key_of(fact: Fact) -> Key:
-    """The same for equal facts."""
-    poly, relation = fact
-    return frozenset(poly.terms.items()), poly.den, relation
 
 
 @dataclass(frozen=True)
@@ -47,7 +40,7 @@ class Conflict:
     node: Node
 
     @cached_property
-    def keys(self) -> frozenset[Key]:
+    def keys(self) -> frozenset[FactKey]:
         """The facts by their keys."""
         return frozenset(map(key_of, self.facts))
 
@@ -60,7 +53,7 @@ class Cases:
 
     choice: Choice
     trees: Sequence[Tree]
-    needs: frozenset[Key | int]
+    needs: frozenset[FactKey | int]
 
 
 Tree = Union[Conflict, Cases]
@@ -91,7 +84,7 @@ class Search:
         """Whether the conflicts, each closed, leave no choice of alternatives."""
         context = session_of(self.budget).context
         solver = z3.SolverFor("QF_FD", ctx=context)
-        numbers: dict[Key, z3.BoolRef] = {}
+        numbers: dict[FactKey, z3.BoolRef] = {}
 
         def chosen(fact: Fact) -> z3.BoolRef:
             return numbers.setdefault(key_of(fact), z3.Bool(f"fact{len(numbers)}", context))
@@ -151,7 +144,7 @@ class Search:
         given = frozenset(map(key_of, self.state.facts))
         return self.below(given, list(self.state.choices))
 
-    def below(self, given: frozenset[Key], choices: list[list[Alternative]]) -> Tree | None:
+    def below(self, given: frozenset[FactKey], choices: list[list[Alternative]]) -> Tree | None:
         self.cases += 1
         if self.cases > MOST_CASES:
             return None
@@ -163,7 +156,7 @@ class Search:
                 return one
             live.append(missing)
         single = {key for missing in live if len(missing) == 1 for key in missing}
-        weight: dict[Key, int] = {}
+        weight: dict[FactKey, int] = {}
         for missing in live:
             for key in missing:
                 weight[key] = weight.get(key, 0) + 4 ** max(0, SMALL - len(missing))
@@ -180,7 +173,7 @@ class Search:
             return None
         rest = [choice for choice in choices if choice is not best]
         trees = []
-        needs: frozenset[Key | int] = frozenset({id(best)})
+        needs: frozenset[FactKey | int] = frozenset({id(best)})
         for part in best:
             keys, inner = direct_keys(part), inner_choices(part)
             tree = self.below(given | keys, [*rest, *inner])
@@ -194,7 +187,7 @@ class Search:
         return Cases(best, trees, needs)
 
 
-def needs_of(tree: Tree) -> frozenset[Key | int]:
+def needs_of(tree: Tree) -> frozenset[FactKey | int]:
     """The facts and disjunctions that a tree uses."""
     return frozenset(tree.keys) if isinstance(tree, Conflict) else tree.needs
 
@@ -204,7 +197,7 @@ def parts_of(part: Alternative) -> Sequence[Alternative]:
     return part[1] if part[0] == "and" else [part]
 
 
-def taken(choice: Choice, true: Set[Key]) -> list[Fact]:
+def taken(choice: Choice, true: Set[FactKey]) -> list[Fact]:
     """The facts of the first alternative that holds."""
     found: list[Fact] = []
     for one in parts_of(next(part for part in choice if met(part, true))):
@@ -212,7 +205,7 @@ def taken(choice: Choice, true: Set[Key]) -> list[Fact]:
     return found
 
 
-def met(part: Alternative, true: Set[Key]) -> bool:
+def met(part: Alternative, true: Set[FactKey]) -> bool:
     """Whether an alternative holds where these facts do."""
     if part[0] == "atom":
         return key_of(part[1:]) in true
@@ -220,7 +213,7 @@ def met(part: Alternative, true: Set[Key]) -> bool:
     return several(met(inner, true) for inner in part[1])
 
 
-def direct_keys(part: Alternative) -> frozenset[Key]:
+def direct_keys(part: Alternative) -> frozenset[FactKey]:
     """The facts that an alternative assumes at once."""
     return frozenset(key_of(one[1:]) for one in parts_of(part) if one[0] == "atom")
 
@@ -283,7 +276,7 @@ def moved(node: Node, places: Mapping[int, int], before: int, after: int, choice
 def written(tree: Tree, state: State) -> Node:
     """The node of a tree in a state that has what the tree needs."""
     if isinstance(tree, Conflict):
-        numbers: dict[Key, int] = {}
+        numbers: dict[FactKey, int] = {}
         for k, fact in enumerate(state.facts):
             numbers.setdefault(key_of(fact), k)
         places = {k: numbers[key_of(fact)] for k, fact in enumerate(tree.facts)}

@@ -14,9 +14,9 @@ from math import lcm
 import z3
 from flint import fmpq, fmpq_mpoly
 
-from juggleproof.algebra.conditions import Condition, Tree, places
+from juggleproof.algebra.conditions import Condition, places
 from juggleproof.search.candidates import trials
-from juggleproof.search.hints.asking import session_of
+from juggleproof.search.hints.asking import formula_text, session_of
 from juggleproof.statements.language import Roles
 from juggleproof.statements.work import Budget
 
@@ -99,7 +99,7 @@ class Question:
                 f"(assert (=> {one} (= |{name}| {number(value)})))" for one, value in zip(own, few)
             ]
             self.rows.append(f"(assert (=> {self.guard(name)} (or false {' '.join(own)})))")
-        body = self.formula(condition.tree)
+        body = formula_text(condition, condition.tree, self.term)
         self.rows.append(f"(assert {body})")
 
     def guard(self, name: str) -> str:
@@ -132,16 +132,6 @@ class Question:
             name: fmpq(value.numerator_as_long(), value.denominator_as_long())
             for name, value in values.items()
         }, []
-
-    def formula(self, tree: Tree) -> str:
-        """The condition as an s-expression."""
-        if isinstance(tree, bool):
-            return "true" if tree else "false"
-        if isinstance(tree[0], int):
-            relation = "=" if tree[1] == "!=" else tree[1]
-            text = f"({relation} {self.term(self.condition.polys[tree[0]])} 0.0)"
-            return f"(not {text})" if tree[1] == "!=" else text
-        return f"({tree[0]} {' '.join(self.formula(part) for part in tree[1])})"
 
     def term(self, poly: fmpq_mpoly) -> str:
         """A positive multiple of a polynomial, linear in the names of products."""

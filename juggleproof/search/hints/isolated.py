@@ -14,7 +14,7 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_mat
 from flint import arb_mat as BallMatrix
 
 from juggleproof.algebra.conditions import Condition, places, valued
-from juggleproof.algebra.numbers import real_roots
+from juggleproof.algebra.numbers import determinant, real_roots
 from juggleproof.search.hints.models import approximate_points
 from juggleproof.search.samples import Assignment
 from juggleproof.statements.work import Budget
@@ -70,21 +70,9 @@ def minors(equations: Sequence[fmpq_mpoly], variables: Sequence[str]) -> list[fm
     place = places(equations[0].context())
     slopes = [[poly.derivative(place[name]) for name in variables] for poly in equations]
     return [
-        determinant([[row[k] for k in columns] for row in slopes])
+        determinant([[row[k] for k in columns] for row in slopes], equations[0] ** 0)
         for columns in combinations(range(len(variables)), len(equations))
     ]
-
-
-def determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
-    """The determinant, along its first row."""
-    first, *rest = rows
-    if not rest:
-        return first[0]
-    total = first[0] * 0
-    for k, entry in enumerate(first):
-        part = entry * determinant([[*row[:k], *row[k + 1 :]] for row in rest])
-        total += part if k % 2 == 0 else -part
-    return total
 
 
 def refined(

@@ -19,7 +19,7 @@ from math import comb, prod
 import numpy as np
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
-from juggleproof.algebra.numbers import bernstein, exact, fraction
+from juggleproof.algebra.numbers import bernstein, determinant, exact, fraction
 from juggleproof.algebra.polynomials import constant_of
 from juggleproof.search.psatz.facts import Factors, merge
 from juggleproof.search.psatz.lifting import lift
@@ -200,7 +200,7 @@ def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[f
         found = []
         for k in range(len(rows)):
             others = [[row[v] for v in columns] for j, row in enumerate(rows) if j != k]
-            found.append(determinant(others) * (-1) ** k)
+            found.append(determinant(others, fmpq_poly([1])) * (-1) ** k)
         if not any(found):
             continue
         if not all(found):
@@ -220,18 +220,6 @@ def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[f
             scale = -scale
         return [one * scale for one in found]
     return None
-
-
-def determinant(matrix: Sequence[Sequence[fmpq_poly]]) -> fmpq_poly:
-    """Of a small matrix, by its first row."""
-    if not matrix:
-        return fmpq_poly([1])
-    total = fmpq_poly([])
-    for k, entry in enumerate(matrix[0]):
-        if entry:
-            minor = determinant([[*row[:k], *row[k + 1 :]] for row in matrix[1:]])
-            total += entry * minor * (-1) ** k
-    return total
 
 
 def identity(

@@ -3,7 +3,7 @@ linear forms.
 
 A goal Q(p, z) >= 0, of degree 2 in z, is Q = sum_k B_k(p) Q_k(z) with the Bernstein polynomials B_k
 of a box of parameters p.  Where each Q_k is a sum of squares and of products of facts that are
-linear in z, this is one `psatz` node; else the degree is raised, or the box halved.
+linear in z, this is one `psatz` node; else the degree is raised.
 
 Sources: Farouki, The Bernstein polynomial basis, Computer Aided Geometric Design 29 (2012);
 products of linear facts are the S-procedure: Johansson and Rantzer, Computation of piecewise
@@ -15,15 +15,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from itertools import combinations
-from itertools import product as choices
 from math import gcd, lcm, prod
 
 import numpy as np
 from flint import fmpz_mpoly
 
-from juggleproof.algebra.numbers import polynomial_text
 from juggleproof.algebra.polynomials import (
     Monomial,
     Ring,
@@ -33,7 +30,7 @@ from juggleproof.algebra.polynomials import (
 )
 from juggleproof.algebra.semidefinite import Floats, LinearEquations, as_squares
 from juggleproof.search.psatz.facts import merge
-from juggleproof.search.psatz.lifting import MonomialCofactor, lift
+from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.parameters import (
     Axis,
     bounds,
@@ -51,13 +48,10 @@ from juggleproof.statements.states import State
 from juggleproof.statements.work import Budget, Exhausted
 
 MOST_PARTS = 100  # Bernstein polynomials of one box
-MOST_COUPLED = 40  # the same, where all are parts of one program
 MOST_GUARDS = 6  # facts of degree 1 or 2 in z
-MOST_GOALS = 3
 RAISED = 3  # by how much a degree is raised
 EACH = 1500  # units of work for one coefficient
 SAMPLES, MARGIN = 1000, 1e-3
-HALVINGS = 3  # of a box, one inside another
 DENOMINATORS = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
 MIDDLES = ((1e-4, 1e-5), (1e-6, 1e-6))  # as `sums_of_squares.GOALS`, but in the middle of the cone
 
@@ -85,7 +79,6 @@ class QuadraticForm:
 
     def __init__(self, problem: Problem, goal: int) -> None:
         self.problem, self.ring, self.goal = problem, problem.ring, goal
-        self.halving = ""  # a polynomial in one parameter by whose sign the box is to be halved
         self.bounds = bounds(problem)
         self.unit: tuple[fmpz_mpoly, int] | None = None
         self.parameters, self.others = list[int](), list[int]()
@@ -94,31 +87,26 @@ class QuadraticForm:
         if found is None:
             return
         self.parameters, self.others = found
-        self.equations = self._equations()
+        self._find_unit()
         self.form = self._guard(goal)
         self.fits = degree_in_all(self.form.poly, self.others) in (1, 2)
         self.own = self._used(self.form)
-        self.guards: dict[int, list[Guard]] = {0: [], 1: [], 2: []}  # by their degrees in z
-        for k, fact in enumerate(problem.facts):
+        self.guards: dict[int, list[Guard]] = {1: [], 2: []}  # by their degrees in z
+        for k in range(len(problem.facts)):
             one = self._guard(k)
             height = degree_in_all(one.poly, self.others)
-            axis = sum(map(int, fact.poly.degrees())) == 1 and not height
-            if k != goal and height <= 2 and not axis:
+            if k != goal and height in self.guards:
                 self.guards[height].append(one)
 
-    def _equations(self) -> list[int]:
-        """The places of equations left that are linear in z, without the one that gives 1."""
-        kept = []
-        for place, equation in enumerate(self.problem.reduction.left):
+    def _find_unit(self) -> None:
+        """Finds the equation left that gives 1 as what is linear in z."""
+        for equation in self.problem.reduction.left:
             parts = self._by_height(equation.poly)
-            if set(parts) <= {0, 1} and 1 in parts:
-                constant = constant_of(parts.get(0, self.ring.zero))
-                if constant and self.unit is None:
-                    sign = -1 if constant > 0 else 1
-                    self.unit = parts[1] * sign, abs(constant)
-                else:
-                    kept.append(place)
-        return kept
+            constant = constant_of(parts.get(0, self.ring.zero))
+            if set(parts) == {0, 1} and constant:
+                sign = -1 if constant > 0 else 1
+                self.unit = parts[1] * sign, abs(constant)
+                return
 
     def _by_height(self, poly: fmpz_mpoly) -> dict[int, fmpz_mpoly]:
         """The terms by their degrees in z."""
@@ -142,26 +130,19 @@ class QuadraticForm:
 
     # -------------------------------------------------------- nodes
 
-    def node(self, budget: Budget, coupled: bool) -> Node | None:
-        """The node of the whole box; where None was found, `halving` may say how to halve it.
-        `coupled`: also by facts with parameters.
-        """
+    def node(self, budget: Budget) -> Node | None:
+        """The node of the whole box."""
         if not self.fits:
             return None
-        for linear, quadratic in self._choices(True):
+        for linear, quadratic in self._choices():
             node = self._apart(linear, quadratic, budget)
             if node is not None:
                 return node
-        for more in range(RAISED if coupled else 0):
-            for linear, quadratic in self._choices(False):
-                node = self._coupled(linear, quadratic, more, budget)
-                if node is not None:
-                    return node
         return None
 
-    def _choices(self, free: bool) -> Iterator[tuple[list[Guard], list[Guard]]]:
-        """Facts of degree 1 and 2 in z, `free` of parameters or all: forms alone, then all; where
-        they are many, those in the goal's variables.
+    def _choices(self) -> Iterator[tuple[list[Guard], list[Guard]]]:
+        """Facts of degree 1 and 2 in z, free of parameters: forms alone, then all; where they are
+        many, those in the goal's variables.
         """
         for forms in (True, False) if self.form.homogeneous else (False,):
             for alone in (False, True):
@@ -171,7 +152,7 @@ class QuadraticForm:
                         for one in self.guards[height]
                         if not (forms and not one.homogeneous)
                         and not (alone and self._used(one) - self.own)
-                        and not (free and self._used(one) & set(self.parameters))
+                        and not self._used(one) & set(self.parameters)
                     ]
                     for height in (1, 2)
                 )
@@ -222,7 +203,6 @@ class QuadraticForm:
                 return lift(self.problem, used, [], found[1])
             if at_vertex:
                 return None
-        self.halving = self._halving(axes)
         return None
 
     def _each(
@@ -325,16 +305,12 @@ class QuadraticForm:
         squares = FactBlock(self.ring.one, False, basis, ())
         total = Fraction(content, top)
 
-        def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
+        def completed(used: list[Square], left: Form) -> Node | None:
             found = self._squares(left, basis)
-            if found is None:
-                return None
-            used, roots = joined((used, roots), found)
-            return kept(used, [], roots)
+            return None if found is None else kept([*used, *found[0]], [], found[1])
 
-        inside = InnerProgram(
-            self.ring, [goal, squares, *blocks], [], kept, total, count=1, completed=completed
-        )
+        inside = InnerProgram(self.ring, [goal, squares, *blocks], [], kept, total)
+        inside.completed = completed
         part = budget.part(EACH)
         try:
             if inside.node(part) is None and inside.solved:
@@ -343,122 +319,10 @@ class QuadraticForm:
             pass
         return result[0] if result else None
 
-    def _halving(self, axes: Sequence[Axis]) -> str:
-        """The middle of the parameter along which Q is bent most."""
-        best, text = Fraction(0), ""
-        ends = {
-            axis.variable: [
-                self.problem.facts[k].end(axis.variable)
-                for k in (axis.low, axis.high)
-                if k is not None
-            ]
-            for axis in axes
-        }
-        for v, both in ends.items():
-            if len(both) < 2:
-                continue
-            bend = Fraction(0)
-            for m, c in zip(self.form.poly.monoms(), self.form.poly.coeffs()):
-                size = prod(max(map(abs, end)) ** int(m[w]) for w, end in ends.items() if w != v)
-                size *= max(map(abs, both)) ** max(0, int(m[v]) - 2)
-                bend += abs(int(c)) * int(m[v]) * (int(m[v]) - 1) * size
-            bend *= (both[1] - both[0]) ** 2
-            if bend > best:
-                middle = sum(both, Fraction(0)) / 2
-                best = bend
-                name = self.ring.names[v]
-                text = polynomial_text([-middle.numerator, middle.denominator], name)
-        return text
-
-    # -------------------------------------------------------- all coefficients in one program
-
-    def _coupled(
-        self, linear: list[Guard], quadratic: list[Guard], more: int, budget: Budget
-    ) -> Node | None:
-        """The node of a program with facts in which parameters occur."""
-        alone = self.guards[0]
-        whole = [self.form, *linear, *quadratic]
-        if not alone and not self.equations:
-            if not any(self._used(g) & set(self.parameters) for g in whole[1:]):
-                return None  # each coefficient was tried apart
-        products = list(self._products(linear, quadratic))
-        axes = self._axes([g.poly for g in (*whole, *alone)])
-        polys = [self.form.poly, *(b.poly for b in products), *(g.poly for g in alone)]
-        degrees = [max(degree_in(p, a.variable) for p in polys) + more for a in axes]
-        if prod(n + 1 for n in degrees) > MOST_COUPLED:
-            return None
-        one = [self.ring.one]
-        basis = self._basis([g.poly for g in whole], not all(g.homogeneous for g in whole))
-        goal = FactBlock(self.form.poly, True, one, ((self.goal, 1),), self.form.scale)
-        squares = FactBlock(self.ring.one, False, basis, ())
-        base = list(self._times_bounds(squares, axes, degrees))
-        others = []
-        for count in (1, 2):
-            for some in combinations(alone, count):
-                poly = prod((g.poly for g in some), start=self.ring.one)
-                factors = merge(*(((g.fact, 1),) for g in some))
-                others.append(FactBlock(poly, False, basis, factors))
-        blocks = [goal, *base]
-        for block in (*others, *products):
-            blocks += self._times_bounds(block, axes, degrees)
-        if others:
-            gens = (
-                [self.ring.gens[a.variable] ** k for k in range(n // 2 + 1)]
-                for a, n in zip(axes, degrees)
-            )
-            bent = [prod(powers, start=z) for *powers, z in choices(*gens, basis)]
-            blocks.append(FactBlock(self.ring.one, False, bent, ()))
-        cofactors: list[tuple[MonomialCofactor, fmpz_mpoly]] = []
-        for place in self.equations:
-            poly = self.problem.reduction.left[place].poly
-            room = [max(0, n - degree_in(poly, a.variable)) for a, n in zip(axes, degrees)]
-            for z in basis if len(self._by_height(poly)) == 1 or self.unit is None else ():
-                for powers in choices(*(range(n + 1) for n in room)):
-                    parts = (self.ring.gens[a.variable] ** k for a, k in zip(axes, powers))
-                    monomial = prod(parts, start=z)
-                    exponents = tuple(map(int, monomial.monoms()[0]))
-                    cofactors.append(((place, exponents), poly * monomial))
-        budget.spend(10 * len(blocks))
-        total = Fraction(1, max(abs(int(c)) for c in self.form.poly.coeffs()))
-
-        def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
-            found, _ = self._each(left, axes, degrees, lambda form: self._squares(form, basis))
-            if found is None:
-                return None
-            used, roots = joined((used, roots), found)
-            first = (goal.factors, -1), total * goal.scale
-            return lift(self.problem, [first, *used], [], roots)
-
-        whole_lift = partial(lift, self.problem)
-        inside = InnerProgram(
-            self.ring, blocks, cofactors, whole_lift, total, count=len(base), completed=completed
-        )
-        node = inside.node(budget)
-        if node is None and inside.solved and not more:
-            node = SquaresProgram(self.ring, blocks, cofactors, whole_lift, total).node(budget)
-        return node
-
-    def _times_bounds(
-        self, block: FactBlock, axes: Sequence[Axis], degrees: Sequence[int]
-    ) -> Iterator[FactBlock]:
-        """The block times the products of powers of the bounds that keep within the degrees."""
-        rooms = [n - degree_in(block.poly, a.variable) for a, n in zip(axes, degrees)]
-        for place in choices(*(range(n + 1) for n in rooms)):
-            factors = merge(*(a.factors(k, n) for a, k, n in zip(axes, place, rooms)))
-            facts = self.problem.facts
-            poly = prod((facts[k].poly ** e for k, e in factors), start=block.poly)
-            yield FactBlock(poly, False, block.basis, merge(factors, block.factors), block.scale)
-
 
 def terms_of(poly: fmpz_mpoly, factor: Fraction) -> Form:
     """A polynomial times a rational, term by term."""
     return {tuple(map(int, m)): int(c) * factor for m, c in zip(poly.monoms(), poly.coeffs())}
-
-
-def joined(one: Found, other: Found) -> Found:
-    """All squares of both."""
-    moved = [((f, len(one[1]) + k if k >= 0 else -1), weight) for (f, k), weight in other[0]]
-    return [*one[0], *moved], [*one[1], *other[1]]
 
 
 def is_negative(form: Form, basis: Sequence[fmpz_mpoly], blocks: Sequence[FactBlock]) -> bool:
@@ -488,15 +352,14 @@ def is_negative(form: Form, basis: Sequence[fmpz_mpoly], blocks: Sequence[FactBl
 
 @dataclass
 class InnerProgram(SquaresProgram):
-    """A program whose matrices are all definite: those of its first `count` blocks after the goal
-    are not rounded, but `completed` from what the rounded ones leave.
+    """A program whose matrices are all definite: those of the products of facts are numbers, which
+    are rounded; the squares, its second block, are `completed` from what these leave.
     """
 
     goals: Sequence[tuple[float, float]] = MIDDLES
     denominators: Sequence[int] = DENOMINATORS
     kernels: Sequence[float] = ()
-    count: int = 0
-    completed: Callable[[list[Square], list[fmpz_mpoly], Form], Node | None] = lambda *_: None
+    completed: Callable[[list[Square], Form], Node | None] = lambda *_: None
     solved: bool = False  # whether there are floating matrices
 
     def _rounded(
@@ -506,36 +369,20 @@ class InnerProgram(SquaresProgram):
         denominators: Sequence[int],
         budget: Budget,
     ) -> Node | None:
-        """The node of rational matrices near the floating ones, shorter ones first."""
+        """The node of rational numbers near the floating ones, shorter ones first."""
         self.solved = True
         for denominator in denominators:
             budget.spend(50 + len(linear.entries))
-            used, roots = list[Square](), list[fmpz_mpoly]()
-            left = terms_of(self.blocks[0].poly, -self.total)
-            for k, block in enumerate(self.blocks[self.count + 1 :], self.count + 1):
-                scale, size = linear.scales[k], len(block.basis)
-                # a little more than nothing keeps what is singular definite
-                gram = [
-                    [
-                        Fraction(round(float(c) * denominator) + (i == j and size > 1), denominator)
-                        / scale
-                        for j, c in enumerate(row)
-                    ]
-                    for i, row in enumerate(grams[k])
-                ]
-                squares = as_squares(gram)
-                if squares is None:
+            used, left = list[Square](), terms_of(self.blocks[0].poly, -self.total)
+            for block, gram, scale in zip(self.blocks[2:], grams[2:], linear.scales[2:]):
+                weight = Fraction(round(float(gram[0, 0]) * denominator), denominator) / scale
+                if weight < 0:
                     break
-                for weight, row in squares:
-                    root = sum((b * c for b, c in zip(block.basis, row) if c), self.ring.zero)
-                    add(left, block.poly * root * root, -weight)
-                    number = -1 if root == self.ring.one else len(roots)
-                    used.append(((block.factors, number), weight * block.scale))
-                    roots += [root] if number >= 0 else []
+                if weight:
+                    add(left, block.poly, -weight)
+                    used.append(((block.factors, -1), weight * block.scale))
             else:
-                for (_, poly), c in zip(self.cofactors, linear.multipliers):
-                    add(left, poly, -Fraction(round(c * denominator), denominator))
-                node = self.completed(used, roots, left)
+                node = self.completed(used, left)
                 if node is not None:
                     return node
         return None
@@ -552,12 +399,9 @@ def is_vertex(place: Sequence[int], degrees: Sequence[int]) -> bool:
     return all(k in (0, n) for k, n in zip(place, degrees))
 
 
-def search_forms(
-    state: State, ring: Ring, budget: Budget, coupled: bool = True, halvings: int = HALVINGS
-) -> Node | None:
-    """A node for a state one of whose strict facts is -Q > 0, with a quadratic form Q >= 0 in a box
-    of parameters; None where none was found.  Not `coupled`: of the last such fact alone, by facts
-    without parameters.
+def search_forms(state: State, ring: Ring, budget: Budget) -> Node | None:
+    """A node for a state whose last strict fact is -Q > 0, with a quadratic form Q >= 0 in a box of
+    parameters; None where none was found.
 
     Raises Exhausted where the budget ends.
     """
@@ -566,23 +410,9 @@ def search_forms(
     problem = Problem(state, ring, quotients=False)
     problem.divide()
     last = len(problem.facts) - 1
-    goals = [
+    strict = [
         k
-        for k, f in enumerate(problem.facts)
-        if f.strict and (k == last or total_degree(f.poly) > 1)
+        for k, fact in enumerate(problem.facts)
+        if fact.strict and (k == last or total_degree(fact.poly) > 1)
     ]
-    for goal in goals[::-1][: MOST_GOALS if coupled else 1]:
-        form = QuadraticForm(problem, goal)
-        node = form.node(budget, coupled)
-        if node is not None:
-            return node
-        if form.halving and halvings:
-            nodes = list[Node]()
-            for case in state.by_sign(form.halving):
-                part = search_forms(case, ring, budget, coupled, halvings - 1)
-                if part is None:
-                    break
-                nodes.append(part)
-            else:
-                return "sign", form.halving, nodes[0], nodes[1], nodes[2]
-    return None
+    return QuadraticForm(problem, strict[-1]).node(budget) if strict else None

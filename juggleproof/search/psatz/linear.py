@@ -396,12 +396,6 @@ FIRST: tuple[Stage, ...] = ((2, 0, ""),)
 USUAL: tuple[Stage, ...] = ((2, 2, "goal"), (2, 2, ""), (1, 0, "squares"))
 SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
 TRIPLES: tuple[Stage, ...] = ((3, 2, ""),)
-DEEP: tuple[Stage, ...] = (
-    (2, 4, ""),
-    (2, 2, "squares"),
-    (2, 2, "resultants"),
-    (2, 4, "resultants"),
-)
 
 
 def close_by_equations(problem: Problem) -> Node | None:
