@@ -250,7 +250,7 @@ def test_plugin_is_registered_and_cheap_to_load_holds() -> None:
         "mpmath",
         "numpy",
         "rich",
-        "juggleproof.judging.judging",
+        "juggleproof.judging.judge",
         "juggleproof.command",
         "juggleproof.proofs.paper",
     }

@@ -17,7 +17,7 @@ from mpmath.libmp import to_rational
 
 from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
 from juggleproof.scenes import juggler
-from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.compiled_map import formulas
 from juggleproof.scenes.juggler.orbits import Orbits, Value
 from juggleproof.scenes.juggler.track import Sample
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from juggleproof.command.outputs import busy, write_all
-from juggleproof.judging import kept
+from juggleproof.judging import report_cache
 from juggleproof.judging.checked import Checked, Reading
 from juggleproof.judging.extras import needed
 from juggleproof.sine.stored import stored_outcomes
@@ -96,7 +96,7 @@ def writer(
                 made, faults = formats.FORMATS[one](contents, place)
             write_all(made, place)
             if under and one != NOT_KEPT:
-                kept.keep(f"{one}-{under}", [_record(name, made[name]) for name in made])
+                report_cache.keep(f"{one}-{under}", [_record(name, made[name]) for name in made])
             for fault in faults:
                 print(f"juggleproof: {fault}", file=sys.stderr)
                 faulty = 1
@@ -125,17 +125,17 @@ def key_of(checked: Checked) -> str:
     Empty where nothing can be kept, the checker came to no results, or figures cannot be drawn,
     which each run has to say.
     """
-    place = kept.folder()
+    place = report_cache.folder()
     if place is None or not checked or find_spec("matplotlib") is None:
         return ""
-    scene = [kept.load(path.stem) for path in sorted(place.glob("part-*.json"))]
-    files = [*sorted(DEFAULT.iterdir()), kept.ROOT / "pyproject.toml"]
+    scene = [report_cache.load(path.stem) for path in sorted(place.glob("part-*.json"))]
+    files = [*sorted(DEFAULT.iterdir()), report_cache.ROOT / "pyproject.toml"]
     digests = [
         hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "" for path in files
     ]
-    versions = [kept.version_of(tool) for tool in ("juggleproof", *DRAWN_BY)]
+    versions = [report_cache.version_of(tool) for tool in ("juggleproof", *DRAWN_BY)]
     said = (checked, stored_outcomes())
-    return kept.key(said, digests, versions, scene, files="*")
+    return report_cache.key(said, digests, versions, scene, files="*")
 
 
 def settles(checked: Checked, contents: Contents) -> bool:
@@ -156,7 +156,8 @@ def kept_files(key: str) -> dict[str, bytes]:
     """
     try:
         files = {
-            record["name"]: b64decode(record["data"], validate=True) for record in kept.load(key)
+            record["name"]: b64decode(record["data"], validate=True)
+            for record in report_cache.load(key)
         }
     except (KeyError, TypeError, ValueError):
         return {}
@@ -164,5 +165,5 @@ def kept_files(key: str) -> dict[str, bytes]:
     return files if inside else {}
 
 
-def _record(name: str, content: bytes) -> kept.Record:
+def _record(name: str, content: bytes) -> report_cache.Record:
     return {"name": name, "data": b64encode(content).decode("ascii")}

@@ -31,6 +31,7 @@ from juggleproof.judging.claims import (
     stated_texts,
     verdict_of,
 )
+from juggleproof.judging.judge import NOT_FOUND, judge
 from juggleproof.judging.judgement import (
     DEFAULT_BUDGET,
     ROUTES,
@@ -41,7 +42,6 @@ from juggleproof.judging.judgement import (
     Sharp,
     is_finding,
 )
-from juggleproof.judging.judging import NOT_FOUND, judge
 from juggleproof.judging.rule_ranges import range_of_rule
 from juggleproof.statements.definitions import Definition
 from juggleproof.statements.language import ClaimError, rests_on

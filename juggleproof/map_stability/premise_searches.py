@@ -18,7 +18,7 @@ from juggleproof.search.closing import (
     search_closing,
     sign_node,
 )
-from juggleproof.search.falls.by_products import (
+from juggleproof.search.decrease_proofs.by_products import (
     obligations_closed,
     renumbered,
     with_facts,

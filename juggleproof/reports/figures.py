@@ -8,7 +8,7 @@ from base64 import b64decode, b64encode
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from juggleproof.judging import kept as cache
+from juggleproof.judging import report_cache
 from juggleproof.judging.extras import needed
 from juggleproof.papers.figures import PaperFigure
 from juggleproof.papers.paper import opened
@@ -96,15 +96,15 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
     if form not in FORMS:
         raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")
     contents = contents or gather()
-    of_sources = cache.key(cache.version_of("matplotlib"))
-    key = f"figures-{form}-{of_sources}" if cache.folder() else ""
-    kept = _kept(cache.load(key)) if key else {}
+    of_sources = report_cache.key(report_cache.version_of("matplotlib"))
+    key = f"figures-{form}-{of_sources}" if report_cache.folder() else ""
+    kept = _kept(report_cache.load(key)) if key else {}
     lasting = {one.slug for one in of_paper() if not one.of_verdicts}
     there = kept.keys() if kept.keys() == lasting else ()
     made = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents, there)}
     if key and not there:
         encoded = ((slug, b64encode(made[slug]).decode("ascii")) for slug in sorted(lasting))
-        cache.keep(key, [{"slug": slug, "data": data} for slug, data in encoded])
+        report_cache.keep(key, [{"slug": slug, "data": data} for slug, data in encoded])
     return [Saved(*labels(one), {**kept, **made}[one.slug]) for one in of_paper()]
 
 

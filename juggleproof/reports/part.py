@@ -13,7 +13,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from juggleproof.judging import kept
+from juggleproof.judging import report_cache
 from juggleproof.reports.tables import draw
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
@@ -278,9 +278,9 @@ def figure_two(setting: Scene, peak: float) -> dict[str, str]:
 
 def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
     """Keeps what the report shows of a run of table I, where it is the report's; whether it is."""
-    if kept.folder() is None or not is_of_the_report(setting, computed, amplitudes, seed):
+    if report_cache.folder() is None or not is_of_the_report(setting, computed, amplitudes, seed):
         return False
-    kept.keep(key(), [asdict(results(setting, computed, amplitudes))])
+    report_cache.keep(key(), [asdict(results(setting, computed, amplitudes))])
     return True
 
 
@@ -288,7 +288,7 @@ def kept_results() -> Results | None:
     """What a run kept under the sources and the sweep as they are; None where there is no such
     run.
     """
-    records = kept.load(key()) if kept.folder() else []
+    records = report_cache.load(key()) if report_cache.folder() else []
     try:
         return Results(**records[0])
     except (IndexError, TypeError):
@@ -300,8 +300,8 @@ def key() -> str:
     that compute and draw.
     """
     sweep = hashlib.sha256(SWEEP.read_bytes()).hexdigest() if SWEEP.is_file() else ""
-    return "part-" + kept.key(
+    return "part-" + report_cache.key(
         sweep,
-        kept.version_of("numba"),
-        kept.version_of("matplotlib"),
+        report_cache.version_of("numba"),
+        report_cache.version_of("matplotlib"),
     )

@@ -4,14 +4,14 @@ believed.
 The files and folders, each after those that it imports:
 
 - `psatz`: one leaf, where facts contradict one another; rule `psatz`
-- `first`: what needs little work; linear statements; the searches in turn
+- `small_proofs`: what needs little work; linear statements; the searches in turn
 - `boxes`: lower bounds of polynomials on boxes, and states over boxes; rules `boxes`, `psatz`,
   `sign`
 - `one_variable`: states over one variable, all of them
 - `by_variables`: forms that are no sums of squares, by cases of a variable; rules `sign`, `psatz`
 - `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `boxes`, `use`
-- `at_number`: a state whose only variable is an algebraic number
-- `falls`: proofs that a function of a map falls; rules `sign`, `psatz`
+- `at_one_number`: a state whose only variable is an algebraic number
+- `decrease_proofs`: proofs that a function of a map falls; rules `sign`, `psatz`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns
 - `samples`: exact values for all variables of a condition
@@ -20,9 +20,9 @@ The files and folders, each after those that it imports:
 - `templates`: terms for unknowns, tried on samples
 - `witness_terms`: what terms are sought for, and how the checker takes them
 - `ranges`: sets of one parameter, and verdicts along it
-- `lines`: terms over one parameter, piece by piece
+- `families_on_a_line`: terms over one parameter, piece by piece
 - `families`: terms on all of a state, split by signs; conditions solved for a parameter
-- `triangular`: points by equations, each root over the ones before it
+- `towers_of_roots`: points by equations, each root over the ones before it
 - `points`: points, counterexamples and witnesses, as the checker's `finds` takes them
 - `certificate`: the certificate of a statement for all reals or of existence, and of map rules:
   `universal`, `iterates`, `map`, `relation`, `descends`, `contracts`, `lyapunov`, `attracts`,

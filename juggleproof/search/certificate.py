@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from juggleproof.algebra.conditions import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.closing import SQUARED, Hints, search_closing
-from juggleproof.search.first.linear_system import search_linear
 from juggleproof.search.points import search_values
 from juggleproof.search.psatz.basis import last_basis
 from juggleproof.search.ranges import Violation
+from juggleproof.search.small_proofs.linear_system import search_linear
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import (
     Certificate,

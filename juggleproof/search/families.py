@@ -20,8 +20,8 @@ from juggleproof.algebra.numbers import sign
 from juggleproof.algebra.polynomials import term_of
 from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
+from juggleproof.search.families_on_a_line import LineCover
 from juggleproof.search.hints.asking import ask
-from juggleproof.search.lines import LineCover
 from juggleproof.search.ranges import MIRRORED, QUICK
 from juggleproof.search.samples import state_condition
 from juggleproof.search.scales import Normal

@@ -12,7 +12,7 @@ from itertools import islice
 from juggleproof.algebra.conditions import Condition, ring_of
 from juggleproof.algebra.numbers import fraction
 from juggleproof.certificates import checker
-from juggleproof.search.at_number import AdjoinedNumber, close_at_number
+from juggleproof.search.at_one_number import AdjoinedNumber, close_at_number
 from juggleproof.search.closing import search_closing
 from juggleproof.search.families import cover
 from juggleproof.search.hints.asking import ask
@@ -24,7 +24,7 @@ from juggleproof.search.hints.models import (
 )
 from juggleproof.search.samples import Assignment, Sampler, base_samples
 from juggleproof.search.scales import with_scales
-from juggleproof.search.triangular import DIGITS, Towers, values_of_tower
+from juggleproof.search.towers_of_roots import DIGITS, Towers, values_of_tower
 from juggleproof.search.witness_terms import Known, Task
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import Adjoined, Node, Values, values_at

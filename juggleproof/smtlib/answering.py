@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, cast
 
 from juggleproof.certificates import checker
 from juggleproof.judging.conclusions import REFUTED
-from juggleproof.search.first.stages import certificates_in_turn
+from juggleproof.search.small_proofs.searches_in_turn import certificates_in_turn
 from juggleproof.smtlib.script import Problem, problems_of_file
 from juggleproof.smtlib.statements import denial, givens, statement_of
 from juggleproof.statements.language import ClaimError

@@ -13,7 +13,7 @@ from contextlib import suppress
 from typing import TypeVar, cast
 
 from juggleproof.certificates import checker
-from juggleproof.search.first.stages import search_proof
+from juggleproof.search.small_proofs.searches_in_turn import search_proof
 from juggleproof.smtlib.script import Problem, our_name
 from juggleproof.statements.formulas import Expression
 from juggleproof.statements.language import (

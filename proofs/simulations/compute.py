@@ -26,8 +26,8 @@ from juggleproof.proofs.simulations.figures import (
     Still,
 )
 from juggleproof.scenes.juggler import random
+from juggleproof.scenes.juggler.compiled_map import formulas, region
 from juggleproof.scenes.juggler.exact import flight, flight_length, impact
-from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames, no_vibration
 from juggleproof.scenes.part.onsets import (

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 from juggleproof.command.main import run
-from juggleproof.judging import kept
+from juggleproof.judging import report_cache
 
 
 def made(form: str, folder: Path) -> dict[str, bytes]:
@@ -20,7 +20,7 @@ def made(form: str, folder: Path) -> dict[str, bytes]:
 
     Raises ValueError where it is not made.
     """
-    os.environ[kept.VARIABLE] = str(folder / "kept")
+    os.environ[report_cache.VARIABLE] = str(folder / "kept")
     if run(["report", "--format", form, "-o", str(folder / "made")]) != 0:
         raise ValueError(f"no report as {form}")
     paths = (path for path in (folder / "made").rglob("*") if path.is_file())

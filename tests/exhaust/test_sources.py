@@ -261,7 +261,7 @@ def test_a_fresh_search_opens_nothing_else_holds(sources: Sources, stages: Stage
     around = {name for name in sources.files if name.startswith("tests/exhaust/")}
     loaded = {
         sources.modules[stages.claims["eq-3"]],
-        "juggleproof/judging/judging.py",
+        "juggleproof/judging/judge.py",
         "juggleproof/statements/store.py",
     }
     assert loaded <= seen

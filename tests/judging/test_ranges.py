@@ -12,8 +12,8 @@ from juggleproof.algebra.numbers import real_roots
 from juggleproof.certificates import checker
 from juggleproof.judging.claims import Assertion, Claim
 from juggleproof.judging.forms import always, speaks_of_range
+from juggleproof.judging.judge import Judge, judge
 from juggleproof.judging.judgement import Resources, Sharp
-from juggleproof.judging.judging import Judge, judge
 from juggleproof.judging.searches.range_search import line_text, search_sharp_range, text_of_range
 from juggleproof.search.ranges import Line
 from juggleproof.statements.language import (

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from juggleproof.judging.claims import Assertion, Claim
 from juggleproof.judging.forms import always
+from juggleproof.judging.judge import judge
 from juggleproof.judging.judgement import Resources
-from juggleproof.judging.judging import judge
 from juggleproof.judging.rule_ranges import range_of_rule
 from juggleproof.papers.paper import opened
 from juggleproof.statements.language import MapRule, Roles, Statement, real

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from juggleproof.judging import judgement, judging
+from juggleproof.judging import judge, judgement
 from juggleproof.judging.run import Options, Run, findings_in, run
 from juggleproof.judging.searches import claim_search
 from juggleproof.papers.paper import opened
@@ -92,7 +92,7 @@ def test_revote_asks_again_and_changes_no_byte_holds(
 def test_rejects_votes_with_another_budget(
     tmp_path: Path, asked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judging, "Budget", lambda: Budget(boxes=Budget().boxes - 1))
+    monkeypatch.setattr(judge, "Budget", lambda: Budget(boxes=Budget().boxes - 1))
     fresh(tmp_path)
     assert {name.split("/")[0] for name in asked} == {*CHOSEN}
 

@@ -8,7 +8,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.map_stability.maps import read_rows
 from juggleproof.map_stability.search import search_stability
-from juggleproof.search.falls.by_factors import proof_by_factors
+from juggleproof.search.decrease_proofs.by_factors import proof_by_factors
 from juggleproof.statements.states import proves
 
 TEXT = """statement newton/falls

@@ -9,9 +9,9 @@ from functools import cache
 
 from juggleproof.certificates import checker
 from juggleproof.judging.judgement import DEFAULT_BUDGET
+from juggleproof.proofs.restitution.below_a_half import EXCEPTIONS, TO_ONE_OR_TWO
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
-from juggleproof.proofs.restitution.to_a_half import EXCEPTIONS, TO_ONE_OR_TWO
 from juggleproof.proofs.restitution.unequal import (
     BORN,
     DIES,

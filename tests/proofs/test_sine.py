@@ -15,8 +15,8 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.judging.claims import CheckedApart, claims_in
+from juggleproof.judging.judge import judge
 from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, Resources
-from juggleproof.judging.judging import judge
 from juggleproof.proofs.sine import everywhere
 from juggleproof.reports.results import results_of_run
 from juggleproof.search.certificate import search_certificate

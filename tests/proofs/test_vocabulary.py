@@ -13,8 +13,8 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.judging.claims import Assertion, CheckedApart, Claim
 from juggleproof.judging.forms import Vocabulary, always, domains_of
+from juggleproof.judging.judge import judge
 from juggleproof.judging.judgement import Judgement, Resources
-from juggleproof.judging.judging import judge
 from juggleproof.papers.paper import opened
 from juggleproof.proofs.paper.names import STANDING
 from juggleproof.search.scales import with_scales

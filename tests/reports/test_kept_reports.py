@@ -13,7 +13,7 @@ import pytest
 
 from juggleproof.command import formats, report
 from juggleproof.command.main import run
-from juggleproof.judging import kept
+from juggleproof.judging import report_cache
 from juggleproof.judging.checked import Checked
 from juggleproof.judging.claims import CheckedApart
 from juggleproof.papers.paper import opened
@@ -32,7 +32,7 @@ def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = part_of_store(tmp_path / "store", CLAIMS.__contains__)
     monkeypatch.setattr(report, "DEFAULT", folder)
     monkeypatch.setattr(report, "stored_outcomes", list)
-    monkeypatch.setenv(kept.VARIABLE, str(tmp_path / "kept"))
+    monkeypatch.setenv(report_cache.VARIABLE, str(tmp_path / "kept"))
     return folder
 
 
@@ -102,11 +102,13 @@ CHANGES: dict[str, Callable[[pytest.MonkeyPatch, Path], object]] = {
         report, "stored_outcomes", lambda: [("all", "rejected", "")]
     ),
     "of a file beside the certificates": lambda patch, store: (store / "findings").write_text("{}"),
-    "of a library": lambda patch, store: patch.setattr(kept, "version_of", lambda tool: "another"),
-    "of the sources": lambda patch, store: patch.setattr(kept, "SOURCES", ("symbolic",)),
-    "of the scene": lambda patch, store: kept.keep("part-" + 64 * "0", [{"run": "1"}]),
+    "of a library": lambda patch, store: patch.setattr(
+        report_cache, "version_of", lambda tool: "another"
+    ),
+    "of the sources": lambda patch, store: patch.setattr(report_cache, "SOURCES", ("symbolic",)),
+    "of the scene": lambda patch, store: report_cache.keep("part-" + 64 * "0", [{"run": "1"}]),
     "of what is kept": spoil,
-    "of the folder": lambda patch, store: patch.setenv(kept.VARIABLE, "off"),
+    "of the folder": lambda patch, store: patch.setenv(report_cache.VARIABLE, "off"),
     "of matplotlib": lambda patch, store: patch.setattr(report, "find_spec", lambda name: None),
 }
 
@@ -121,7 +123,9 @@ def test_rejects_what_was_kept_before_a_change(
 
 
 def test_the_key_reads_templates_and_data_holds() -> None:
-    names = [one.name for one in kept._sources(kept.ROOT, kept.SOURCES, "*")]
+    names = [
+        one.name for one in report_cache._sources(report_cache.ROOT, report_cache.SOURCES, "*")
+    ]
     assert {"page.html.j2", "style.css", "register.json", "rows.tsv", "sweep.json"} <= {*names}
     assert not any(name.endswith(".pyc") for name in names)
 
@@ -150,5 +154,5 @@ def test_rejects_keeping_what_was_found_in_this_run() -> None:
 def test_rejects_kept_files_that_lie_outside(
     name: str, store: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    kept.keep("badge-" + 64 * "0", [{"name": name, "data": ""}])
+    report_cache.keep("badge-" + 64 * "0", [{"name": name, "data": ""}])
     assert report.kept_files("badge-" + 64 * "0") == {}

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from juggleproof.judging import kept as records
+from juggleproof.judging import report_cache as records
 from juggleproof.reports import part
 from juggleproof.reports.contents import Entry
 from juggleproof.reports.page import build

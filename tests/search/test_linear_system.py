@@ -9,7 +9,8 @@ import random
 import z3
 
 from juggleproof.certificates import checker
-from juggleproof.search.first.linear_system import (
+from juggleproof.search.psatz.basis import last_basis
+from juggleproof.search.small_proofs.linear_system import (
     ONE,
     Farkas,
     Row,
@@ -18,7 +19,6 @@ from juggleproof.search.first.linear_system import (
     search_linear,
     solve,
 )
-from juggleproof.search.psatz.basis import last_basis
 from juggleproof.statements.work import Budget
 from tests.rows import each_row
 

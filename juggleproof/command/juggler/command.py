@@ -13,7 +13,7 @@ from juggleproof.command.juggler import tables
 from juggleproof.command.outputs import clear, fault_of, progress, written_aside
 from juggleproof.judging.extras import needed
 from juggleproof.reports.tables import components, exact
-from juggleproof.scenes.juggler.given import counted, restitution
+from juggleproof.scenes.juggler.compiled_map import counted, restitution
 from juggleproof.scenes.juggler.orbits import Orbits, prepare
 from juggleproof.scenes.juggler.starts import (
     Axis,

@@ -11,7 +11,7 @@ from rich.console import Console
 from juggleproof.command.outputs import clear, progress, written_aside
 from juggleproof.reports.tables import draw
 from juggleproof.scenes.juggler import picture
-from juggleproof.scenes.juggler.given import brief
+from juggleproof.scenes.juggler.compiled_map import brief
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits, limits
 from juggleproof.scenes.juggler.starts import Scene
 

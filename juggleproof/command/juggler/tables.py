@@ -11,7 +11,7 @@ from sympy import Expr, factor
 
 from juggleproof.reports.tables import DIGITS, draw, shown
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import Number, counted
+from juggleproof.scenes.juggler.compiled_map import Number, counted
 from juggleproof.scenes.juggler.orbits import MOST_TIMES, Error, Orbits, Row, Value, heights
 from juggleproof.scenes.juggler.periodic import (
     attracts_for,

@@ -27,7 +27,7 @@ from juggleproof.map_stability.functions.candidates import (
 from juggleproof.map_stability.functions.templates import Function
 from juggleproof.map_stability.premise_searches import proof_by_squares
 from juggleproof.map_stability.terms import Expr, column, expression, symbols, written
-from juggleproof.search.falls.by_products import proof_by_products
+from juggleproof.search.decrease_proofs.by_products import proof_by_products
 
 
 def energy_candidates(setting: Setting) -> Iterator[Candidate]:

@@ -20,7 +20,7 @@ from juggleproof.map_stability.functions.equations import (
 )
 from juggleproof.map_stability.premise_searches import proof_from_few_facts
 from juggleproof.map_stability.terms import Expr, symbols, written
-from juggleproof.search.falls.by_products import proof_by_products
+from juggleproof.search.decrease_proofs.by_products import proof_by_products
 from juggleproof.statements.nodes import Proof
 
 Row = tuple[int, ...]

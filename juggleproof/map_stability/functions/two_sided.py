@@ -49,8 +49,8 @@ from juggleproof.map_stability.terms import (
     symbols,
     written,
 )
-from juggleproof.search.falls.by_factors import proof_by_factors
-from juggleproof.search.falls.by_products import proof_by_products
+from juggleproof.search.decrease_proofs.by_factors import proof_by_factors
+from juggleproof.search.decrease_proofs.by_products import proof_by_products
 from juggleproof.statements.cases import conjunction
 from juggleproof.statements.nodes import Proof
 

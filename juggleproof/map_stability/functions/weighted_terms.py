@@ -48,7 +48,7 @@ from juggleproof.map_stability.terms import (
     value,
     written,
 )
-from juggleproof.search.falls.by_products import proof_by_products
+from juggleproof.search.decrease_proofs.by_products import proof_by_products
 from juggleproof.statements.language import MapRule
 
 

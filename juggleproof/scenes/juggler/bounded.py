@@ -14,8 +14,8 @@ from flint import arb, ctx, fmpq
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.compiled_map import formulas, nearest
 from juggleproof.scenes.juggler.exact import Exact, Rational, as_fraction, lifted, lowest
-from juggleproof.scenes.juggler.given import formulas, nearest
 from juggleproof.scenes.juggler.starts import Goal, Scene
 from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 

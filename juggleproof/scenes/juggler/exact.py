@@ -12,7 +12,7 @@ from flint import fmpq, fmpz
 from mpmath import MPContext, mpf
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.compiled_map import formulas
 from juggleproof.scenes.juggler.track import Sample, Stop, Track
 
 # -------------------------------------------------------------------------------------------------

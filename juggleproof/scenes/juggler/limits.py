@@ -36,8 +36,8 @@ from juggleproof.scenes.juggler.bounded import (
     certain_flights,
     refuse_flushing,
 )
+from juggleproof.scenes.juggler.compiled_map import formulas, nearest
 from juggleproof.scenes.juggler.exact import Exact, as_fraction, lifted
-from juggleproof.scenes.juggler.given import formulas, nearest
 from juggleproof.scenes.juggler.periodic import Place, Word, returning_state
 from juggleproof.scenes.juggler.starts import Starts
 from juggleproof.scenes.juggler.track import certain_flight

@@ -14,8 +14,7 @@ from mpmath import mpf
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import bounded, exact
-from juggleproof.scenes.juggler.exact import flight, flight_length, impact
-from juggleproof.scenes.juggler.given import (
+from juggleproof.scenes.juggler.compiled_map import (
     Number,
     brief,
     compiled,
@@ -23,6 +22,7 @@ from juggleproof.scenes.juggler.given import (
     formulas,
     rational,
 )
+from juggleproof.scenes.juggler.exact import flight, flight_length, impact
 from juggleproof.scenes.juggler.starts import MOST_STEPS, Goal, Scene, goal
 from juggleproof.scenes.juggler.track import Arithmetic, Sample, Stop, Track, advance, begin
 from juggleproof.symbolic import ball_after_collision, collision_time, fly, period, state, table_at

@@ -16,8 +16,8 @@ from sympy import Expr, Poly, Rational, cancel, factor_list, fraction, refine_ro
 from sympy import intervals as isolating
 
 from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.compiled_map import Number, brief, counted, formulas, restitution
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
-from juggleproof.scenes.juggler.given import Number, brief, counted, formulas, restitution
 from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
 from juggleproof.symbolic.algebra import K, alpha, w, x
 

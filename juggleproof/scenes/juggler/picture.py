@@ -26,7 +26,7 @@ from juggleproof.drawing.drawing import (
 from juggleproof.drawing.lines import joined, straight
 from juggleproof.drawing.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import brief, formulas
+from juggleproof.scenes.juggler.compiled_map import brief, formulas
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits
 from juggleproof.scenes.juggler.orbits import heights
 from juggleproof.scenes.juggler.periodic import Word, exists_for, returning_state

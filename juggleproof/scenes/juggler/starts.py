@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import (
+from juggleproof.scenes.juggler.compiled_map import (
     Number,
     brief,
     counted,

@@ -16,8 +16,8 @@ from mpmath import mpf
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, Column, radius_of
+from juggleproof.scenes.juggler.compiled_map import brief, formulas, nearest
 from juggleproof.scenes.juggler.exact import as_fraction, flight, impact, lifted, strikes
-from juggleproof.scenes.juggler.given import brief, formulas, nearest
 from juggleproof.scenes.juggler.orbits import Error, Orbits, Row, Value, orbit
 from juggleproof.scenes.juggler.starts import Scene, point, scene
 

@@ -20,7 +20,7 @@ from typing import Generic, Literal, NamedTuple, Protocol
 
 from flint import fmpq
 
-from juggleproof.scenes.juggler.given import N, formulas
+from juggleproof.scenes.juggler.compiled_map import N, formulas
 from juggleproof.scenes.juggler.starts import Goal
 
 End = Literal["", "reached", "trap", "undecided", "too long"]

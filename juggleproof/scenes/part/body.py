@@ -49,7 +49,7 @@ def kernel_digest() -> str:
 
 def _folder() -> Path | None:
     """The folder of machine code, if there is one: that of NUMBA_CACHE_DIR, or beside the other
-    records of the project (see `juggleproof.judging.kept`).
+    records of the project (see `juggleproof.judging.report_cache`).
     """
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("JUGGLEPROOF_CACHE", "")
     if chosen == "off":

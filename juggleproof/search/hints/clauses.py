@@ -18,8 +18,8 @@ import z3
 
 from juggleproof.algebra.conditions import ring_of, to_flint
 from juggleproof.certificates import checker
-from juggleproof.search.first.linear_system import Fact, FactKey, key_of
 from juggleproof.search.hints.asking import conflict, session_of
+from juggleproof.search.small_proofs.linear_system import Fact, FactKey, key_of
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import State
 from juggleproof.statements.work import Budget

@@ -12,8 +12,8 @@ import pytest
 
 from juggleproof.judging.claims import Assertion, Claim, Reading, Readings, Remark
 from juggleproof.judging.correcting import Candidate, coefficients_on_printed_terms, differences
+from juggleproof.judging.judge import judge
 from juggleproof.judging.judgement import Resources
-from juggleproof.judging.judging import judge
 from juggleproof.judging.register import load_register
 from juggleproof.papers.paper import opened
 from juggleproof.proofs.ledger.unprinted import UNPRINTED

@@ -28,7 +28,7 @@ from juggleproof.scenes.juggler import (
 )
 from juggleproof.scenes.juggler import bounded as engine
 from juggleproof.scenes.juggler.bounded import Bounded, powers
-from juggleproof.scenes.juggler.given import N, nearest
+from juggleproof.scenes.juggler.compiled_map import N, nearest
 from juggleproof.scenes.juggler.starts import goal
 from juggleproof.scenes.juggler.tables import as_arrays
 from tests.rows import each_row

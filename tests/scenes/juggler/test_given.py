@@ -12,8 +12,8 @@ from sympy import Symbol, sympify
 from juggleproof.command.main import run
 from juggleproof.proofs.theorem.definition import FIXED, PIECES, TRAP, holds_at, value_of
 from juggleproof.proofs.theorem.orbits import SHEARED, from_the_fixed_point
+from juggleproof.scenes.juggler.compiled_map import formulas, region
 from juggleproof.scenes.juggler.exact import flight, flight_length, impact, impact_power, strikes
-from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.statements.language import term
 from juggleproof.symbolic import (
     lowest_terms,

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import boundary, grid, listed, orbit, physical, point, random, scene
 from juggleproof.scenes.juggler.bounded import RADIUS, radius_of
+from juggleproof.scenes.juggler.compiled_map import formulas, region
 from juggleproof.scenes.juggler.exact import as_fraction, flight
-from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.scenes.juggler.orbits import Row, heights
 from juggleproof.scenes.juggler.tables import in_units
 from tests.rows import each_row

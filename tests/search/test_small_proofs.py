@@ -8,9 +8,9 @@ from collections.abc import Callable
 from typing import Union
 
 from juggleproof.certificates import checker
-from juggleproof.search.first.at_hand import search_at_hand
-from juggleproof.search.first.by_pairs import search_by_pairs
-from juggleproof.search.first.stages import MOST_VARIABLES, certificates_in_turn
+from juggleproof.search.small_proofs.products_of_two import search_by_pairs
+from juggleproof.search.small_proofs.searches_in_turn import MOST_VARIABLES, certificates_in_turn
+from juggleproof.search.small_proofs.simple_counterexamples import search_at_hand
 from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.work import Budget
 from tests.rows import each_row

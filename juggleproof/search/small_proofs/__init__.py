@@ -2,8 +2,8 @@
 
 The files, each after those that it imports:
 
-- `at_hand`: small values for every variable
+- `simple_counterexamples`: small values for every variable
 - `linear_system`: statements of linear facts and disjunctions, all of them; rules `psatz`, `cases`
-- `by_pairs`: products of at most two facts, by an exact linear program; rules `psatz`, `cases`
-- `stages`: these, then the whole search, in turn
+- `products_of_two`: products of at most two facts, by an exact linear program; rules `psatz`, `cases`
+- `searches_in_turn`: these, then the whole search, in turn
 """

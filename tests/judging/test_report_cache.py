@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.judging import kept
+from juggleproof.judging import report_cache
 from juggleproof.statements.store import canonical
 
 KEY = "0" * 64
@@ -18,47 +18,50 @@ RECORDS = [{"id": "a", "says": "It says so."}, {"id": "b"}]
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv(kept.VARIABLE, str(tmp_path / "kept"))
+    monkeypatch.setenv(report_cache.VARIABLE, str(tmp_path / "kept"))
     return tmp_path / "kept"
 
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
-    for package in kept.SOURCES:
+    for package in report_cache.SOURCES:
         (tmp_path / "tree" / package / "inner").mkdir(parents=True)
         (tmp_path / "tree" / package / "inner" / "one.py").write_text("x = 1\n", encoding="utf-8")
     return tmp_path / "tree"
 
 
-@pytest.mark.parametrize("package", kept.SOURCES)
+@pytest.mark.parametrize("package", report_cache.SOURCES)
 def test_a_changed_source_changes_the_key_holds(package: str, tree: Path) -> None:
     path = tree / package / "inner" / "one.py"
-    seen = [kept.key(root=tree)]
-    assert kept.key(root=tree) == seen[0]
+    seen = [report_cache.key(root=tree)]
+    assert report_cache.key(root=tree) == seen[0]
     path.write_text("x = 2\n", encoding="utf-8")
-    seen.append(kept.key(root=tree))
+    seen.append(report_cache.key(root=tree))
     path.rename(path.with_name("two.py"))
-    seen.append(kept.key(root=tree))
+    seen.append(report_cache.key(root=tree))
     path.write_text("", encoding="utf-8")
-    seen.append(kept.key(root=tree))
+    seen.append(report_cache.key(root=tree))
     assert len(set(seen)) == len(seen)
 
 
 def test_settings_and_versions_change_the_key_holds(
     tree: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen = {kept.key(1, root=tree), kept.key(2, root=tree)}
+    seen = {report_cache.key(1, root=tree), report_cache.key(2, root=tree)}
     monkeypatch.setattr(
-        kept, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
+        report_cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
     )
-    seen.add(kept.key(1, root=tree))
-    monkeypatch.setattr(kept.sys, "version", "another")
-    seen.add(kept.key(1, root=tree))
+    seen.add(report_cache.key(1, root=tree))
+    monkeypatch.setattr(report_cache.sys, "version", "another")
+    seen.add(report_cache.key(1, root=tree))
     assert len(seen) == 4
 
 
 def test_the_key_reads_the_prints_and_the_checker_holds() -> None:
-    read = {path.relative_to(kept.ROOT).as_posix() for path in kept._sources(kept.ROOT)}
+    read = {
+        path.relative_to(report_cache.ROOT).as_posix()
+        for path in report_cache._sources(report_cache.ROOT)
+    }
     assert {
         "certificates/checker/rules.py",
         "proofs/paper/a3_a4_supremum.py",
@@ -68,30 +71,30 @@ def test_the_key_reads_the_prints_and_the_checker_holds() -> None:
 
 
 def test_records_come_back_holds(place: Path) -> None:
-    assert kept.load(KEY) == []
-    kept.keep(KEY, RECORDS)
-    assert kept.load(KEY) == RECORDS
-    assert kept.load("1" * 64) == []
+    assert report_cache.load(KEY) == []
+    report_cache.keep(KEY, RECORDS)
+    assert report_cache.load(KEY) == RECORDS
+    assert report_cache.load("1" * 64) == []
     assert [path.name for path in place.iterdir()] == [f"{KEY}.json"]
 
 
 def test_rejects_truncated_and_changed_files(place: Path) -> None:
-    kept.keep(KEY, RECORDS)
+    report_cache.keep(KEY, RECORDS)
     path = place / f"{KEY}.json"
     whole = path.read_bytes()
     for end in range(len(whole)):
         path.write_bytes(whole[:end])
-        assert kept.load(KEY) == []
+        assert report_cache.load(KEY) == []
         path.write_bytes(whole[:end] + bytes([whole[end] ^ 1]) + whole[end + 1 :])
-        assert kept.load(KEY) == []
+        assert report_cache.load(KEY) == []
     path.write_bytes(whole)
-    assert kept.load(KEY) == RECORDS
+    assert report_cache.load(KEY) == RECORDS
 
 
 def test_rejects_a_file_of_another_key(place: Path) -> None:
-    kept.keep(KEY, RECORDS)
+    report_cache.keep(KEY, RECORDS)
     (place / f"{KEY}.json").rename(place / f"{'1' * 64}.json")
-    assert kept.load("1" * 64) == []
+    assert report_cache.load("1" * 64) == []
 
 
 @pytest.mark.parametrize(
@@ -111,13 +114,13 @@ def test_rejects_what_is_no_list_of_records(content: bytes, place: Path) -> None
     place.mkdir()
     digest = hashlib.sha256(KEY.encode() + content).hexdigest().encode()
     (place / f"{KEY}.json").write_bytes(digest + b"\n" + content)
-    assert kept.load(KEY) == []
+    assert report_cache.load(KEY) == []
 
 
 def test_rejects_a_file_that_others_may_write(place: Path) -> None:
-    kept.keep(KEY, RECORDS)
+    report_cache.keep(KEY, RECORDS)
     (place / f"{KEY}.json").chmod(0o666)
-    assert kept.load(KEY) == []
+    assert report_cache.load(KEY) == []
 
 
 def test_a_folder_that_cannot_be_written_is_no_error_holds(
@@ -125,9 +128,9 @@ def test_a_folder_that_cannot_be_written_is_no_error_holds(
 ) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     for place in (tmp_path / "file", tmp_path / "file" / "below"):
-        monkeypatch.setenv(kept.VARIABLE, str(place))
-        kept.keep(KEY, RECORDS)
-        assert kept.load(KEY) == []
+        monkeypatch.setenv(report_cache.VARIABLE, str(place))
+        report_cache.keep(KEY, RECORDS)
+        assert report_cache.load(KEY) == []
     assert (tmp_path / "file").read_bytes() == b""
 
 
@@ -135,12 +138,16 @@ def test_off_and_no_home_keep_nothing_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setenv(kept.VARIABLE, "off")
-    kept.keep(KEY, RECORDS)
-    assert kept.folder() is None and kept.load(KEY) == [] and not list(tmp_path.iterdir())
-    monkeypatch.delenv(kept.VARIABLE)
-    kept.keep(KEY, RECORDS)
-    assert kept.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == [
+    monkeypatch.setenv(report_cache.VARIABLE, "off")
+    report_cache.keep(KEY, RECORDS)
+    assert (
+        report_cache.folder() is None
+        and report_cache.load(KEY) == []
+        and not list(tmp_path.iterdir())
+    )
+    monkeypatch.delenv(report_cache.VARIABLE)
+    report_cache.keep(KEY, RECORDS)
+    assert report_cache.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == [
         "juggleproof"
     ]
     monkeypatch.delenv("XDG_CACHE_HOME")
@@ -148,14 +155,14 @@ def test_off_and_no_home_keep_nothing_holds(
     def homeless() -> Path:
         raise RuntimeError("no home")
 
-    monkeypatch.setattr(kept.Path, "home", homeless)
-    assert kept.folder() is None
+    monkeypatch.setattr(report_cache.Path, "home", homeless)
+    assert report_cache.folder() is None
 
 
 def test_only_the_latest_files_are_kept_holds(place: Path) -> None:
-    for number in range(kept.KEPT + 3):
-        kept.keep(f"{number:064x}", RECORDS)
-    assert len(list(place.iterdir())) == kept.KEPT
+    for number in range(report_cache.KEPT + 3):
+        report_cache.keep(f"{number:064x}", RECORDS)
+    assert len(list(place.iterdir())) == report_cache.KEPT
     (place / "notes.txt").write_text(canonical({}).decode(), encoding="utf-8")
-    kept.keep(KEY, RECORDS)
+    report_cache.keep(KEY, RECORDS)
     assert (place / "notes.txt").exists()

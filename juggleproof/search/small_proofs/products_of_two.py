@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 
 from juggleproof.certificates import checker
-from juggleproof.search.first.linear_system import (
+from juggleproof.search.small_proofs.linear_system import (
     ONE,
     Farkas,
     Row,

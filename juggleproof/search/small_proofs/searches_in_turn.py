@@ -11,7 +11,7 @@ from importlib import import_module
 from types import ModuleType
 
 from juggleproof.certificates import checker
-from juggleproof.search.first.at_hand import search_at_hand
+from juggleproof.search.small_proofs.simple_counterexamples import search_at_hand
 from juggleproof.statements.nodes import Certificate, Proof
 from juggleproof.statements.work import Budget
 

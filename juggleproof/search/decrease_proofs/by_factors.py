@@ -20,7 +20,7 @@ from juggleproof.algebra.polynomials import (
 )
 from juggleproof.certificates import checker
 from juggleproof.search.closing import sign_node
-from juggleproof.search.falls.by_products import (
+from juggleproof.search.decrease_proofs.by_products import (
     Combinations,
     Multiplied,
     facts_kept,
