@@ -2,7 +2,7 @@
 
 `$a` are the parameters, each after a space, `$all` binds them, `$P` begins the names of the
 premises of the statement, `$open` takes the state `of_s` apart, and `$s` are its coordinates. No
-name of a claim begins with `of_`. The words of coq_kinds are those of a map, or of a relation.
+name of a claim begins with `of_`. The words of `kinds` are those of a map, or of a relation.
 """
 
 from __future__ import annotations

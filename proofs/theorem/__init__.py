@@ -5,17 +5,9 @@ premises the checker writes.
     stability      the rules, the written proof, alpha = 1/3, and Proposition 1
     orbits         flights, where stability ends, and bounds that come near the worst case
     quantities     what is certified of one state, in exact numbers
-    coq_terms      terms and formulas as Coq texts
+    explaining     `explain theorem`: the paper's bounds and ours, and one state with its orbit
     coq            the texts of the definition for Coq, and Statements.v
     coq_templates  the parts of Statements.v without data
-    coq_readings   premises of any map rule as Coq lemmas in the words of the statements
-    coq_frame      the words in which a file of Coq speaks of any map or relation
-    coq_kinds      the words of a map, and of a relation, in such a file
-    coq_values     the rules on Lyapunov's and Chetaev's functions for such a file
-    coq_settles    that every orbit tends to one of several points, for such a file
-    coq_returns    that every orbit comes to that of one of several points, for such a file
-    coq_rules      a theorem on the orbits of any map or relation as one file of Coq
-    coq_rule_templates  the parts of such a file without data
 """
 
 SECTIONS = ("definition", "stability", "orbits")
