@@ -6,9 +6,4 @@ parameters.  In reading order:
 - `checker`: the theorem, what refutes it, statements and certificates.
 
 These three are the second checker, which alone is believed: `python -I -S certificates/sine [DIR]`.
-
-- `cycles`: the strongly connected parts of a graph;
-- `search`: finds a certificate for a box;
-- `cover`: covers a rectangle by boxes, over any executor;
-- `stored`: what the stored certificate says.
 """

@@ -4,14 +4,13 @@ claims and the derivations.
     tables     tables as columns, and exact numbers
     tree       how the theorem rests on rules and premises
     results    the results of a run as rows and data
-    in_words   counterexamples in words
+    counterexample_words  counterexamples in words
     errata     what the paper prints wrongly
     contents   what reports show, gathered once, and JSON
     latex      names, terms and formulas as LaTeX
     words      sentences and statements in words and LaTeX
     mathml     LaTeX as MathML
     markup     sentences, statements and the proof tree as markup
-    opening    what moves, the map, and the written proof
     page       the HTML page
     tex_words  what the LaTeX templates call
     tex        the LaTeX report and the PDF

@@ -1,8 +1,7 @@
-"""The moving system: orbits of the map, and figures of the states, maps and regions, from what
-`symbolic` derives.
+"""The moving system, iterated by the maps that `symbolic` derives.
 
     juggler  orbits of the paper's map in four arithmetics
     part     the part on the vibrating table
-    figures  the figures of the paper
+    table    a ball on a table that moves as a sine
     errors   SceneError, for what cannot be carried out
 """
