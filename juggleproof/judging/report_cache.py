@@ -42,16 +42,14 @@ def folder() -> Path | None:
         return None
 
 
-def key(
-    *settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES, files: str = "*.py"
-) -> str:
+def key(*settings: object, root: Path = ROOT, files: str = "*.py") -> str:
     """A digest of the packages' files of such names, the versions of Python and of the libraries,
     and the settings.
     """
     digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
-    for path in _sources(root, packages, files):
+    for path in _sources(root, files):
         content = path.read_bytes()
         digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
         digest.update(content)
@@ -66,8 +64,8 @@ def version_of(tool: str) -> str:
         return "absent"
 
 
-def _sources(root: Path, packages: Sequence[str] = SOURCES, files: str = "*.py") -> Iterator[Path]:
-    for package in packages:
+def _sources(root: Path, files: str = "*.py") -> Iterator[Path]:
+    for package in SOURCES:
         for path in sorted((root / package).rglob(files)):
             if path.parent.name != "__pycache__" and path.is_file():
                 yield path

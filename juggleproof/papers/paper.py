@@ -83,7 +83,7 @@ def opened() -> Paper:
     >>> opened().theorem.claim
     'theorem-in-units'
     """
-    paper = import_module("juggleproof.proofs").PAPER  # PACKAGE, in a word that is found
+    paper = import_module(PACKAGE).PAPER
     if not isinstance(paper, Paper):
         raise ClaimError(f"{PACKAGE}: PAPER describes no paper")
     return paper

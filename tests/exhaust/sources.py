@@ -27,6 +27,8 @@ PACKAGES = ("symbolic", "certificates", "proofs", "benchmarks")
 NAMED = re.compile(rf"\b(?:{NAME}|tests)(?:\.\w+)+")
 MARK = "pytest.mark.exhaust"
 DEFINED = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+# what a module opens as data, by a name that it does not write out
+OPENS = {"juggleproof.papers.paper": "juggleproof.proofs"}
 BY_NAME = ("import_module", "lazy_names", "__import__")
 
 
@@ -88,7 +90,9 @@ class Sources:
     def imports(self, module: str) -> frozenset[str]:
         """The modules that a module names, in import statements and in strings."""
         if module not in self.kept_imports:
-            found = {self.whole(name) for name in self.named(module)}
+            found = {self.whole(name) for name in self.named(module)} | {
+                self.whole(OPENS.get(module, ""))
+            }
             self.kept_imports[module] = frozenset(one for one in found if one) - {module}
         return self.kept_imports[module]
 

@@ -78,6 +78,13 @@ def test_a_module_leads_to_all_that_it_imports_or_names_holds() -> None:
     assert not facts_of("import pytest\n@pytest.mark.skip\ndef test(): ...", "t", False).marked
 
 
+def test_what_opens_the_paper_leads_to_all_of_it_holds(sources: Sources) -> None:
+    """But what is judged of one claim does not."""
+    named, _ = sources.closure(["juggleproof.papers.paper"])
+    assert {"juggleproof.proofs.paper.s2_models", "juggleproof.proofs.opening"} <= named
+    assert "juggleproof.papers.paper" not in sources.closure(["juggleproof.judging.run"])[0]
+
+
 def test_lazy_packages_and_packages_on_the_way_are_told_apart_holds(sources: Sources) -> None:
     named, every = sources.closure(["juggleproof.symbolic"])
     assert {"juggleproof.symbolic.corner_impact", "juggleproof.lazy"} <= named

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from juggleproof.proofs.figures import TABLE, certified
 from juggleproof.reports import figures
 from juggleproof.reports.figures import rows, without_alpha
 from juggleproof.reports.words import read
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from juggleproof.proofs.figures.ours import Interval
 
 F = Fraction
+
+OF_VERDICTS = sorted(one.slug for one in TABLE if one.of_verdicts)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +112,7 @@ def test_trap_and_rank_are_those_of_the_theorem_holds() -> None:
     from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 
     alpha, u, w, x = symbols("alpha u w x")
-    rank, (root, square), margins = figures.what_the_trap_shows()
+    rank, (root, square), margins = certified.what_the_trap_shows()
     assert str(TO_THE_POINT.rank) == "2*u + (1 - w)/2" and rank.equals(2 * u + (1 - w) / 2)
     assert root == u and square.equals(4 * x + (w - 1) ** 2)
     assert str(TRAP) == "0 <= x and x < w and alpha*w < 1" and margins == [
@@ -122,8 +125,8 @@ def test_trap_and_rank_are_those_of_the_theorem_holds() -> None:
 def test_rejects_a_margin_of_an_equation() -> None:
     x, w = reals("x w")
     with pytest.raises(ClaimError, match="no inequality"):
-        figures.margin(equal(x, w))
-    assert [figures.margin(one)[1] for one in (x < w, x <= w, x > w, x >= w)] == [
+        certified.margin(equal(x, w))
+    assert [certified.margin(one)[1] for one in (x < w, x <= w, x > w, x >= w)] == [
         True,
         False,
         True,
@@ -135,7 +138,7 @@ def test_term_becomes_the_same_expression_holds() -> None:
     from sympy import Rational
 
     x, w = reals("x w")
-    expression = figures.to_sympy(-((x - 3 * w) ** 2) / (w + F(1, 2)))
+    expression = certified.to_sympy(-((x - 3 * w) ** 2) / (w + F(1, 2)))
     assert expression.subs({"x": 1, "w": 2}) == -25 / Rational(5, 2)
 
 
@@ -146,7 +149,7 @@ def test_saved_figures_are_all_there_and_kept_holds(
     contents = SimpleNamespace(entries=results())
     monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
     first = figures.saved(contents)
-    assert [one.slug for one in first] == [one.slug for one in figures.TABLE] and all(
+    assert [one.slug for one in first] == [one.slug for one in TABLE] and all(
         one.data.startswith(b"<?xml") for one in first
     )
     assert (
@@ -155,7 +158,7 @@ def test_saved_figures_are_all_there_and_kept_holds(
     )
     drawn = drawn_again(monkeypatch)
     again = figures.saved(contents)
-    assert drawn == [*figures.OF_VERDICTS]
+    assert drawn == OF_VERDICTS
     assert [one for one in again if one.slug not in drawn] == [
         one for one in first if one.slug not in drawn
     ]
@@ -166,7 +169,7 @@ def drawn_again(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     drawn: list[str] = []
 
     def quick(contents: object, leaving_out: Sequence[str]) -> list[tuple[object, ...]]:
-        made = [one.slug for one in figures.TABLE if one.slug not in leaving_out]
+        made = [one.slug for one in TABLE if one.slug not in leaving_out]
         drawn.extend(sorted(made))
         return [(slug, "", "", "", None) for slug in made]
 
@@ -179,7 +182,7 @@ def test_kept_figures_are_drawn_again_where_damaged_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
-    drawn, every = drawn_again(monkeypatch), len(figures.TABLE)
+    drawn, every = drawn_again(monkeypatch), len(TABLE)
     contents = SimpleNamespace(entries=results())
     figures.saved(contents)
     assert len(drawn) == every
@@ -200,10 +203,10 @@ def test_rejects_verdicts_from_a_kept_figure(
     contents = SimpleNamespace(entries=results())
     figures.saved(contents)
     (kept,) = tmp_path.glob("figures-svg-*.json")
-    records = [{"slug": one.slug, "data": "bGll"} for one in figures.TABLE]
+    records = [{"slug": one.slug, "data": "bGll"} for one in TABLE]
     kept.write_text(json.dumps(records))
     said = {one.slug: one.data for one in figures.saved(contents)}
-    assert all(said[slug] == slug.encode() for slug in figures.OF_VERDICTS)
+    assert all(said[slug] == slug.encode() for slug in OF_VERDICTS)
 
 
 def test_rejects_an_unknown_form() -> None:
