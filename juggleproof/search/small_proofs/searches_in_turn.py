@@ -30,14 +30,14 @@ def certificates_in_turn(statement: checker.Statement, budget: Budget) -> Iterat
     at_hand = search_at_hand(statement, budget.part(CHEAP))
     if at_hand is not None:
         yield at_hand
-    by_pairs: Certificate | None = _loaded("first.by_pairs").search_by_pairs(
+    by_pairs: Certificate | None = _loaded("small_proofs.products_of_two").search_by_pairs(
         statement, budget.part(CHEAP)
     )
     if by_pairs is not None:
         yield by_pairs
     names = [name for line in statement.get("forall") for name in line]
     many = len(names) > MOST_VARIABLES
-    if many and _loaded("first.linear_system").linear(statement) is None:
+    if many and _loaded("small_proofs.linear_system").linear(statement) is None:
         tried = f"it is not linear, in {len(names)} variables; at most {MOST_VARIABLES} are tried"
         yield {"unknown": tried}
         return
