@@ -78,12 +78,12 @@ class Paper:
 
 @cache
 def opened() -> Paper:
-    """The paper that commands are about.
+    """The paper that commands are about; raises ClaimError where its package describes none.
 
     >>> opened().theorem.claim
     'theorem-in-units'
     """
-    paper = import_module(PACKAGE).PAPER
+    paper = getattr(import_module(PACKAGE), "PAPER", None)
     if not isinstance(paper, Paper):
         raise ClaimError(f"{PACKAGE}: PAPER describes no paper")
     return paper
