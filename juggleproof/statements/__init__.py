@@ -1,1 +1,1 @@
-"""The language of statements, the store, and what searches share of both."""
+"""The language of statements, the store of certificates, and the helpers that searches share."""
