@@ -1,1 +1,1 @@
-"""Claims, how they are judged, and what is registered of them."""
+"""Claims, their judgement, and the register of their verdicts."""

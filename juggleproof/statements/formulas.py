@@ -239,8 +239,7 @@ def _write(expr: Term, level: int) -> str:
 
 
 def _is_negative(expr: Term) -> bool:
-    """Whether the text begins with a minus sign: that of the first factor is read as the product's.
-    """
+    """Whether the text begins with a minus sign; that of a first factor belongs to the product."""
     while expr.op in ("*", "/"):
         expr = expr.operands[0]
     return expr.op == "neg" or expr.op == "num" and expr.value < 0

@@ -124,7 +124,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class SharpRange:
-    """A sharp range: for all `over` in the domain, the statements `of` hold <=> the condition holds.
+    """A sharp range: for all `over` in the domain, the statements `of` hold <=> `condition` holds.
 
     `numbers` names algebraic end points: (name, polynomial, low, high), where the polynomial has
     exactly one root between low and high.

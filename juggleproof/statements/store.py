@@ -164,8 +164,7 @@ written_out = lru_cache(maxsize=4)(WrittenOut)
 
 
 class Lines:
-    """The certificates of a file by name; a line is parsed when its certificate is first asked for.
-    """
+    """The certificates of a file by name; a line is parsed when its certificate is asked for."""
 
     def __init__(self, text: str, read: Mapping[str, Certificate | None] | None = None) -> None:
         found = [NAMED_LINE.match(line) for line in text.split("\n")[:-1]]
