@@ -76,8 +76,8 @@ class Enclosure:
 
 
 def refuse_other_files(folder: Path) -> None:
-    """Raises ClaimError, one line, where the folder is none, or holds statements or certificates
-    that are not of a bound.
+    """Raises ClaimError, one line, where the path is not a folder, or the folder has statements or
+    certificates that are not of a bound.
     """
     if folder.exists() and not folder.is_dir():
         raise ClaimError(f"{folder} is no folder; name one that is new or empty")
