@@ -45,7 +45,7 @@ Terms = dict[Monomial, Fraction]
 @dataclass(frozen=True)
 class Enclosure:
     """An enclosure low <= minimum <= high, certified on both sides: the value at `point` is at most
-    high; `statements` and `certificates` are the two files that were checked.
+    high; the checker has certified `statements` by `certificates`.
     """
 
     low: Fraction

@@ -537,7 +537,7 @@ def claim_named(text: str, known: Collection[str]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# From the outcomes of statements, which the checker accepted, to the verdict on a print.
+# The verdict on a print, from the checker's outcomes of its statements.
 
 VERDICTS = {  # each verdict with its meaning
     "holds": "true as printed, with a certificate",

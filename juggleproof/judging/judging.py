@@ -361,7 +361,7 @@ class Judge:
         try:
             if any(trial.settle(part) != "certified" for part in statements):
                 return False
-        except ClaimError:  # it contradicts itself, or divides by what may vanish
+        except ClaimError:  # its givens are contradictory, or a divisor may be 0
             return False
         tried = trial.judgement
         for name, text in tried.statements:
@@ -455,8 +455,8 @@ class Judge:
         return Sharp(text, (name,)) if text else None
 
     def contains(self, outer: str, inner: str) -> bool:
-        """Whether the checker accepts a quick proof that the outer domain contains the inner one,
-        by the conditions of the outer one that share variables with the inner one.
+        """Whether the checker accepts a quick proof that the outer domain contains the inner one;
+        conditions of the outer one that share no variable with the inner one are not asked for.
         """
         if not outer or not inner:
             return not outer

@@ -79,7 +79,7 @@ def _fault(keywords: Sequence[str]) -> str:
 
     def parts(kind: str) -> list[tuple[list[str], str]]:
         """For each place in the order of lines, the keywords that may stand there, and how often:
-        *, + or ?, or empty for once.
+        *, + or ?, or empty for exactly once.
         """
         found = re.findall(r"\(([a-z| ]+)\) ?([*+?]?)|([a-z]+) ", RULES[kind].lines)
         return [

@@ -495,7 +495,7 @@ def _line_in(path: Path) -> int:
 
 # -------------------------------------------------------------------------------------------------
 # The judgement of many claims by a pool of processes or by any executor; results come in order and
-# do not depend on which it is.
+# do not depend on this.
 
 _work: tuple[Sequence[Claim], Resources] | None = None
 # ------------------------------------------------------------ claims

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 # -------------------------------------------------------------------------------------------------
 # All that reports show, gathered once: claims with verdicts, derivations and statements; the
-# theorem's tree; what differs from the register.
+# theorem's tree; the differences from the register.
 #
 # Verdicts are judged again from the store, by the checker's outcomes for these files; none is taken
 # from the register.

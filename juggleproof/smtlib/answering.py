@@ -219,7 +219,7 @@ class Answered:
 
     @property
     def settled(self) -> bool:
-        """Whether the problem is answered, and the script states no other answer."""
+        """Whether the answer is sat or unsat, not rejected, and not contrary to the script."""
         return self.answer.word != "unknown" and not self.contradicts and not self.rejected
 
 

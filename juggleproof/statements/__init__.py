@@ -1,1 +1,1 @@
-"""The language of statements, the store of certificates, and the helpers that searches share."""
+"""The language of statements, the store of certificates, and the code that searches share."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple, TypedDict, Union
 
-# what a file of certificates may hold
+# the values that a file of certificates may contain
 Json = Union[None, bool, int, str, Sequence["Json"], Mapping[str, "Json"]]
 
 Power = tuple[int, int]  # (number of a fact, exponent)
@@ -58,7 +58,7 @@ BySign = tuple[Literal["sign"], str, "Values", "Values", "Values"]
 Impossible = tuple[Literal["empty"], Node]  # a case that no point is in
 Values = Union[Point, Counterexample, BySign, Impossible]
 
-# side conditions in order, then what closes "premises and not goals", or values that meet the goals
+# proofs of the side conditions, then a node that closes "premises and not goals", or a witness
 Proof = Union[
     tuple[Literal["proof"], Sequence[Node], Node],
     tuple[Literal["witness"], Sequence[Node], Values],
