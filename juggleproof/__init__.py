@@ -4,8 +4,8 @@ This package is the tool.  `symbolic` derives what the paper defines, `proofs` s
 `certificates` checks certificates, `benchmarks` measures; these folders stand beside it in the
 checkout, and setup.py maps them to one import name.
 
-What users need can be imported from here; a name loads its file when first used (PEP 562), so that
-neither `import juggleproof` nor the checker loads any of it.
+The public names can be imported from here; a name loads its file when first used (PEP 562), so that
+neither `import juggleproof` nor the checker loads any of these files.
 
 >>> from juggleproof import always, claim, enclose_minimum, reals
 >>> enclose_minimum("x^2 - x*y + y^2/2", {"x": (-1, 1), "y": (0, 1)}, width=0).low
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     run_part, part_scene = ensemble.run, setting.scene
 
 else:
-    PLACES = {  # the same once more, for whoever runs
+    PLACES = {  # the same names again, for run time: those above are for type checkers
         "statements.language": (
             "ClaimError Formula Iterates MapRule Statement Term conjunction different disjunction"
             " equal iff implies real reals term"

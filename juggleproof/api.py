@@ -1,5 +1,5 @@
-"""The same as `juggleproof certify`, from Python: claims, or scripts of SMT-LIB, judged here or by
-any executor.
+"""`juggleproof certify` from Python: judges claims or scripts of SMT-LIB, in this process or by any
+executor.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ What = Union[str, Path, Sequence[Claim]]
 
 @dataclass(frozen=True)
 class Result:
-    """What was found: of a claim its verdict, of a problem sat, unsat or unknown.
+    """The answer to a claim (its verdict) or to a problem (sat, unsat or unknown).
 
-    `statements` gives the text of every statement by its name, and `certificates` what the checker
-    accepted of it; `model` is an exact point of a problem, in the script's own symbols, where an
-    irrational value is a term in `numbers`.
+    `statements` gives the text of every statement by its name, and `certificates` its certificate,
+    after the checker has read it; `model` is an exact point of a problem, in the script's own
+    symbols, where an irrational value is a term in `numbers`.
     """
 
     name: str
@@ -49,12 +49,12 @@ def certify(
     script FILE.smt2, in order.
 
     `executor` is any `concurrent.futures.Executor`, such as `ProcessPoolExecutor(8)` or Dask's
-    `Client.get_executor()`; the results do not depend on it, and what is sent is text and plain
-    data.  `budget` is counted work for each statement, 0 for the default.  Statements and
-    certificates are kept in `store`; without one, beside a file, and nowhere for claims in hand.
-    `routes` are those of `certify --routes`, for claims.
+    `Client.get_executor()`; the results do not depend on it, and only text and plain data are sent
+    to it.  `budget` is counted work for each statement, 0 for the default.  Statements and
+    certificates are kept in `store`; without one, beside a file, but nowhere for a sequence of
+    claims.  `routes` are those of `certify --routes`, for claims.
 
-    Raises ClaimError, one line, for what cannot be read or stated.
+    Raises ClaimError, one line, where the input cannot be read or stated.
 
     >>> from juggleproof import always, claim, reals
     >>> from juggleproof.judging.claims import claims_of

@@ -1,4 +1,4 @@
-"""Where the folder of the paper is that commands are about; it is found, and not imported."""
+"""The folder of the paper that commands are about; the paper is located, but not imported."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ PACKAGE = f"{__package__}.proofs"  # it has PAPER, and the module `deriving`, wh
 
 
 def folder_of(package: str) -> Path:
-    """The folder of a package; of those above it, and of no other, the code runs.
+    """The folder of a package, which is not imported; only the packages that contain it are.
 
     >>> folder_of("juggleproof.papers").name
     'papers'
@@ -22,4 +22,4 @@ def folder_of(package: str) -> Path:
 
 FOLDER = folder_of(PACKAGE)
 REGISTER = FOLDER / "register.json"
-LEDGER = FOLDER / "ledger"  # the ledger, the index of claims, and what is derived for them
+LEDGER = FOLDER / "ledger"  # the ledger, the index of claims, and the stored derivations

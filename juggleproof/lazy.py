@@ -11,11 +11,11 @@ from typing import Any
 def lazy_names(
     package: str, files: Mapping[str, str]
 ) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
-    """`__all__`, `__getattr__` and `__dir__` of a package whose files, named relative to it, define
-    these names, parted by spaces.
+    """`__all__`, `__getattr__` and `__dir__` of a package; `files` maps the relative name of a file
+    to the names that it defines, separated by spaces.
 
-    `__getattr__` raises AttributeError for any other name.  What it returns is Any: a name that is
-    looked up by its text has no type.
+    `__getattr__` raises AttributeError for any other name.  It returns Any, because a name that is
+    looked up as text has no type.
 
     >>> names, load, _ = lazy_names("juggleproof.symbolic", {".algebra": "alpha state"})
     >>> names, load("alpha")

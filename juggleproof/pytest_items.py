@@ -1,4 +1,4 @@
-"""The items of the pytest plugin: claims judged in a session, and what is wrong with one."""
+"""The items of the pytest plugin: claims judged in a session, and the faults of one."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ NAME = "juggleproof"
 
 
 class Claims:
-    """The claims that a session has asked for, and their results, which are made once, when the
-    first item runs.
+    """The claims of a session, with their results, which are computed once, when the first item
+    runs.
     """
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
@@ -31,11 +31,11 @@ class Claims:
         self.judged: dict[bool, Results | Exception] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
-        """The id of every claim, of the user's own or not, and of every claim that is registered
-        and gone.
+        """The id of every claim, with whether it is the user's; and the ids that are registered but
+        have no claim any more.
 
-        Raises ClaimError for a file that cannot be read, and for an id that two claims bear, or
-        none.
+        Raises ClaimError for a file that cannot be read, for an id of two claims, and for a chosen
+        id that does not exist.
         """
         own = claims_of_files(self.files)
         papers = opened().claims() if self.of_paper else []
@@ -52,9 +52,7 @@ class Claims:
         yield from (item for item in names if not self.chosen or item[0] in self.chosen)
 
     def results(self, own: bool) -> Results:
-        """The results; the same problem is raised to every item where the claims cannot be
-        judged.
-        """
+        """The results; where the claims cannot be judged, every item raises the same exception."""
         if own not in self.judged:
             try:
                 self.judged[own] = _judged(self.files if own else [])
@@ -66,7 +64,7 @@ class Claims:
         return results
 
     def collector(self, session: pytest.Session) -> pytest.Collector:
-        """All of them as items of a session."""
+        """The collector of these claims as items of a session."""
         collector: pytest.Collector = ClaimCollector.from_parent(
             session, name=NAME, nodeid=NAME, of=self
         )
@@ -74,8 +72,8 @@ class Claims:
 
 
 def _judged(files: Sequence[Path]) -> Results:
-    """A run as `certify` makes it; the paper's on a copy of the store, so that tests leave the tree
-    as it is.
+    """The results of a run as by `certify`; for the paper it uses a copy of the store, so that
+    tests do not change the source tree.
     """
     if files:
         own = Options(store_of(files), jobs=1)
@@ -95,11 +93,11 @@ def _judged(files: Sequence[Path]) -> Results:
 
 
 class NotAsItShouldBe(Exception):
-    """What is wrong with a claim, in lines."""
+    """The error of an item: the message has the faults of the claim, in lines."""
 
 
 class ClaimItem(pytest.Item):
-    """One claim."""
+    """An item that tests one claim."""
 
     def __init__(self, *, name: str, parent: pytest.Collector, of: Claims, own: bool) -> None:
         super().__init__(name, parent)
@@ -119,9 +117,9 @@ class ClaimItem(pytest.Item):
             else f"explain {self.name}"
         )
 
-    # pytest does not export the types of a style and of what is shown
+    # pytest does not export the types of `style` and of the result
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Our own lines where they say all; no traceback through the prover."""
+        """The message alone for our own errors, without a traceback through the prover."""
         return (
             str(excinfo.value)
             if isinstance(excinfo.value, (NotAsItShouldBe, ClaimError))
@@ -129,21 +127,21 @@ class ClaimItem(pytest.Item):
         )
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Shown by its node id; the heading is no ending of it, or pytest would write its dots as
-        colons.
+        """The location and heading for pytest's report.  The heading must not be the end of the
+        node id, or pytest would write the id's dots as colons.
         """
         return self.config.rootpath / NAME, None, f"claim {self.name}"
 
 
 class ClaimCollector(pytest.Collector):
-    """All claims that were asked for, as items."""
+    """A collector of the claims of a session as items."""
 
     def __init__(self, *, name: str, parent: pytest.Session, nodeid: str, of: Claims) -> None:
         super().__init__(name, parent, nodeid=nodeid)
         self.of = of
 
     def collect(self) -> Iterator[pytest.Item]:
-        """The items; one line where the claims cannot be read."""
+        """The items; raises CollectError, one line, where the claims cannot be read."""
         try:
             names = list(self.of.names())
         except ClaimError as problem:
@@ -153,8 +151,8 @@ class ClaimCollector(pytest.Collector):
 
 
 def faults(results: Results, name: str) -> list[str]:
-    """What is wrong with a claim, with before and after and where it fails; nothing where it is as
-    it should be.
+    """The faults of a claim: how it differs from the register, and where it fails; none where it is
+    as registered, or the user's own claim holds.
     """
     one = next((one for one in results.claims if one.id == name), None)
     change = results.change_of().get(name)

@@ -1,10 +1,10 @@
 """Claims as test items: `pytest --juggleproof` judges the paper's,
-`pytest --juggleproof-claims mine.py` those of a file of one's own.
+`pytest --juggleproof-claims mine.py` those of a user's file.
 
-Each claim is an item `juggleproof::ID`.  Of the paper it passes where its verdict is as registered;
-of one's own where the claim holds. What is unknown fails, and nothing is skipped.  A session judges
-once, as `juggleproof certify` does, and the checker reads everything. The claims of Python files
-named beside `--juggleproof` are judged instead of the paper's, as with `certify FILE.py`.
+Each claim is an item `juggleproof::ID`.  The paper's claim passes where its verdict is as
+registered, a user's where it holds.  An unknown claim fails, and nothing is skipped.  A session
+judges once, as `juggleproof certify` does, and the checker reads everything.  The claims of Python
+files named beside `--juggleproof` are judged instead of the paper's, as with `certify FILE.py`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ CLAIMS: pytest.StashKey[Claims] = pytest.StashKey()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """`--juggleproof` and `--juggleproof-claims FILE.py`."""
+    """Adds the options `--juggleproof` and `--juggleproof-claims FILE.py`."""
     group = parser.getgroup(NAME, "claims as test items")
     group.addoption(
         "--juggleproof",
@@ -41,8 +41,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Takes from the arguments what names claims: pytest itself would look for files of these
-    names.
+    """Removes the arguments that name claims, because pytest itself would look for such files.
 
     Raises UsageError for a test file named beside `--juggleproof`: its claims would not be judged.
     """
@@ -62,7 +61,7 @@ def pytest_configure(config: pytest.Config) -> None:
         is_file = papers and place.suffix == ".py" and place.is_file()
         if is_file and _is_for_tests(config, place):
             if "juggleproof" not in place.read_text("utf-8", "ignore"):
-                continue  # tests alone, which run beside the paper's claims
+                continue  # a file without claims: its tests run beside the paper's claims
             raise pytest.UsageError(
                 f"{path}: a test file by its name, so --juggleproof does not judge it; name it"
                 " with --juggleproof-claims, or run its tests without --juggleproof"

@@ -1,20 +1,21 @@
 """The command `juggleproof`.  In reading order:
 
-main              what each command takes, and one line for what goes wrong
+main              the options of each command, and one line for each error
 outputs           files that commands write, and progress
 certify           `certify`: claims
 problems          `certify`: problems of SMT-LIB
 sine              `certify sine`: a rectangle of parameters
 check             `check`
-show              `list`, `errata` and `export`
+listing           `list`
+show              `errata` and `export`
 explain           `explain ID`
-theorem           `explain theorem`: the paper's bounds, and one state with its orbit
 bound             `bound` and `bench`
+stability         `stability`
 report            `report`
-formats           what it writes in each format
-simulate_options  what `simulate` takes
-simulate          `simulate`: one scene
+formats           the files of a report in each format
+simulate_options  the options of `simulate`
 juggler           `simulate juggler`, a folder
 simulate_part     `simulate part`
+simulate_scene    its scene, by its options
 simulate_table    `simulate table`
 """

@@ -35,8 +35,8 @@ def bench(
     quick: bool,
     output: Path | None,
 ) -> int:
-    """Runs the benchmark; 1 where an enclosure does not hold the closed form, or nothing was
-    measured.  Raises ClaimError, one line, for what cannot be measured.
+    """Runs the benchmark; returns 1 where an enclosure does not contain the closed form, or nothing
+    was measured.  Raises ClaimError, one line, for a question that cannot be measured.
     """
     from juggleproof.benchmarks.bench.run import Run, wish
 
@@ -49,7 +49,7 @@ def bench(
 
 
 def _fault(folder: Path) -> str:
-    """Why files cannot be written there; nothing where they can."""
+    """The reason why files cannot be written in the folder; empty where they can."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / ".new").write_bytes(b"")
@@ -60,7 +60,7 @@ def _fault(folder: Path) -> str:
 
 
 def _show_progress(what: str) -> None:
-    """Progress, on a terminal only."""
+    """Shows progress, on a terminal only."""
     if sys.stderr.isatty():
         print(f"\r\x1b[K{what}", end="", file=sys.stderr, flush=True)
 
@@ -68,7 +68,7 @@ def _show_progress(what: str) -> None:
 # -------------------------------------------------------------------------------------------------
 # `juggleproof bound`: a certified enclosure of the minimum of a polynomial over a box.
 
-SHOWN = 12  # decimals of a bound, more where the width asks for them
+SHOWN = 12  # decimals of a printed bound; more where the width needs them
 _NUMBER = re.compile(
     r"[+-]?(?:\d{1,400}(?:/\d{1,400})?|\d{0,400}\.\d{1,400}|\d{1,400}\.)(?:e[+-]?\d{1,3})?",
     re.ASCII | re.IGNORECASE,
@@ -97,7 +97,7 @@ def number(text: str, name: str) -> Fraction:
 def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
     """The box that is written as x=0..1,y=-1/2..3.
 
-    Raises ClaimError, one line, where it is not written so, or a variable stands twice.
+    Raises ClaimError, one line, for any other form, and for a variable that occurs twice.
     """
     ends: dict[str, tuple[Fraction, Fraction]] = {}
     for part in text.split(","):
@@ -115,7 +115,7 @@ def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
 
 
 def decimals(value: Fraction, digits: int, up: bool) -> str:
-    """The value to so many decimals, rounded up or down.
+    """The value with `digits` decimals, rounded up or down, without zeros at the end.
 
     >>> decimals(Fraction(1, 3), 3, True), decimals(Fraction(-1, 3), 3, True)
     ('0.334', '-0.333')
@@ -129,8 +129,8 @@ def decimals(value: Fraction, digits: int, up: bool) -> str:
 
 
 def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | None) -> int:
-    """Prints the enclosure, certified before anything is printed; 0 where it is as narrow as was
-    asked for, else 1.
+    """Prints the enclosure, which is certified before anything is printed; returns 0 where it has
+    the width that was asked for, else 1.
     """
     ends, sought = box(sides), number(width, "--width")
     if output is not None:

@@ -29,12 +29,12 @@ from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT, write_file
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof certify`: judge every claim, store what was found, let the checker read the whole
-# store, compare with the register.
+# `juggleproof certify`: judge every claim, store the results, let the checker read the whole store,
+# compare with the register.
 
 
 class CertifyOptions(argparse.Namespace):
-    """What `juggleproof certify` takes; 0 is for the default."""
+    """The options of `juggleproof certify`; 0 stands for the default."""
 
     files: list[Path]
     only: list[str] | None
@@ -56,12 +56,12 @@ class CertifyOptions(argparse.Namespace):
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Judges claims; returns the exit code."""
+    """Judges the claims; returns the exit code."""
     return certify(CertifyOptions(**vars(parsed)))
 
 
 def certify(options: CertifyOptions, register: Path = PATH) -> int:
-    """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
+    """Runs `certify`; returns 0 where all verdicts are as registered (for a user's file: where
     every claim holds), else 1.
     """
     refuse_unwritable(options.files, asked_of(options))
@@ -112,7 +112,7 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
 
 
 def _derives_what_is_kept() -> bool:
-    """Whether the sources derive all that is kept, in as many words."""
+    """Whether the sources derive exactly the stored values; prints the result."""
     _derive_everything()
     kept = derived.kept()
     otherwise = kept.otherwise()
@@ -125,9 +125,7 @@ def _derives_what_is_kept() -> bool:
 
 
 def _derive_everything() -> None:
-    """Asks for all that is derived of the paper's claims, as they are judged and as they are
-    shown.
-    """
+    """Requests all values that SymPy derives for judging and for showing the paper's claims."""
     found = findings_in(DEFAULT)
     for claim in opened().claims():
         correction = found.get(claim.id, {}).get("correction")
@@ -140,8 +138,8 @@ def _derive_everything() -> None:
 
 
 def _refuse_what_needs_the_paper(options: CertifyOptions) -> None:
-    """Raises ClaimError, one line, for what goes with the paper's claims only, or with all of
-    them.
+    """Raises ClaimError, one line, for an option that goes only with the paper's claims, or with
+    all of them.
     """
     if options.rederive and options.files:
         raise ClaimError("--rederive: for the paper's claims; leave out FILE")
@@ -166,13 +164,11 @@ def _options(options: CertifyOptions) -> Options:
 
 @contextmanager
 def _progress(console: Console, total: int) -> Iterator[Progress]:
-    """Shows how far the run is: as a bar on a terminal, else as a line on standard error now and
-    then.
-    """
+    """Shows the progress of the run: by a bar on a terminal, else by lines on standard error."""
     if not console.is_terminal:
         yield _lines_of_progress(total)
         return
-    bars = import_module("rich.progress")  # some hundredths of a second
+    bars = import_module("rich.progress")  # loading it takes 0.01 s or more
     columns = (
         bars.TextColumn("{task.description:24}"),
         bars.BarColumn(),
@@ -203,8 +199,8 @@ def _accept(
     options: CertifyOptions,
     register: Path,
 ) -> None:
-    """Writes the verdicts into the register, and what is generated into the pages where the
-    verdicts are those of the stored certificates.
+    """Writes the verdicts into the register; for the paper's own store and register, also the
+    index, the derived values and the generated pages.
     """
     after = {one.id: one.registered() for one in results.claims}
     write_register({**before, **after} if options.only else after, register)
@@ -216,8 +212,8 @@ def _accept(
 
 
 # -------------------------------------------------------------------------------------------------
-# The files that it writes beside the store: refused before the run where they could not be written
-# after it.
+# The files that `certify` writes beside the store; those that cannot be written are refused before
+# the run.
 
 
 def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:

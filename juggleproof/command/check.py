@@ -1,4 +1,4 @@
-"""`juggleproof check`: the bare checker over a folder, and what it means for the theorem."""
+"""`juggleproof check`: the bare checker over a folder, and a line on the theorem."""
 
 from __future__ import annotations
 
@@ -22,9 +22,10 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def check(folder: Path | None) -> int:
-    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; of
-    the store, one line for what another checker certifies beside it; 0 where every statement is
-    certified or refuted, and the theorem, if it is there, and that proved; else 1.
+    """Prints the statements that the checker rejects, the counts of outcomes, one line for the
+    theorem and, for the paper's store, one line for each claim that another checker certifies.
+    Returns 0 where every statement is certified or refuted, the theorem, if the folder has it, is
+    proved, and these claims hold; else 1.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """

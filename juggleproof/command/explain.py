@@ -1,4 +1,4 @@
-"""`juggleproof explain ID`: one claim whole, or the theorem at one state."""
+"""`juggleproof explain ID`: all about one claim, or the theorem at one state."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.store import DEFAULT, Store
 from juggleproof.statements.work import read
 
-WIDTH = 96  # of what a rule concludes
+WIDTH = 96  # characters in a line of a rule's conclusion
 OF_THEOREM = (
     "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
     " prints them"
@@ -35,8 +35,8 @@ NO_RANGE = "none: the claim has no range of alpha to settle"
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Explains a claim, or with options of its own the theorem; 0.  Raises ClaimError for options
-    that do not go together.
+    """Explains a claim, or the theorem where its own options are given; returns the exit code.
+    Raises ClaimError for options that do not go together.
     """
     of_theorem = [
         option
@@ -61,7 +61,9 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def _of_theorem(hook: str, *values: object) -> int:
-    """The exit code of what the paper alone explains; loads SymPy, which few explanations need."""
+    """Runs an explanation that only this paper has; returns its exit code.  This loads SymPy, which
+    few explanations need.
+    """
     explained: object = opened().hook(hook, FunctionType)(*values)
     return explained if isinstance(explained, int) else 1
 
@@ -72,9 +74,9 @@ def explain(
     with_premises: bool = False,
     with_lines: bool = False,
 ) -> int:
-    """One claim whole, of the paper or of the files: print, derivation, reading, statements,
-    certificates or counterexamples, sharp range, verdict; the tree of its rules.  Its place is one
-    of the transcription where lines are asked for.  Raises ClaimError for an unknown name.
+    """Prints all about one claim of the paper or of the files: print, derivation, reading,
+    statements, certificates or counterexamples, sharp range, verdict, and the tree of its rules.
+    With lines, its place is a line of the transcription.  Raises ClaimError for an unknown name.
     """
     claims = by_id(claims_of_files(files)) if files else opened().claims_by_id
     claim = claims[claim_named(claim_id, claims)]

@@ -1,4 +1,4 @@
-"""What `juggleproof report` writes in each format."""
+"""The files that `juggleproof report` writes, by format."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     sources = {**_latex(contents, place)[0], **_figures(contents)}
-    write_all(sources, place)  # the sources stand, whatever becomes of the PDF
+    write_all(sources, place)  # the sources are kept even if the PDF fails
     made, faults = dict[str, bytes](), list[str]()
     for document in ("juggleproof", "juggleproof-twocolumn"):
         made[f"{document}.pdf"], complaints = compiled(sources, document)
@@ -69,7 +69,7 @@ def _figures(contents: Contents) -> dict[str, bytes]:
 
 
 def _can_draw() -> bool:
-    """Whether matplotlib is there; says so where it is not."""
+    """Whether matplotlib is installed; prints a line where it is not."""
     if importlib.util.find_spec("matplotlib") is not None:
         return True
     print(

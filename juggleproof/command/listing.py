@@ -1,4 +1,4 @@
-"""`juggleproof list`: the claims as the index and the register have them; none is loaded."""
+"""`juggleproof list`: the claims of the index with their registered verdicts; none is loaded."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from juggleproof.papers.paper import opened
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import canonical
 
-TABLES = "juggleproof.reports.tables"  # a terminal alone needs it
+TABLES = "juggleproof.reports.tables"  # loaded only on a terminal
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -25,11 +25,10 @@ def command(parsed: argparse.Namespace) -> int:
 def list_claims(
     section: str = "", verdict: str = "", with_lines: bool = False, as_json: bool = False
 ) -> int:
-    """One line a claim: id, place, registered verdict, what it says; a table on a terminal.
+    """Prints a line for each claim: id, place, registered verdict, sentence; a table on a terminal.
 
-    Only the claims of a section, such as 4.2, or A with all below it, and of one verdict, where
-    these are asked for; places are lines of the transcription where these are.  Raises ClaimError
-    for a section or verdict that is none.
+    `section`, such as 4.2, or A with all below it, and `verdict` select claims; with lines, places
+    are lines of the transcription.  Raises ClaimError for an unknown section or verdict.
     """
     register = load_register()
     everything = [

@@ -1,4 +1,4 @@
-"""The command line: what each command takes, and one clear line for whatever goes wrong."""
+"""The command line: the options of each command, and one clear line for each error."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ SCENES = {
     "table": "juggleproof.command.simulate_table",
 }
 DERIVED = "juggleproof.papers.derived"
-SINE = "juggleproof.command.sine"  # what `certify sine` is
+SINE = "juggleproof.command.sine"  # runs `certify sine`
 OF_SINE = "executor", "picture", "basin"
 SINE_OPTIONS = {
     "alpha": "restitution",
@@ -45,18 +45,18 @@ SINE_OPTIONS = {
     "frequency": "of the table in Hz, with --amplitude instead of --gamma",
     "amplitude": "of the table in mm, from its middle",
 }
-PROBLEMS = "juggleproof.command.problems"  # what `certify` is for scripts of SMT-LIB
+PROBLEMS = "juggleproof.command.problems"  # runs `certify` for scripts of SMT-LIB
 SUFFIX = ".smt2"
 FORMATS = "html, latex, pdf, markdown, json, badge or figures"
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that names a wrong argument in one line, and takes all that begins as a negative
-    number, such as -1/3 or -1:2:5, for a value.
+    """A parser that reports a wrong argument in one line, and takes an argument that begins like a
+    negative number, such as -1/3 or -1:2:5, for a value.
     """
 
     def __init__(self, *given: Any, **named: Any) -> None:
-        super().__init__(*given, **named)  # argparse itself makes those of the commands
+        super().__init__(*given, **named)  # argparse makes the commands' parsers by this
         self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf)")
 
     def error(self, message: str) -> NoReturn:
@@ -64,10 +64,10 @@ class _Parser(argparse.ArgumentParser):
 
 
 class _Version(argparse.Action):
-    """Prints name and version, as installed."""
+    """An option that prints the name and the installed version."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        metadata = import_module("importlib.metadata")  # some hundredths of a second
+        metadata = import_module("importlib.metadata")  # loading it takes 0.01 s or more
         try:
             print("juggleproof", metadata.version("juggleproof"))
         except metadata.PackageNotFoundError:
@@ -82,7 +82,7 @@ def _count(text: str) -> int:
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """The commands and their options."""
+    """The parser of all commands and their options."""
     parser: argparse.ArgumentParser = _Parser(
         prog="juggleproof",
         description=(
@@ -363,9 +363,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         and given[1] not in ("-h", "-o")
         and given[1][:2] != "--"
     ):
-        given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
+        given[1] = " " + given[1]  # a polynomial with a leading minus, not an option
     parsed = build_parser().parse_args(given)
-    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
+    gc.set_threshold(50_000)  # there are few cycles, and the search for them takes 10 % of the time
     try:
         code = _dispatch(parsed)
         print(end="", flush=True)  # there may be no standard output to flush
@@ -396,7 +396,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _leave_standard_output() -> None:
-    """What is still to be written there is thrown away."""
+    """Discards the output that is still in the buffer."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -414,7 +414,7 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         return int(import_module(PROBLEMS).command(parsed))
     if parsed.command == "certify" and not parsed.files and (parsed.rederive or parsed.accept):
         import_module(DERIVED).derive_again()  # before a claim is loaded
-    if parsed.command == "certify":  # to load what makes reports takes a second
+    if parsed.command == "certify":  # loading the modules of reports takes a second
         report = import_module(MODULES["report"]) if parsed.report else None
         parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     if parsed.command == "simulate":
@@ -424,8 +424,8 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
 
 def simulate(parsed: argparse.Namespace) -> int:
-    """Loads a scene, and nothing that only another one needs, and runs it; 130 where it was
-    interrupted.  Raises ClaimError, one line, for what cannot be carried out.
+    """Loads the module of one scene and runs it; returns 130 where it was interrupted.  Raises
+    ClaimError, one line, for a scene that cannot be simulated.
     """
     try:
         return int(import_module(SCENES[parsed.scene]).command(parsed))

@@ -20,15 +20,17 @@ from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import write_file
 
 # -------------------------------------------------------------------------------------------------
-# Files that are refused before a run where they could not be written after it.
+# Files that cannot be written are refused before a run, not after it.
 
 
 def fault_of(path: Path) -> str:
-    """Why the file cannot be written, by a trial with a file beside it; nothing where it can."""
+    """The reason why the file cannot be written, by a trial with a file beside it; empty where it
+    can.
+    """
     try:
         if path.is_dir():
             return "is a folder"
-        if path.exists() and not path.is_file():  # a device or a pipe, which renaming would replace
+        if path.exists() and not path.is_file():  # renaming would replace a device or pipe
             return "is no plain file"
         folder = path.absolute().parent
         if not folder.is_dir():
@@ -40,7 +42,7 @@ def fault_of(path: Path) -> str:
 
 
 def fault_of_folder(folder: Path) -> str:
-    """Why no file can be written in the folder, which is made where it is missing."""
+    """The reason why no file can be written in the folder, which need not exist yet; else empty."""
     there = (one for one in (folder.absolute(), *folder.absolute().parents) if one.exists())
     return fault_of(next(there) / "file")
 
@@ -49,7 +51,7 @@ OUTPUTS = ("json", "junit", "markdown", "timings")
 
 
 def asked_of(options: argparse.Namespace) -> dict[str, Path]:
-    """The files that `certify` is to write beside the store, by their options."""
+    """The files that `certify` writes beside the store, by option."""
     return {
         option: getattr(options, option)
         for option in OUTPUTS
@@ -58,8 +60,8 @@ def asked_of(options: argparse.Namespace) -> dict[str, Path]:
 
 
 def refuse_unwritable(files: Sequence[Path], asked: Mapping[str, Path]) -> None:
-    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
-    be written, or would overwrite another.
+    """Raises ClaimError, one line that names option and path, where an output file cannot be
+    written, or would overwrite another file of the run.
     """
     taken = {path.resolve(): f"the claims of {path}" for path in files}
     for option, path in asked.items():
@@ -73,8 +75,8 @@ def refuse_unwritable(files: Sequence[Path], asked: Mapping[str, Path]) -> None:
 
 @contextmanager
 def written_aside(path: Path) -> Iterator[BinaryIO]:
-    """A file to write to, put in the place of the path when all is written; removed where that
-    fails.  ClaimError for a full disk.
+    """A temporary file, which is renamed to the path when all is written, and removed where that
+    fails.  Raises ClaimError where the file cannot be written, for instance on a full disk.
     """
     try:
         handle, aside = tempfile.mkstemp(prefix=".", suffix=path.suffix + ".new", dir=path.parent)
@@ -96,7 +98,7 @@ Files = Mapping[str, bytes]  # by name
 
 
 def write_all(files: Files, place: Path) -> None:
-    """Writes the files of a report, each aside and renamed, and prints their paths."""
+    """Writes the files of a report and prints their paths."""
     clear()
     for name, content in files.items():
         write_file(place / name, content)
@@ -104,11 +106,11 @@ def write_all(files: Files, place: Path) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# Long texts, by the user's pager where they do not fit on the terminal.
+# Long texts, shown by the user's pager where they do not fit on the terminal.
 
 
 def show(text: str) -> None:
-    """Prints the text; on a terminal that it does not fit by the pager, which PAGER names."""
+    """Prints the text; where it does not fit on a terminal, by the pager that PAGER names."""
     fits = text.count("\n") < shutil.get_terminal_size().lines
     if fits or not (sys.stdin.isatty() and sys.stdout.isatty()):
         print(text.rstrip("\n"))
@@ -117,11 +119,11 @@ def show(text: str) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# How far a long run is, on a terminal.
+# The progress of a long run, on a terminal.
 
 
 def progress() -> Callable[[int, int], None] | None:
-    """Shows how far a run is, on a terminal only."""
+    """A function (done, of) that shows the progress of a run; None unless on a terminal."""
     if not sys.stderr.isatty():
         return None
     last = [-1]
@@ -139,7 +141,9 @@ PAUSE = 3.0  # seconds between two lines of progress
 
 
 def now_and_then() -> Callable[[str], None]:
-    """Writes a line of progress to standard error, unless one was written a moment ago."""
+    """A function that writes a line of progress to standard error, at most one every `PAUSE`
+    seconds.
+    """
     due = monotonic() + PAUSE
 
     def tell(line: str) -> None:
@@ -153,7 +157,7 @@ def now_and_then() -> Callable[[str], None]:
 
 @contextmanager
 def busy(doing: str) -> Iterator[None]:
-    """Shows what is being done and for how many seconds, on a terminal only."""
+    """Shows what the program is doing, and for how many seconds, on a terminal only."""
     if not sys.stderr.isatty():
         yield
         return
@@ -176,6 +180,6 @@ def busy(doing: str) -> Iterator[None]:
 
 
 def clear() -> None:
-    """Takes the line of progress away."""
+    """Clears the line of progress."""
     if sys.stderr.isatty():
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)

@@ -1,5 +1,5 @@
-"""`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
-each.
+"""`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows the
+certificate or model for each answer.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from juggleproof.statements.store import canonical, write_file
 
 
 class ProblemOptions(argparse.Namespace):
-    """What `juggleproof certify` takes for scripts; 0 is for the default."""
+    """The options of `juggleproof certify` for scripts; 0 stands for the default."""
 
     files: list[Path]
     fresh: bool
@@ -45,7 +45,7 @@ NOT_FOR_SCRIPTS = (
 
 
 def certify(options: ProblemOptions) -> int:
-    """Answers the problems; 0 where all are answered, and as the scripts state, else 1.  Raises
+    """Answers the problems; returns 0 where all are answered as the scripts state, else 1.  Raises
     ClaimError for an option that goes with claims only.
     """
     for option in NOT_FOR_SCRIPTS:

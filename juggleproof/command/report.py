@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from juggleproof.reports.contents import Contents
 
 DEFAULT_FOLDER = Path("juggleproof-report")
-LIBRARIES = {  # of each format, where it needs one
+LIBRARIES = {  # the library that a format needs, by format
     "html": "jinja2",
     "latex": "jinja2",
     "pdf": "jinja2",
@@ -37,19 +37,19 @@ LIBRARIES = {  # of each format, where it needs one
     "badge": "",
     "figures": "matplotlib",
 }
-MAKERS = "juggleproof.command.formats"  # which take a second to load
-NOT_KEPT = "pdf"  # which programs make that no digest knows
+MAKERS = "juggleproof.command.formats"  # takes a second to load
+NOT_KEPT = "pdf"  # never kept: the digest does not cover the programs that make it
 DRAWN_BY = ("jinja2", "markupsafe", "latex2mathml", "matplotlib")
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Writes the reports that are asked for; returns the exit code."""
+    """Writes the reports; returns the exit code."""
     return report(parsed.format, parsed.output)
 
 
 def report(wanted: Sequence[str], folder: Path | None) -> int:
-    """Writes a report of each of these formats into the folder and prints the paths; returns 1
-    where what was made has faults that a reader would see.
+    """Writes a report in each of these formats into the folder and prints the paths; returns 1
+    where a report has faults that a reader would see.
 
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
@@ -68,7 +68,7 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
 
 
 def check_store() -> Checked:
-    """What the checker says of every stored statement; nothing where the store cannot be read."""
+    """The checker's outcome of every stored statement; none where the store cannot be read."""
     with busy("checking the stored certificates"), Reading(DEFAULT, os.cpu_count() or 1) as reading:
         reading.outcomes()
     return reading.results
@@ -77,9 +77,9 @@ def check_store() -> Checked:
 def writer(
     wanted: Sequence[str], folder: Path | None, option: str = "--report"
 ) -> Callable[..., int]:
-    """Return a function that does the same with contents in hand, and keeps what it makes under a
-    key where it has one.  An unknown format, a file in place of a folder, and a format without its
-    library are refused at once.
+    """Return a function (contents, key) that writes the reports of given contents, and keeps them
+    under the key if it is not empty.  An unknown format, a file in place of a folder, and a format
+    without its library are refused at once.
     """
     for one in wanted:
         if one not in LIBRARIES:
@@ -112,18 +112,18 @@ def _refuse_what_is_no_folder(place: Path) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# A report that an earlier run made is written again where the checkers say the same of the same
-# store, word for word, and the sources are the same. They are asked in each run: what was judged
-# follows from these, and so does every byte of the report.
+# The kept report of an earlier run is written again where both checkers, which each run asks, give
+# the same outcomes for the same store, and the sources are the same: these determine the
+# judgements, and so every byte of the report.
 
 
 def key_of(checked: Checked) -> str:
-    """A digest of all that a report is made of: what both checkers said in this run of every
-    statement, the store, the files of the packages, what a run of the scene kept, and the versions
-    of libraries.
+    """A digest of all that a report depends on: the outcomes of both checkers in this run, the
+    store, the files of the packages, the kept results of the part's scene, and the versions of
+    libraries.
 
-    Empty where nothing can be kept, the checker came to no results, or figures cannot be drawn,
-    which each run has to say.
+    Empty where nothing can be kept, the checker has no results, or figures cannot be drawn, which
+    each run must report.
     """
     place = report_cache.folder()
     if place is None or not checked or find_spec("matplotlib") is None:
@@ -139,8 +139,8 @@ def key_of(checked: Checked) -> str:
 
 
 def settles(checked: Checked, contents: Contents) -> bool:
-    """Whether every outcome that the report shows is what the checker said of this very text in the
-    store; a certificate that was found in this run is in no store.
+    """Whether every outcome that the report shows is the checker's outcome of the same text in the
+    store.  It is not where a certificate was found in this run, since that is not stored.
     """
     outcomes, texts = {name: outcome for name, outcome, _ in checked}, Store(DEFAULT).texts
     return all(
@@ -151,8 +151,8 @@ def settles(checked: Checked, contents: Contents) -> bool:
 
 
 def kept_files(key: str) -> dict[str, bytes]:
-    """The files of a report that were kept under the key; none where there are none, or where one
-    would be written outside of the report's folder.
+    """The files of a report that were kept under the key; none where the record is missing or
+    damaged, or a file would be written outside of the report's folder.
     """
     try:
         files = {

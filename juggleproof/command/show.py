@@ -33,11 +33,11 @@ from juggleproof.votes.smtlib import script
 SCRIPT = ".smt2"
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof errata`: what is stored, without a search.
+# `juggleproof errata`: the errata of the store, without a search.
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Runs one of these commands; returns its exit code."""
+    """Runs `errata` or `export`; returns its exit code."""
     if parsed.command == "export":
         own = [one for one in parsed.ids if is_own(one)]
         if own and parsed.format != "coq":
@@ -55,11 +55,10 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
-    """Writes the statements of the claims named (or of all) to standard output, or to one file
-    each.
+    """Writes the statements of the claims named (or of all) to standard output, or each to a file.
 
     Every check begins with `(reset)`, so that a solver reads any number of statements as one
-    script. Raises ClaimError for a name that neither a claim nor a statement bears.
+    script. Raises ClaimError for a name that no claim and no statement has.
     """
     store = Store(DEFAULT)
     names = _names(store, ids)
@@ -75,11 +74,11 @@ def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
 
 def export_coq(ids: Sequence[str], folder: Path | None) -> int:
     """Writes the statements named (or all) as Coq lemmas with proofs, after those that their
-    certificates use; says on standard error how many of each class, and which it cannot write.
+    certificates use; prints on standard error the number of each class, and which it cannot write.
 
-    Of Python files of claims, writes the theorems on the orbits of maps, each whole; where there
-    are none, and of scripts of SMT-LIB and folders of certificates, all statements.  Raises
-    ClaimError for an unknown name, or where nothing at all can be written.
+    For Python files of claims, it writes each theorem on the orbits of a map as a file of its own;
+    where there is none, and for scripts of SMT-LIB and folders of certificates, all statements.
+    Raises ClaimError for an unknown name, or where nothing at all can be written.
     """
     paths = [Path(one) for one in ids if is_own(one)]
     if paths and len(paths) < len(ids):
@@ -103,7 +102,7 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
 
 
 def is_own(name: str) -> bool:
-    """Whether this names a file or folder of the user's, not a claim of the paper.
+    """Whether the name is of a user's file or folder, not of a claim of the paper.
 
     >>> is_own("mine.py"), is_own("mean.certificates"), is_own("eq-37/main")
     (True, True, False)
@@ -132,8 +131,8 @@ def export_lemmas(store: Store, names: Sequence[str], folder: Path | None) -> in
 
 
 def export_claims(files: Sequence[Path], folder: Path | None) -> int:
-    """Writes the theorems on maps among the claims of these files; their statements, where there
-    are none.
+    """Writes the theorems on maps among the claims of these files; all their statements, where
+    there is no such theorem.
     """
     claims = claims_of_files(files)
     refuse_duplicates(claims)
@@ -158,10 +157,11 @@ def export_theorems(
     certificates: Mapping[str, Certificate],
     folder: Path | None,
 ) -> int:
-    """Writes each certified theorem on the orbits of a map on which no other of the files rests, as
-    a file that coqc accepts by itself; 1 where one cannot be written, with a line that says why.
+    """Writes each certified theorem on the orbits of a map, unless another theorem of the files
+    rests on it, as a file that coqc accepts by itself.  Returns 1 where one cannot be written, and
+    prints a line with the reason.
 
-    Raises ClaimError for several without a folder.
+    Raises ClaimError for several theorems without a folder.
     """
     names, where = theorems_in(statements), " ".join(map(str, files))
     if len(names) > 1 and not folder:
@@ -187,7 +187,7 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     """Writes the equations of the claims named (or all that the paper prints) as LaTeX, corrected
     where the print is false.
 
-    Raises ClaimError for a name that no claim bears, or one without a printed formula.
+    Raises ClaimError for a name that no claim has, and for a claim without a printed formula.
     """
     claims = opened().claims_by_id
     named = [claims[claim_named(wanted, claims)] for wanted in ids]
@@ -203,9 +203,9 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
 
 
 def _coq_files(names: Sequence[str], folder: Path) -> dict[str, Path]:
-    """The file for each statement: Coq takes its name for that of a module, an identifier.
+    """The file for each statement, whose name is an identifier, since Coq makes it a module's name.
 
-    Raises ClaimError where two have one file.
+    Raises ClaimError where two statements would have the same file.
     """
     files = {name: folder / f"S_{re.sub('[^A-Za-z0-9]', '_', name)}.v" for name in names}
     first = {path: name for name, path in reversed(files.items())}

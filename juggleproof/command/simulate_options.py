@@ -1,4 +1,4 @@
-"""The options of `juggleproof simulate`, which load no scene."""
+"""The options of `juggleproof simulate`; this file loads no scene."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from juggleproof.reports.tables import whole
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 # -------------------------------------------------------------------------------------------------
-# What `juggleproof simulate` takes: one scene a sub-command.
+# The options of `juggleproof simulate`: each scene is a sub-command.
 
 
 def add_simulate(commands: Commands) -> None:
@@ -173,7 +173,7 @@ def _add_juggler(scenes: Commands) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# What `juggleproof simulate part` takes.
+# The options of `juggleproof simulate part`.
 
 
 def add_part(scenes: Commands) -> None:

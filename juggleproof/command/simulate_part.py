@@ -63,9 +63,9 @@ from juggleproof.scenes.part.resting import (
 from juggleproof.statements.language import ClaimError
 
 WISHES = ("clear", "orientation", "sweep", "still", "figure")
-PAPERS = ("table", "sweep", "still")  # of the paper's block and table
-FEEDERS = ("orientation", "clear")  # of parts that start at any angles
-READINGS = "readings"  # a sweep over all that table I leaves open
+PAPERS = ("table", "sweep", "still")  # runs with the paper's block and table
+FEEDERS = ("orientation", "clear")  # runs with parts that start at any angles
+READINGS = "readings"  # the sweep over all readings that table I leaves open
 PICTURE = ".svg"
 SUFFIXES = {
     "figure": (PICTURE, ".pdf"),
@@ -74,11 +74,11 @@ SUFFIXES = {
     "orientation": (".csv", PICTURE),
     "clear": (".csv", PICTURE),
 }
-MOST_VALUES = 1000  # of a parameter
+MOST_VALUES = 1000  # values of a parameter in a sweep
 
 
 class PartOptions(SceneOptions):
-    """What `juggleproof simulate part` takes."""
+    """The options of `juggleproof simulate part`."""
 
     sweep: str | None
     orientation: bool
@@ -102,13 +102,13 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def part(options: PartOptions) -> int:
-    """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
-    interrupted.
+    """Runs the part's scene; returns 0, or 1 where --check found a guarantee broken, or 130 where
+    the run was interrupted.
     """
     needed("numba", "scene", "part")
     wishes = [name for name in WISHES if getattr(options, name) not in (None, False)] or ["table"]
     if wishes[:2] == ["clear", "sweep"]:
-        wishes.remove("sweep")  # of the drive
+        wishes.remove("sweep")  # with --clear it is a sweep of the drive
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
     _refuse_left_out(options, wishes[0])
@@ -118,7 +118,7 @@ def part(options: PartOptions) -> int:
 
 
 def _refuse_left_out(options: PartOptions, wish: str) -> None:
-    """Raises ClaimError for an option that the wish would leave out in silence."""
+    """Raises ClaimError for an option that has no effect in this run."""
     if options.keep is not None and wish != "table":
         raise ClaimError(f"--keep {options.keep} goes with table I")
     if options.check and wish in FEEDERS:
@@ -223,7 +223,7 @@ def _table(options: PartOptions, executor: Executor | None) -> int:
             keep=options.keep,
         )
         clear()
-        # before anything is printed, to a reader who may not stay
+        # before anything is printed, since the reader of a pipe may end
         keep_results(setting, computed, reading.amplitudes, options.seed)
     except Interrupted as stop:
         clear()
@@ -277,7 +277,7 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
 
 
 def _grid(options: PartOptions) -> list[Task]:
-    """The points of a grid of restitution and friction, all else as the options say."""
+    """The points of a grid of restitution and friction; all else is as in the options."""
     grid = grid_of(options.sweep or "")
     if set(grid) != {"e", "mu"}:
         raise ClaimError(
@@ -373,7 +373,7 @@ def _starts(options: PartOptions) -> Starts:
 
 
 def _told(result: Orientation | Clearing) -> None:
-    """Title and columns."""
+    """Prints the title and the columns."""
     print(f"{result.title()}.  Simulated: no certificate.")
     columns = result.columns()
     rows = [
@@ -384,7 +384,7 @@ def _told(result: Orientation | Clearing) -> None:
 
 
 def _written(result: Orientation | Clearing, path: Path | None) -> None:
-    """The picture or the columns, in a file."""
+    """Writes the picture or the columns to a file."""
     if path is None:
         return
     drawn = result.picture() if path.suffix == PICTURE else None

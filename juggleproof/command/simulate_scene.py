@@ -18,12 +18,12 @@ from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import plain_file
 
 OTHERS = ("vibration", "shape", "along", "away")
-VIBRATION = "30:1"  # of the paper's figure 2
-MOST_BYTES = 1_000_000  # of a file of corners
+VIBRATION = "30:1"  # the vibration of the paper's figure 2
+MOST_BYTES = 1_000_000  # bytes of a file of corners
 
 
 class SceneOptions(argparse.Namespace):
-    """What the options say of the scene."""
+    """The options that describe the scene."""
 
     e: str | None
     mu: str | None
@@ -56,7 +56,7 @@ def _known(text: str, name: str, known: Mapping[str, object]) -> str:
 
 
 def reading_of(options: SceneOptions) -> Reading:
-    """The reading of the options; what is not given is as in the stored one that is chosen."""
+    """The reading of table I by the options; the likeliest stored reading has those left out."""
     likely = chosen(recorded()).reading
     along, up = likely.phase_x, likely.phase_y
     if options.phase is not None:
@@ -73,7 +73,7 @@ def reading_of(options: SceneOptions) -> Reading:
 
 
 def others(options: SceneOptions) -> list[str]:
-    """The options of a part, a table or a vibration that is not table I's."""
+    """The given options that choose a part, a table or a vibration other than table I's."""
     return [name for name in OTHERS if getattr(options, name) is not None]
 
 
@@ -101,7 +101,7 @@ def _vibration(text: str) -> tuple[float, float]:
 
 
 def _shape(text: str) -> Polygon:
-    """The polygon of corners in centimetres, as they stand or in a file."""
+    """The polygon of corners in centimetres; the text has them, or names a file that does."""
     given, name = text, "--shape"
     if not set(text) <= set("0123456789+-.,/eE \t\n"):
         given, name = _read(Path(text)), text
@@ -115,7 +115,7 @@ def _shape(text: str) -> Polygon:
 
 
 def _exact(text: str, name: str) -> Fraction:
-    """A number as it is written."""
+    """The exact number that a text writes."""
     try:
         if len(text) <= 60 and abs(float(Fraction(text))) < 1e6:
             return Fraction(text)
@@ -125,8 +125,8 @@ def _exact(text: str, name: str) -> Fraction:
 
 
 def _drive(options: SceneOptions, reading: Reading) -> Harmonics | None:
-    """How the table moves where it is no single sine along each axis; a harmonic without a phase
-    starts at 0, the axis that is not given as in the reading.
+    """The motion of the table by --along and --away; None where neither is given.  A harmonic
+    without a phase has phase 0; an axis that is not given moves as in the reading.
     """
     if options.vibration is not None and options.along is not None:
         raise ClaimError("--vibration and --along do not go together; give one of them")
@@ -138,7 +138,7 @@ def _drive(options: SceneOptions, reading: Reading) -> Harmonics | None:
 
 
 def _sines(text: str, peak: float) -> list[tuple[float, float, float]]:
-    """Harmonics as they are written, in metres, hertz and radians."""
+    """The harmonics that a text writes: (metres, hertz, radians)."""
     found = []
     for one in text.split(","):
         pieces = one.split(":")

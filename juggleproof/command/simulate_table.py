@@ -18,14 +18,14 @@ from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import write_file
 
 LARGE = 10**9
-MOST_EVENTS = 200  # shown
-CERTIFICATES = "juggleproof.command.sine"  # loaded where they are drawn
-ALPHAS, GAMMAS = "0:0.3", "1.8:4.2"  # of the map of attractors
-TOP = 21 / 16  # closing speeds of a basin without one
+MOST_EVENTS = 200  # events that are printed
+CERTIFICATES = "juggleproof.command.sine"  # loaded where certificates are drawn
+ALPHAS, GAMMAS = "0:0.3", "1.8:4.2"  # the default ranges of the map of attractors
+TOP = 21 / 16  # the greatest closing speed in the picture of a basin without a certificate
 
 
 class TableOptions(argparse.Namespace):
-    """What `juggleproof simulate table` takes."""
+    """The options of `juggleproof simulate table`."""
 
     alpha: str | None
     gamma: str | None
@@ -42,8 +42,8 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def table(options: TableOptions) -> int:
-    """Prints the events of each orbit, or draws a picture; 0.  Raises ClaimError or SceneError, one
-    line, for what cannot be carried out.
+    """Prints the events of each orbit, or draws a picture; returns 0.  Raises ClaimError or
+    SceneError, one line, for a scene that cannot be simulated.
     """
     wave = (
         (1.0,)
@@ -75,12 +75,12 @@ def table(options: TableOptions) -> int:
 
 
 def number(text: str, name: str) -> float:
-    """A number as it is written, such as 0.05 or 1/20, to be simulated with."""
+    """The float of a number that is written such as 0.05 or 1/20."""
     return in_floats(exact(text, name), name)
 
 
 def in_floats(exactly: Fraction, name: str) -> float:
-    """The number, to be simulated with."""
+    """The number as a float; raises ClaimError where it is too large to be simulated."""
     if abs(exactly) >= LARGE:
         raise ClaimError(f"{name} is too large to be simulated; give less than {LARGE}")
     return float(exactly)
@@ -129,7 +129,7 @@ def _map(options: TableOptions, wave: tuple[float, ...]) -> int:
 
 
 def _drawn_to(options: TableOptions) -> Path:
-    """The file that a picture goes to."""
+    """The output file of a picture; raises ClaimError without one that can be written."""
     if options.output is None:
         raise ClaimError("--picture: needs -o F.svg")
     if fault := fault_of(options.output):

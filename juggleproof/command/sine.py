@@ -42,16 +42,16 @@ from juggleproof.statements.store import write_file
 NAME = "sine"
 STORE = Path("sine.certificates")
 GRAVITY = Fraction("9.80665")
-SHOWN = 10  # boxes that are left
-FASTEST = 4  # closing speed of a basin
-SIMULATED = 60, 80  # impacts: so many speeds and phases
-GRID = 256, 16  # of the certificate of a point that is drawn
-SEEN = 2  # how often cells are cut that are drawn
-CLOSE = Fraction(1, 10**6)  # half the width in g of that certificate
+SHOWN = 10  # printed boxes without a certificate
+FASTEST = 4  # the greatest closing speed of --basin
+SIMULATED = 60, 80  # numbers of speeds and of phases of the simulated impacts
+GRID = 256, 16  # the grid of a certificate that is drawn
+SEEN = 2  # drawn cells are cut at most this often
+CLOSE = Fraction(1, 10**6)  # half the width in g of a certificate that is drawn
 
 
 class SineOptions(argparse.Namespace):
-    """What `juggleproof certify sine` takes; 0 and None are for the default."""
+    """The options of `juggleproof certify sine`; 0 and None stand for the default."""
 
     alpha: str | None
     gamma: str | None
@@ -86,8 +86,9 @@ NOT_FOR_SINE = (
 
 
 def certify(options: SineOptions) -> int:
-    """Covers the rectangle by boxes and prints what is proved; 0 where all of it is certified, 1
-    where it is refuted or boxes are left.  Raises ClaimError, one line, for unusable input.
+    """Covers the rectangle by boxes and prints what is proved; returns 0 where all of it is
+    certified, 1 where it is refuted or boxes are left.  Raises ClaimError, one line, for unusable
+    input.
     """
     for option in NOT_FOR_SINE:
         if getattr(options, option):
@@ -133,7 +134,7 @@ def certify(options: SineOptions) -> int:
 
 
 def asked(options: SineOptions) -> bool:
-    """Whether a rectangle is asked for; else it is those of the wide cover."""
+    """Whether the options give a rectangle; without one, those of the wide cover are certified."""
     given = (
         options.alpha,
         options.gamma,
@@ -145,10 +146,10 @@ def asked(options: SineOptions) -> bool:
 
 
 def rectangle_of(options: SineOptions) -> Rectangle:
-    """The rectangle that is asked for; ClaimError, one line, where it is none."""
+    """The rectangle of the options; raises ClaimError, one line, where they give none."""
     try:
         rectangle = read_statement(statement_of(options.alpha, drive_of(options)))
-    except Refused as reason:  # numbers longer than a statement takes
+    except Refused as reason:  # numbers that are too long for a statement
         raise ClaimError(f"certify sine: {reason}; choose shorter numbers") from None
     low = rectangle.values[0]
     if not g_at(rectangle.alpha[0], low, up=False):
@@ -204,7 +205,7 @@ def statement_of(alpha: str | None, gamma: str | None) -> str:
 
 
 def interval(text: str, option: str) -> Interval:
-    """The ends of an interval, exactly."""
+    """The exact ends of an interval that is written A0:A1, or A."""
     try:
         ends = [exact(end, option) for end in text.split(":")]
     except ClaimError:
@@ -232,12 +233,12 @@ def picture_of(rectangles: Sequence[Rectangle], found: Sequence[Covered]) -> byt
 
 
 def in_floats(ends: Interval) -> tuple[float, float]:
-    """An interval, to be shown."""
+    """The ends of an interval as floats."""
     return float(ends[0]), float(ends[1])
 
 
 def told(covered: Covered) -> str:
-    """What the verdict is on."""
+    """The sentence that the verdict is about."""
     text, basin = covered.rectangle.text, covered.rectangle.basin
     if basin is None or basin[0]:
         return text
@@ -247,7 +248,9 @@ def told(covered: Covered) -> str:
 
 
 def simulated(covered: Covered) -> Iterator[str]:
-    """The share that is certified beside that of simulated impacts at the middle of a rectangle."""
+    """A line with the certified share of impacts, and the simulated share at the middle of the
+    rectangle; no line where no share is certified.
+    """
     rectangle = covered.rectangle
     if not (rectangle.basin and rectangle.basin[0]):
         return
@@ -262,7 +265,7 @@ def simulated(covered: Covered) -> Iterator[str]:
 
 
 def explained(covered: Covered) -> Iterator[str]:
-    """What there is beside the verdict, line by line."""
+    """The lines that explain the verdict: why it is refuted, or the numbers of cells and boxes."""
     if covered.counterexample is not None:
         yield why_refuted(covered.counterexample)
         return
@@ -276,13 +279,13 @@ def explained(covered: Covered) -> Iterator[str]:
 
 
 def in_words(box: Box) -> str:
-    """A box of alpha and g, in decimals."""
+    """The text of a box of alpha and g, in decimals."""
     alpha, g = map(in_floats, box)
     return f"alpha {alpha[0]:.6f} to {alpha[1]:.6f}, g {g[0]:.6f} to {g[1]:.6f}"
 
 
 def why_refuted(one: Counterexample) -> str:
-    """Why the theorem fails at a pair of parameters."""
+    """The reason why the theorem fails at a pair of parameters."""
     at = f"at alpha = {one.alpha}, g = {float(one.g[0]):.6f}"
     if one.refutes == "multiplier":
         return f"{at} the bounce is unstable: one of its multipliers is below -1"
@@ -296,8 +299,8 @@ def why_refuted(one: Counterexample) -> str:
 
 @contextmanager
 def _executor(options: SineOptions, rectangles: Sequence[Rectangle]) -> Iterator[Executor | None]:
-    """The executor that is asked for: a Dask cluster, processes of our own, or none for one job,
-    which a point is.
+    """The executor of the options: a Dask cluster, a pool of processes, or None for a single job,
+    such as a rectangle that is a point.
     """
     if options.executor:
         try:
@@ -323,20 +326,20 @@ def _executor(options: SineOptions, rectangles: Sequence[Rectangle]) -> Iterator
 
 
 # -------------------------------------------------------------------------------------------------
-# What pictures of the simulation show of certificates.
+# Certificates in the pictures of the simulation.
 
 
 def wide_boxes() -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    """The boxes of the wide cover, whose certificates `python -I -S certificates/sine` reads, to be
-    shown.
+    """The boxes of the wide cover as floats, for pictures; `python -I -S certificates/sine` reads
+    their certificates.
     """
     return sorted((in_floats(one.alpha), in_floats(one.g)) for one in boxes_in(WIDE))
 
 
 def certified_for(restitution: float, drive: float) -> tuple[Fraction, np.ndarray, Fraction] | None:
-    """(top, ranks, share) of a certificate for alpha and Gamma, to be drawn: closing speeds below
-    top; ranks of cells; the share of states with one.  None where no certificate is found, which
-    says nothing.
+    """(top, ranks, share) of a certificate for alpha and Gamma, for a picture: it is about closing
+    speeds below top; ranks are those of cells; share is the share of states with a rank.  None
+    where no certificate is found, which proves nothing.
     """
     if not drive > birth(restitution) or not math.isfinite(drive):
         return None
@@ -346,15 +349,15 @@ def certified_for(restitution: float, drive: float) -> tuple[Fraction, np.ndarra
     for basin in (0, BASIN):
         found = find_certificate((alpha, alpha), between, *GRID, basin).certificate
         proved = found and check_line(line_of(found))[0]
-        if found and isinstance(proved, Attraction):  # only what the checker takes is certified
+        if found and isinstance(proved, Attraction):  # certified only if the checker accepts it
             top = Fraction(found.grid.rows, found.grid.per_unit)
             return top, ranks_of(read_levels(found, Work(MAX_STEPS))), proved.share_below(top)
     return None
 
 
 def ranks_of(levels: Sequence[Level]) -> np.ndarray:
-    """The ranks of cells cut as often as can be seen, shape (rows, columns), the greatest of its
-    parts for a cell that is cut more often; -1 where there is none.
+    """The ranks of cells that are cut at most `SEEN` times, shape (rows, columns).  A cell that is
+    cut further has the greatest rank of its parts; -1 stands for no rank.
     """
     shown = min(SEEN, len(levels) - 1)
     grid = levels[shown].grid

@@ -1,4 +1,4 @@
-"""`juggleproof stability`: the map alone is given; what its orbits do is found and certified."""
+"""`juggleproof stability`: finds and certifies the behaviour of all orbits of a given map."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from juggleproof.statements.store import certificate_lines, comment, write_file,
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Settles every map of the file; the exit code is that of the verdict that says least: 0 where
-    all are proved for the whole domain and space, 3 where some are in part, else 1.
+    """Settles every map of the file; returns the exit code of the weakest verdict: 0 where all are
+    proved for the whole domain and space, 3 where all are proved at least in part, else 1.
 
-    Raises ClaimError, one line, for what cannot be read or written.
+    Raises ClaimError, one line, for a file that cannot be read or written.
     """
     codes = set()
     for count, system in enumerate(maps_of(parsed.file)):
@@ -39,8 +39,8 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def maps_of(path: Path) -> list[Map]:
-    """The maps of a text file, or of the claims of a Python file; those of a claim that returns
-    several bear its name and their own.
+    """The maps of a text file, or of the claims of a Python file.  A map has the name of its claim;
+    where a claim returns several maps, each adds its own name.
     """
     if path.suffix != ".py":
         return [read_file(path)]
@@ -76,7 +76,7 @@ def map_rules(body: object) -> list[MapRule]:
 
 
 def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
-    """What was found, as lines."""
+    """The lines that report the result for a map."""
     name = system.name
     texts = {rule.name: MapRule(rule.name, rule.rows).text() for rule in found.proof.rules}
     verdict = found.finding.verdict

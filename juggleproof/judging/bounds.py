@@ -1,5 +1,5 @@
-"""A certified enclosure of the minimum of a polynomial over a box: two statements, and the
-checker's word for both.
+"""A certified enclosure of the minimum of a polynomial over a box: two statements that the checker
+certifies.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ Terms = dict[Monomial, Fraction]
 
 @dataclass(frozen=True)
 class Enclosure:
-    """low <= minimum <= high, both certified: `point` is where the value is at most high,
-    `statements` and `certificates` are what was checked.
+    """An enclosure low <= minimum <= high, certified on both sides: the value at `point` is at most
+    high; the checker has certified `statements` by `certificates`.
     """
 
     low: Fraction
@@ -76,8 +76,8 @@ class Enclosure:
 
 
 def refuse_other_files(folder: Path) -> None:
-    """Raises ClaimError, one line, where the folder is none, or holds statements or certificates
-    that are not of a bound.
+    """Raises ClaimError, one line, where the path is not a folder, or the folder has statements or
+    certificates that are not of a bound.
     """
     if folder.exists() and not folder.is_dir():
         raise ClaimError(f"{folder} is no folder; name one that is new or empty")
@@ -105,17 +105,17 @@ def enclose_minimum(
     (low, high)}.
 
     Numbers are exact (int or Fraction), in the units of the polynomial and of its variables;
-    `width` 0 asks for the minimum itself, which is met only where it is rational and the search
-    gets there.  `budget` counts boxes.  Both bounds are certified by the checker before anything is
-    returned; where the budget ends first, `reached` is False, and the bounds are what the search
-    came to.
+    `width` 0 asks for the minimum itself, which is reached only where it is rational and the search
+    finds it.  `budget` counts boxes.  Both bounds are certified by the checker before they are
+    returned; where the budget ends first, `reached` is False, and the bounds are the best that the
+    search has found.
 
     >>> found = enclose_minimum("x^2 - x*y + y^2/2", {"x": (-1, 1), "y": (Fraction(1, 2), 1)}, 0)
     >>> found.low, found.high, found.point
     (Fraction(1, 16), Fraction(1, 16), {'x': Fraction(1, 4), 'y': Fraction(1, 2)})
 
-    Raises ClaimError, one line, for a width below 0, an empty box, what is no polynomial in the
-    variables of the box, or one too large.
+    Raises ClaimError, one line, for a width below 0, an empty box, and a text that is not a
+    polynomial in the variables of the box, or is too large.
     """
     text, ends, sought = _readable(str(polynomial)), _ends(box), _exact(width, "width")
     if sought < 0:
@@ -148,7 +148,7 @@ class _Question:
         self.accepted: set[bytes] = set()
 
     def lower(self, low: Fraction) -> str:
-        """For all points of the box, the polynomial is at least `low`."""
+        """The statement that for all points of the box, the polynomial is at least `low`."""
         givens = [
             row
             for name, (first, last) in self.ends.items()
@@ -165,7 +165,7 @@ class _Question:
         )
 
     def attained(self, high: Fraction) -> str:
-        """There is a point of the box where the polynomial is at most `high`."""
+        """The statement that at some point of the box, the polynomial is at most `high`."""
         inside = " and ".join(
             f"{first} <= {name} and {name} <= {last}" for name, (first, last) in self.ends.items()
         )
@@ -210,8 +210,8 @@ class _Question:
         return str(reason or outcome)
 
     def enclosure(self, bounds: Bounds, used: list[int]) -> Enclosure:
-        """The enclosure, once the checker has accepted both statements; raises ArithmeticError
-        where it does not.
+        """The enclosure, after the checker has certified both statements; raises ArithmeticError
+        where it rejects one.
         """
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
             zip((list(self.ends)[k] for k in used), bounds.point)
@@ -253,7 +253,7 @@ def _ends(box: Box) -> Ends:
         raise ClaimError("the box has no variables; give each of them as name=low..high")
     ends = {}
     for name, pair in box.items():
-        real(name)  # raises ClaimError for what is no name
+        real(name)  # raises ClaimError where it is not a name
         if len(pair) != 2:
             raise ClaimError(f"{name} has {len(pair)} bounds; give low and high")
         low, high = (_exact(value, name) for value in pair)
@@ -286,8 +286,8 @@ def _terms(text: str, names: list[str]) -> Terms:
 
 
 def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:
-    """Raises ClaimError, one line that says the limit, for what the search or the checker could not
-    hold.
+    """Raises ClaimError, one line that states the limit, for a polynomial or box that is too large
+    for the search or the checker.
     """
     degrees = [max(exponents[k] for exponents in terms) for k in used]
     if max(degrees, default=0) > MOST_DEGREE:

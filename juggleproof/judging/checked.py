@@ -1,7 +1,7 @@
-"""The checker's outcomes of stored statements: of a whole folder, in processes of its own while
-claims are stated, or of some statements and what these rest on.
+"""The checker's outcomes of stored statements: of a whole folder, in processes that run while
+claims are stated; or of some statements and all that they rest on.
 
-Every run reads everything; nothing of it is kept between runs.
+Outcomes are never kept between runs.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_
 
 
 class Reading:
-    """The results of `checker.check_folder` on a folder: with several jobs by shares, worked out
-    meanwhile; with one, when they are asked for.
+    """The results of `checker.check_folder` on a folder: with several jobs, each process checks a
+    share from `__enter__` on; with one job, all is checked in `outcomes`.
 
-    A folder without statements, one that cannot be read, and `nothing` come to no results.
+    There are no results with `nothing`, or where the folder has no statements or cannot be read.
     """
 
     def __init__(self, folder: Path, jobs: int, nothing: bool = False) -> None:
@@ -65,11 +65,11 @@ class Reading:
         return {name: outcome for name, outcome, _ in self.results}
 
     def _by_shares(self) -> Checked:
-        """The results of all shares, if every outcome that one of them assumed is the one that
-        another came to, and the work of all leaves enough for one more statement; else none.
+        """The results of all shares, if every outcome that one share assumed is the outcome in the
+        share that checked it, and the work of all leaves enough for one more statement; else none.
 
-        Then each statement was checked with the very lemmas, and the very limit of work, that
-        `check_folder` would have given it.
+        Under these conditions each statement was checked with the same lemmas, and the same limit
+        of work, as `check_folder` would have given it.
         """
         try:
             parts: list[Share] = [receiver.recv() for _process, receiver in self._processes]
@@ -115,8 +115,8 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
 
 @dataclass(frozen=True)
 class Share:
-    """The results of `check_folder` for some of the claims: the outcomes of their own statements,
-    those of others, which are assumed, and the work that was spent.
+    """The results of `check_folder` for some of the claims: the outcomes of their own statements
+    (`checked`), the outcomes assumed for all others (`assumed`), and the work that was spent.
     """
 
     results: Checked
@@ -126,8 +126,8 @@ class Share:
 
 
 def check_share(folder: Path, share: Set[str]) -> Share:
-    """The results of `check_folder` where outcomes outside the share are assumed to be those that
-    their certificates claim.
+    """The results of `check_folder`, where outcomes outside the share are not checked, but taken
+    from the certificates.
     """
     checked, assumed, spent = dict[str, str](), dict[str, str](), list[int]()
 
@@ -164,13 +164,13 @@ def _read(folder: Path, check: Check = checker.check_one) -> Checked:
 
 def _send(folder: Path, share: Set[str], sender: Connection) -> None:
     as_child()
-    gc.disable()  # the checker makes no cycles, and the process ends with its share
+    gc.disable()  # the checker makes no reference cycles, and the process ends with its share
     sender.send(check_share(folder, share))
 
 
 def outcomes_of(folder: Path, names: Iterable[str]) -> dict[str, str]:
-    """The checker's outcomes of some stored statements and of all that these rest on; the others
-    are neither read nor checked.
+    """The checker's outcomes of some stored statements and of all that they rest on; no others are
+    read or checked.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """

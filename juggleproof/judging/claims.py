@@ -40,15 +40,15 @@ Read = TypeVar("Read", bound=Callable[..., object])
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
 #
-# A claim is a function from its parsed print to statements.  What it returns is an assertion (all
-# its statements hold), readings (a sentence that can be read in several ways), an argument (steps
-# and a conclusion), what follows from map rules, what a simulation shows, what another checker
-# certifies, or why nothing is stated.
+# A claim is a function from its parsed print to a body: an assertion (all its statements hold),
+# readings (a sentence that can be read in several ways), an argument (steps and a conclusion), a
+# conclusion of map rules, the figures of a simulation, sentences that another checker certifies, or
+# the reason why nothing is stated.
 
 
 @dataclass(frozen=True)
 class Assertion:
-    """All of the statements hold."""
+    """An assertion that all of the statements hold."""
 
     parts: tuple[AnyStatement, ...]
 
@@ -63,7 +63,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Readings:
-    """What is written can be read in these ways, each with its own verdict.
+    """The ways in which a sentence can be read, each with its own verdict.
 
     Raises ClaimError for fewer than two readings, and for one without a passage: without a reason
     from the paper there is one reading, the charitable one.
@@ -81,7 +81,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class Argument:
-    """Steps, each with its label, from which the conclusion is argued.
+    """An argument: labelled steps from which a conclusion is drawn.
 
     If a step fails, the conclusion stands by its own certificate, by the claim `proved_by` where
     that holds, or by the map rules that it `rests_on`.
@@ -95,12 +95,12 @@ class Argument:
 
 @dataclass(frozen=True)
 class Following:
-    """A limit or a stability statement that is the conclusion of map rules, named by their
-    statements, together with what is asserted beside.
+    """A sentence on limits or stability that follows from map rules, named by their statements;
+    `beside` is what else it asserts.
 
-    The last rule named is the one from which the sentence follows where the rule's conclusion
-    holds: there at least.  `is_conclusion` says that the sentence is that conclusion, so that it is
-    refuted where the rule refutes it.
+    The sentence follows from the conclusion of the last rule named, so it holds at least where that
+    conclusion holds.  `is_conclusion` says that the sentence is that conclusion itself, so that it
+    is false where the rule refutes it.
     """
 
     rests_on: tuple[str, ...]
@@ -113,25 +113,24 @@ REMARK = "remark."  # the prefix of the statements of a remark
 
 @dataclass(frozen=True)
 class Simulated:
-    """What a simulation shows: figures with the seed that they come from, and no proof."""
+    """The figures that a simulation gives, with its seed; they prove nothing."""
 
     figures: str
 
 
 @dataclass(frozen=True)
 class NotFormalised:
-    """A sentence that no statement of real arithmetic says, and why; it stays open."""
+    """A sentence that no statement of real arithmetic expresses, with the reason; it stays open."""
 
     why: str
 
 
 @dataclass(frozen=True)
 class CheckedApart:
-    """Sentences that another checker certifies from a store of its own; they are in its words, not
-    in those of statements.
+    """Sentences in the language of another checker, which certifies them from a store of its own.
 
-    `outcomes` asks it: (sentence or line of the store, outcome, reason) of all that is stored.
-    `believed` says what has to be believed for it, and what else stands behind it.
+    `outcomes` asks it for (sentence or line of the store, outcome, reason) of all that is stored.
+    `believed` says what one has to trust for this, and what other evidence there is.
     """
 
     sentences: tuple[str, ...]
@@ -140,8 +139,8 @@ class CheckedApart:
     believed: str
 
     def verdict(self) -> Verdict:
-        """holds where all sentences are certified and nothing stored is rejected, false where one
-        is refuted, else unknown.
+        """The verdict: unknown where anything stored is rejected, holds where all sentences are
+        certified, false where the first one that is not certified is refuted, else unknown.
         """
         found = {name: (outcome, reason) for name, outcome, reason in self.outcomes()}
         lost = [name for name, (outcome, _) in found.items() if outcome == "rejected"]
@@ -155,7 +154,7 @@ class CheckedApart:
         return Verdict("holds", f"by {self.checker}")
 
     def line(self, claim_id: str, verdict: Verdict) -> str:
-        """One line for the verdict: what is certified, or what is lost."""
+        """One line for the verdict: what is certified, or why it is not."""
         if verdict.word != "holds":
             return f"{claim_id}: NOT certified; {verdict.detail}"
         return f"{claim_id}: certified by {self.checker}: {'; '.join(self.sentences)}"
@@ -167,8 +166,8 @@ Body = Union[Assertion, Readings, Argument, Following, Simulated, CheckedApart, 
 
 @dataclass(frozen=True)
 class FixedBody:
-    """What a claim asserts, in place of the function that reads it: data, which passes between
-    processes.
+    """The body of a claim, in place of the function that returns it: unlike the function, it can be
+    sent to another process.
     """
 
     body: Body
@@ -180,8 +179,8 @@ class FixedBody:
 
 @dataclass(frozen=True)
 class Remark:
-    """What is worth knowing beside a claim, and what shows it: statements, which have to be
-    certified, and other claims.
+    """A remark on a claim, with its evidence: statements, which must be certified, and other
+    claims.
     """
 
     text: str
@@ -190,8 +189,8 @@ class Remark:
 
 
 class ClaimHints(TypedDict, total=False):
-    """What a claim may tell the search: the names of the statements that its proofs use, and how
-    they are used.
+    """The hints of a claim for the search: the names of the earlier statements that its proofs use
+    (`uses`), and how to search (`search`).
     """
 
     uses: Sequence[str]
@@ -220,20 +219,20 @@ class Claim:
     vocabulary: Vocabulary = PLAIN
 
     def roles(self, statements: Sequence[Statement]) -> Roles:
-        """The parameters of the claim with their domains, and its scales: what its vocabulary says,
-        else what its statements do.
+        """The parameters of the claim with their domains, and its scales; the domains come from its
+        vocabulary, or else from its statements.
         """
         domains = self.vocabulary.domains or domains_of(statements, self.parameters)
         return Roles(domains, self.vocabulary.scales)
 
     def stated(self, roles: Roles) -> Roles:
-        """The roles where its vocabulary states them; what its statements say of a domain says
-        nothing of a map's.
+        """The roles, if the vocabulary states them, else none: domains that are taken from
+        statements need not be those of a map.
         """
         return roles if self.vocabulary.domains else NO_ROLES
 
     def over(self, roles: Roles) -> tuple[str, ...]:
-        """The parameters that its sharp ranges are over: those that it names, else the first of its
+        """The parameters of its sharp ranges: those that the claim names, else the first of its
         vocabulary, else those that its statements bound.
         """
         if self.parameters is not None:
@@ -249,9 +248,9 @@ class Claim:
         return place_in_file(code.co_filename, code.co_firstlineno)
 
     def body(self, printed: meaning.Printed | None = None) -> Body:
-        """What the claim asserts, with its own print or with another one in its place.
+        """The body of the claim, read with its own print or with another one.
 
-        Raises ClaimError, naming the claim, where what it returns is not a claim.
+        Raises ClaimError, naming the claim, where the claim function returns no body.
         """
         if printed is None or not self.printed:
             return self._own_body
@@ -259,7 +258,7 @@ class Claim:
 
     @property
     def is_of_package(self) -> bool:
-        """Whether the claim is the paper's, and not of one's own."""
+        """Whether the claim is the paper's, and not a user's."""
         return self.source.startswith(f"{PACKAGE}.")
 
     @cached_property
@@ -272,7 +271,7 @@ class Claim:
         return body
 
     def shown_beside(self) -> Assertion | None:
-        """What its remark states, if it states something."""
+        """The assertion that its remark makes, if it makes one."""
         if self.remark is None or self.remark.state is None:
             return None
         return as_assertion(self.remark.state(), self.id)
@@ -290,7 +289,7 @@ def place_in_file(file: str, line: int) -> str:
 
 
 def one_line(text: str) -> str:
-    """The text in one line of what can be printed: it can neither end a line nor move the cursor.
+    """The text in one line of printable characters, so that it cannot move the cursor.
 
     >>> one_line("a" + chr(10) + "b" + chr(27) + "c" + chr(0x202e))
     'a b\ufffdc\ufffd'
@@ -301,9 +300,9 @@ def one_line(text: str) -> str:
 
 
 def as_body(returned: object, claim_id: str) -> Body:
-    """What a claim function returned, as a body.
+    """The body that a claim function returned.
 
-    Raises ClaimError, naming the claim, for what is no body, and for one that asserts nothing.
+    Raises ClaimError, naming the claim, for any other value, and for a body that asserts nothing.
     """
     if isinstance(returned, get_args(Body)):
         body: Body = returned
@@ -330,7 +329,7 @@ def as_body(returned: object, claim_id: str) -> Body:
 
 
 def _printable(body: Body) -> Body:
-    """The body with each text that is shown in one line."""
+    """The body with each of its displayed texts in one line."""
     if isinstance(body, Simulated):
         return Simulated(one_line(body.figures))
     if isinstance(body, NotFormalised):
@@ -346,7 +345,7 @@ def _printable(body: Body) -> Body:
 
 
 def as_assertion(returned: object, claim_id: str) -> Assertion:
-    """What a function returned that may return one assertion only."""
+    """The assertion that a function returned; raises ClaimError for any other body."""
     body = as_body(returned, claim_id)
     if not isinstance(body, Assertion):
         raise ClaimError(f"{claim_id}: {type(body).__name__} where one assertion is expected")
@@ -368,14 +367,14 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
 
 
 def awaited(body: Body) -> tuple[str, ...]:
-    """What of other claims the verdict on a body rests on: statements of map rules, and a claim."""
+    """The statements of map rules, and the claim, that the verdict on a body rests on."""
     if isinstance(body, Argument):
         return (*body.rests_on, body.proved_by) if body.proved_by else body.rests_on
     return body.rests_on if isinstance(body, Following) else ()
 
 
 def all_assertions(claim: Claim) -> list[tuple[str, Assertion]]:
-    """The assertions of a claim, and what its remark states, with the prefix of their names."""
+    """The assertions of a claim and of its remark, with the prefixes of their statements' names."""
     beside = claim.shown_beside()
     return assertions(claim.body()) + ([(REMARK, beside)] if beside else [])
 
@@ -485,7 +484,9 @@ def claim(
 
 
 def _module_of(read: Callable[..., object]) -> str:
-    """The module of a function; none where it names one of this package from another file."""
+    """The module of a function; empty where the function claims a module of this package, but is
+    from another file.
+    """
     name, code = read.__module__, getattr(read, "__code__", None)
     if name.startswith("juggleproof."):
         if code is None or getattr(sys.modules.get(name), "__file__", "") != code.co_filename:
@@ -494,7 +495,7 @@ def _module_of(read: Callable[..., object]) -> str:
 
 
 def claims_in(modules: Iterable[str]) -> list[Claim]:
-    """The claims of modules, in the order of the modules, whenever they were imported."""
+    """The claims of modules, in the order of the modules, even if they were imported before."""
     claims: list[Claim] = []
     for name in modules:
         import_module(name)
@@ -519,12 +520,12 @@ def claims_of(load: Callable[[], object]) -> list[Claim]:
 
 
 def claim_named(text: str, known: Collection[str]) -> str:
-    """The name that is meant; the paper's number of an equation stands for its claim.
+    """The name of the claim that a text means; the number of an equation stands for its claim.
 
     >>> [claim_named(text, ["eq-37"]) for text in ("eq-37", "37", "(37)", "eq 37")]
     ['eq-37', 'eq-37', 'eq-37', 'eq-37']
 
-    Raises ClaimError, which proposes similar names, where none is.
+    Raises ClaimError, which proposes similar names, where there is no such claim.
     """
     number = re.fullmatch(r"(?:eq(?:uation)?\.?[ -]?)?\(?(\d+[a-z]?)\)?", text.strip())
     for name in (text, f"eq-{number[1]}" if number else text):
@@ -536,9 +537,9 @@ def claim_named(text: str, known: Collection[str]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# From the outcomes of statements, which the checker accepted, to the verdict on a print.
+# The verdict on a print, from the checker's outcomes of its statements.
 
-VERDICTS = {  # and what each means
+VERDICTS = {  # each verdict with its meaning
     "holds": "true as printed, with a certificate",
     "misprint": "false as printed, certified with some marks of the print changed",
     "false": f"{REFUTED}; where a true assertion nearby is known, it stands beside",
@@ -560,8 +561,8 @@ class Verdict:
 def outcome_of(
     claim_id: str, prefix: str, assertion: Assertion, outcomes: Mapping[str, str]
 ) -> str:
-    """certified, refuted or unknown: an assertion is refuted by any of its statements, and
-    certified by all.
+    """The outcome of an assertion: refuted if one of its statements is, certified if all are, else
+    unknown.
     """
     parts = [
         outcomes.get(part.name, "unknown") for part in named_statements(claim_id, prefix, assertion)
@@ -577,8 +578,8 @@ _WORD = {"certified": "holds", "refuted": "false", "unknown": "unknown"}
 def verdict_of(
     claim_id: str, body: Body, outcomes: Mapping[str, str], corrected: bool = False
 ) -> Verdict:
-    """The verdict on a claim from the outcomes of its statements, and of what it awaits;
-    `corrected` where a corrected print has been certified.
+    """The verdict on a claim from the outcomes of its statements and of the rules and claims that
+    it awaits; `corrected` says that a corrected print has been certified.
     """
 
     def word(prefix: str, assertion: Assertion) -> str:
@@ -614,7 +615,9 @@ def verdict_of(
 
 
 def by_rules(rests_on: Sequence[str], outcomes: Mapping[str, str]) -> str:
-    """holds where every map rule or claim that is named was certified, else unknown."""
+    """The verdict by map rules and claims: holds where all that are named are certified, else
+    unknown.
+    """
     return (
         "holds"
         if rests_on and all(outcomes.get(name) == "certified" for name in rests_on)

@@ -1,7 +1,7 @@
-"""What a certified statement on the orbits of a map says, as a sentence made from its own text; and
-what each of its premises means.
+"""The conclusion of a certified statement on the orbits of a map, as a sentence made from its text;
+and the meaning of each of its premises.
 
-A rule of the checker has one row in `RULES`, and a premise one in that.
+Each rule of the checker has an entry in `RULES`, and this has one for each kind of premise.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from juggleproof.certificates import checker
 from juggleproof.statements.definitions import term_of
 from juggleproof.statements.language import bounds_of, interval_text
 
-# the words of results, which no other file writes: whoever uses one names it
+# the words for results; other files import them, and do not write them out
 STABLE, PROVED, REFUTED = "stable", "proved", "refuted"
 ATTRACT, ATTRACTS = "attract", "attracts"
 AROUND = ("contraction", "lyapunov", "attraction")  # lines that name what holds around a point
-ALWAYS = ("0 < 1", "0 = 0")  # what is written where nothing is asked
+ALWAYS = ("0 < 1", "0 = 0")  # conditions that always hold
 
 
-LETTERS = (  # each, and what stands in for it
+LETTERS = (  # each letter with its substitutes where a statement uses it
     *map(tuple, ("epqzc", "fFgh", "sSuw", "nmij", "NMLJ", "klij", "VWUL")),
     ("rank", "order", "rho"),
     ("least", "lowest", "mu"),
@@ -45,7 +45,7 @@ class Letters(NamedTuple):
 
 
 class Lines:
-    """The lines of the statement of this name, and of those that it names."""
+    """The lines of a statement, with access to the statements that it names."""
 
     def __init__(self, name: str, texts: Mapping[str, str]) -> None:
         self.texts = texts
@@ -53,7 +53,9 @@ class Lines:
 
     @cached_property
     def letters(self) -> Letters:
-        """Letters that are no names of the statement, nor are so with an index."""
+        """The letters of the conclusion, none of which is a name in the statement, even with an
+        index.
+        """
         names = checker.names_in(*(text for _, text in self.of_map().rows), *self.roots())
         taken = {name.partition("_")[0] for name in names}
         found = []
@@ -63,20 +65,20 @@ class Lines:
         return Letters(*found)
 
     def all(self, keyword: str) -> list[str]:
-        """What stands on each line of this keyword."""
+        """The texts of the lines with this keyword."""
         return [text for key, text in self.rows if key == keyword]
 
     def one(self, keyword: str) -> str:
-        """What stands on the one line of this keyword."""
+        """The text of the only line with this keyword."""
         (text,) = self.all(keyword)
         return text
 
     def named(self, keyword: str) -> Lines:
-        """The statement that the line of this keyword names."""
+        """The statement that the line with this keyword names."""
         return Lines(self.one(keyword), self.texts)
 
     def for_domain(self) -> str:
-        """For which parameters a conclusion holds; nothing where there are none."""
+        """The words for the parameters for which a conclusion holds; empty without parameters."""
         names = self.of_map().one("over").split()
         domain = self.one("domain")
         with_domain = "" if domain in ALWAYS else f" with {domain}"
@@ -85,17 +87,17 @@ class Lines:
         return f"for {every}{''.join(f', {n} an integer' for n in whole)}: " if names else ""
 
     def of_map(self) -> Lines:
-        """The map or relation that the statement is about, or is."""
+        """The map or relation that the statement is about; the statement itself, if it is one."""
         keyword = next((key for key, _ in self.rows if key in checker.NAMED), "")
         return self.named(keyword).of_map() if keyword else self
 
     def around(self) -> Lines:
-        """The statement that has the point: this one, or what its attraction rests on."""
+        """The statement that states the point: this one, or one that it rests on."""
         keyword = next((key for key, _ in self.rows if key in AROUND), "")
         return self.named(keyword).around() if keyword else self
 
     def intervals(self) -> str:
-        """The domain, where each condition is on one parameter alone and linear; else nothing."""
+        """The domain as intervals; empty unless each condition is linear in a single parameter."""
         names, text = self.of_map().one("over").split(), self.one("domain")
         tree = checker.parse(text)
         parts = tree.values if isinstance(tree, ast.BoolOp) else [tree]
@@ -116,17 +118,19 @@ class Lines:
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def terms(self, keyword: str) -> str:
-        """The terms of the line of this keyword as a state, their roots written out."""
+        """The terms of the line with this keyword as a state, with roots written out."""
         return _vector(self.without_roots(self.one(keyword)))
 
     def without_roots(self, text: str) -> str:
-        """The text with the roots of this statement written out: another may have their names."""
+        """The text with the roots of this statement written out, since other statements may use
+        their names.
+        """
         for name, _, term in (root.partition(" = ") for root in reversed(self.all("root"))):
             text = checker.put(text, {name: term})
         return text
 
     def point(self) -> str:
-        """The point, as e."""
+        """The equation of the point, e = .."""
         return f"{self.letters.e} = {self.terms('point')}"
 
 
@@ -167,7 +171,7 @@ def _rank(descent: Lines) -> str:
 
 
 def _greatest(rows: Sequence[str]) -> str:
-    """The greatest of the terms of lines, some with a guard."""
+    """The maximum of the terms of lines, which may have guards, in words."""
     each = [row.rpartition(" -> ")[::2] for row in rows]
     terms = [_vector(term) + (f" where {guard}" if guard else "") for guard, term in each]
     return f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
@@ -209,7 +213,7 @@ def _of_iterates(f: Lines) -> str:
 
 
 def _pieces(f: Lines, before: str = "") -> str:
-    """The image of each piece, and where the piece applies."""
+    """The image of each piece, with the guard of the piece."""
     pieces = (piece.split(" -> ") for piece in f.all("piece"))
     return "; ".join(f"{before}{_vector(image)}{_where(guard)}" for guard, image in pieces)
 
@@ -240,8 +244,8 @@ def _of_descent(f: Lines) -> str:
 
 
 def _set_of(f: Lines) -> tuple[str, str, str]:
-    """The states that the point attracts; what stands for them after `of the space`; and that they
-    lead to themselves and surround the point.
+    """Three texts: the set of states that the point attracts; its short form after `of the space`;
+    and the sentence that the set is mapped into itself and surrounds the point.
     """
     on, at = f.one("on"), f.letters
     if on in (*ALWAYS, f.of_map().one("space")):
@@ -262,7 +266,7 @@ def _of_contraction(f: Lines) -> str:
 
 
 def _value_of(f: Lines) -> str:
-    """The greatest of the terms `value`, and what the statement's names of the point mean."""
+    """The maximum of the terms `value`, and the meaning of the statement's names for the point."""
     state, e = f.of_map().one("state").split(), f.letters.e
     points = {name: f"{e}_{name}" if len(state) > 1 else e for name in state}
     meanings = {f"{name}_gap": f"{name} - {point}" for name, point in points.items()}
@@ -371,9 +375,9 @@ def _of_return(f: Lines) -> str:
 
 
 class Rule(NamedTuple):
-    """A rule of the checker: what it says in a few words; the order of its lines, as the checker
-    has it; what it concludes; and what each premise means, by its name without numbers, for which
-    {0}, {1} stand.
+    """A rule of the checker in words: a short label; the order of its lines, as the checker
+    demands it; its conclusion; and the meaning of each premise by the premise's name without
+    numbers, which replace {0}, {1}.
     """
 
     label: str
@@ -548,7 +552,7 @@ RULES = {
 
 
 def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
-    """What the rule of this kind and name concludes, from its text and those that it rests on.
+    """The conclusion of a map rule, made from its text and the texts that it rests on.
 
     >>> text = "statement t/sum\\nforall x K\\ninteger K\\niterates x -> x + 2\\nafter K -> x + 2*K"
     >>> conclusion("iterates", "t/sum", {"t/sum": text})
@@ -559,14 +563,14 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     if kind != "relation" and any(key == "input" for key, _ in lines.of_map().rows):
         f, s, n = lines.letters.f, lines.letters.s, lines.letters.n
         said += f"; {f}^{n}({s}) is any state that the relation leads to from {s} in {n} steps"
-    for root in reversed(lines.roots()):  # a root may be of one above it
+    for root in reversed(lines.roots()):  # a root may contain one above it
         if root.partition(" = ")[0] in checker.names_in(said):
             said += f"; {root}"
     return said
 
 
 def meaning(kind: str, premise: str) -> str:
-    """What a premise of a rule of this kind means.
+    """The meaning of a premise of a rule of this kind.
 
     >>> meaning("descends", "stage-2-1")
     'piece 1 takes stage 2 into the next stage, or the last one into itself'

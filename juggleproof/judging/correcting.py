@@ -1,4 +1,4 @@
-"""Prints and right-hand sides that may mend a print that is refuted."""
+"""Candidates for the correction of a refuted print."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from juggleproof.statements.language import ClaimError, Term, names_in, term
 # Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
 # terms, the derived form.
 #
-# Nothing here is believed: a candidate is a print that the same claim function reads and the
-# checker then judges.
+# Nothing here is believed: a candidate is a print, which the same claim function reads, and whose
+# statements the checker judges.
 
 LINE = r" \\ "  # between two lines of an array
 LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
@@ -30,7 +30,7 @@ LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 
 @dataclass(frozen=True)
 class Candidate:
-    """A corrected print: its kind, what was changed, its LaTeX, and what the claim reads."""
+    """A corrected print: its kind, the change, its LaTeX, and its reading for the claim."""
 
     kind: str
     change: str
@@ -39,14 +39,14 @@ class Candidate:
 
     @property
     def possible_transcription_error(self) -> bool:
-        """One lost mark mends the print, so the fault may be the transcription's and not the
-        authors'.
+        """Whether one lost mark mends the print, so that the fault may be the transcription's and
+        not the authors'.
         """
         return self.kind in LOST_MARKS
 
     def unbound(self, claim: Claim) -> list[str]:
-        """The names in the print that have no meaning where the claim stands: neither throughout,
-        nor by a definition printed in its section, nor by the prose.
+        """The names in the print that have no meaning in the claim's section: neither the
+        vocabulary, nor a definition printed there, nor its prose gives them one.
         """
         words = claim.vocabulary
         if words.reads is None or words.introduces is None:
@@ -61,19 +61,19 @@ class Candidate:
 
 
 def with_any_index(name: str) -> str:
-    """The name with a place for its index, as A_t is a name for all t."""
+    """The name with a placeholder for its index, under which A_t has a meaning for all t."""
     return re.sub(r"_\{.*\}", r"_{\\cdot}", name)
 
 
 def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[Candidate]:
-    """Corrections to try, in order: one mark, the print that the claim names as mended, then the
-    derived form (after coefficients on the printed terms).
+    """The corrections to try, in order: one mark changed, the corrected print that the claim names,
+    other coefficients on the printed terms, the derived form.
 
-    `first` is the kind and text of one to try before all others.
+    `first` is the kind and text of the candidate to try before all others.
     """
     ways = (_one_mark, _mended, _derived)
     if first is not None:
-        quick = sorted(ways, key=lambda way: way is not _mended)  # the marks are many
+        quick = sorted(ways, key=lambda way: way is not _mended)  # there are many one-mark changes
         yield from (one for way in quick for one in way(claim) if (one.kind, one.text) == first)
     yield from (one for way in ways for one in way(claim) if (one.kind, one.text) != first)
 
@@ -90,7 +90,9 @@ def _mended(claim: Claim) -> Iterator[Candidate]:
 
 
 def _derived(claim: Claim) -> Iterator[Candidate]:
-    """The printed left side with the derived form for its right, written as the paper would."""
+    """The print with its right side replaced: by its own terms with other coefficients, then by the
+    derived form, both written in the paper's notation.
+    """
     right, words = _printed_right(claim), claim.vocabulary
     if claim.derived is None or words.reads is None:
         return
@@ -117,7 +119,7 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
 
 
 def _up_to_the_last_side(latex: str) -> str:
-    """The print up to the sign of its last relation, which is included."""
+    """The print up to and including the sign of its last relation."""
     signs = [token.end for token in lex(latex) if token.text in RELATIONS]
     return latex[: signs[-1]] if signs else latex
 
@@ -125,7 +127,7 @@ def _up_to_the_last_side(latex: str) -> str:
 def _as_printed(
     value: Term | Vector | Matrix, names: Mapping[str, str], roots: Mapping[str, Term]
 ) -> str:
-    """A term, or a column or matrix of such, as LaTeX in these names, roots written out."""
+    """A term, column or matrix as LaTeX in these names, with roots written out."""
     if isinstance(value, (Vector, Matrix)):
         rows = value.rows if isinstance(value, Matrix) else [(entry,) for entry in value.entries]
         lines = [
@@ -138,7 +140,7 @@ def _as_printed(
 def _latex(
     value: Term, names: Mapping[str, str], roots: Mapping[str, Term], inside: str = "+"
 ) -> str:
-    """A term as LaTeX, its parts in their order; `inside` is the operation that it is a part of."""
+    """A term as LaTeX, in the order of its parts; `inside` is the operation that contains it."""
     if value.op == "var":
         root = roots.get(value.name)
         return names[value.name] if root is None else rf"\sqrt{{{_latex(root, names, roots)}}}"
@@ -166,7 +168,7 @@ def _fraction(above: object, below: object) -> str:
 
 
 def differences(printed: str, mended: str) -> list[str]:
-    r"""What has to be changed in a print, mark by mark.
+    r"""The changes from the printed to the corrected LaTeX, mark by mark.
 
     >>> differences(r"f_1 := -A x", r"f_2 := A x^2")
     ['1 to 2', '- dropped', '^2 added']
@@ -182,8 +184,8 @@ def differences(printed: str, mended: str) -> list[str]:
     return found
 
 
-# What a change says to a reader of the print, who counts no columns: the corrected formula shows
-# where.
+# Patterns of changes, with words for a reader of the print; columns are left out, since the
+# corrected formula shows where the change is.
 NOTES = (
     (r"(?:(dot|bar): put over|(prime): put after) (\S+)", r"\1\2 restored on \3"),
     (r"index: (\S+) put after (\S+)", r"index \1 restored after \2"),
@@ -204,7 +206,7 @@ NOTES = (
 
 
 def note_of(change: str) -> str:
-    r"""A candidate's change, in the words of mathematics.
+    r"""A candidate's change in words, without columns.
 
     >>> note_of("half: put at column 18"), note_of("marks: H to B; _1 added")
     ('half restored', 'H replaced by B; index 1 added')
@@ -221,8 +223,8 @@ def note_of(change: str) -> str:
 
 
 def _printed_right(claim: Claim) -> Value | None:
-    """The printed right-hand side in the names of the claim's vocabulary, where those suffice to
-    read it.
+    """The value of the printed right-hand side; None where the claim's vocabulary does not suffice
+    to read it.
     """
     if claim.vocabulary.reads is None:
         return None
@@ -236,8 +238,9 @@ def _printed_right(claim: Claim) -> Value | None:
 def coefficients_on_printed_terms(
     printed: Term, truth: Term, roots: Mapping[str, Term] | None = None
 ) -> Term | None:
-    """The printed sum with other rational coefficients on its terms that equals the truth; None
-    where there is none.  `roots` are names for square roots of terms, each linear in one variable.
+    """The printed sum with other rational coefficients on its terms, so that it equals the truth;
+    None where no coefficients do.  `roots` are names for square roots of terms, each linear in one
+    variable.
 
     >>> from juggleproof.statements.language import reals
     >>> x, y = reals("x y")
@@ -257,7 +260,7 @@ def coefficients_on_printed_terms(
         }
         for name, under in (roots or {}).items():
             variables = names_in(under)
-            if name in point and len(variables) == 1:  # its square has to be what is under the root
+            if name in point and len(variables) == 1:  # solves point[name]**2 = under
                 (variable,) = variables
                 constant, one = (_value(under, {variable: Fraction(k)}) for k in (0, 1))
                 point[variable] = (point[name] ** 2 - constant) / (one - constant)
@@ -274,7 +277,7 @@ def coefficients_on_printed_terms(
 
 
 def _times(number: Fraction, addend: Term) -> Term:
-    """A multiple of an addend, its signs drawn together."""
+    """The multiple of an addend, with at most one minus sign, in front."""
     negative, bare = number < 0, addend
     while bare.op == "neg":
         negative, bare = not negative, bare.operands[0]
@@ -286,8 +289,8 @@ def _times(number: Fraction, addend: Term) -> Term:
 
 
 def _sum_inside(expression: Term) -> tuple[list[Term], Callable[[Sequence[Term]], Term]] | None:
-    """The first sum inside products and quotients, as its terms with their signs, and how to put
-    another sum in its place.
+    """The signed terms of the first sum inside products and quotients, and a function that puts the
+    sum of other terms in its place.
     """
     if expression.op in ("+", "-"):
         return _terms_of(expression), _total
@@ -343,7 +346,7 @@ def _value(expression: Term, point: dict[str, Fraction]) -> Fraction:
 
 
 def _solve(rows: list[list[Fraction]], unknowns: int) -> list[Fraction] | None:
-    """The only solution of an overdetermined linear system, or None."""
+    """The solution of an overdetermined linear system, or None if it has none or several."""
     rows = [list(row) for row in rows]
     for column in range(unknowns):
         pivot = next((i for i in range(column, len(rows)) if rows[i][column]), None)

@@ -1,5 +1,5 @@
-"""Terms and formulas of the statement language at rational values, and the simple values that are
-tried first for a counterexample; nothing that is proved rests on it.
+"""Values of terms and formulas at rational points, and the simple values that are tried first for a
+counterexample; no proof rests on this file.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from juggleproof.statements.language import Statement, Term, equal, names_in, re
 from juggleproof.statements.nodes import Counterexample
 
 Point = Mapping[str, Fraction]
-Ends = tuple[Fraction, Fraction]  # of an interval; one number twice where that is exact
+Ends = tuple[Fraction, Fraction]  # the ends of an interval; an exact number is both ends
 ARITHMETIC: Mapping[type, Callable[[Fraction, Fraction], Fraction]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -32,13 +32,13 @@ RELATIONS: Mapping[type, tuple[str, Callable[[Fraction, Fraction], bool]]] = {
     ast.Eq: ("=", operator.eq),
     ast.NotEq: ("!=", operator.ne),
 }
-LARGEST = 32  # denominator of the parameter that is tried
-TRIED = 4  # values of the parameter
+LARGEST = 32  # denominator of the parameter's trial values
+TRIED = 4  # trial values of the parameter
 PLAIN = 16  # numerators and denominators up to here are simple
 
 
 def value_at(text: str, point: Point) -> Fraction | None:
-    """The value of a term, or None where a name has none, or zero divides.
+    """The value of a term, or None where a name has no value, or a divisor is 0.
 
     >>> str(value_at("alpha^2/(1 - beta)", {"alpha": Fraction(1, 2), "beta": Fraction(0)}))
     '1/4'
@@ -50,7 +50,7 @@ def value_at(text: str, point: Point) -> Fraction | None:
 
 
 def is_true_at(text: str, point: Point) -> bool | None:
-    """Whether a formula is true, or None where a name has no value, or zero divides.
+    """Whether a formula is true, or None where a name has no value, or a divisor is 0.
 
     >>> is_true_at("a > 0 and iff(a < 1, a^2 < a)", {"a": Fraction(1, 2)})
     True
@@ -62,8 +62,8 @@ def is_true_at(text: str, point: Point) -> bool | None:
 
 
 def numbers_at(text: str, point: Point) -> str:
-    """A formula that is false at the point with its numbers in place: the first part that fails, or
-    the two sides of what ought to be equivalent; nothing where they cannot be worked out.
+    """The numbers that make a formula false at the point: in the first part that fails, or on both
+    sides of an implication or equivalence; empty where they cannot be computed.
 
     >>> point = {"a": Fraction(1, 2)}
     >>> numbers_at("a > 0 and a^2 >= a", point), numbers_at("iff(a < 1, a < 0)", point)
@@ -131,7 +131,7 @@ def _numbers(node: ast.AST, point: Point) -> str:
 
 
 def _all_numbers(node: ast.AST, point: Point) -> str:
-    """Every relation of a formula with its numbers."""
+    """The formula with each side of a relation replaced by its value."""
     if isinstance(node, ast.BoolOp):
         word = " and " if isinstance(node.op, ast.And) else " or "
         return word.join(_all_numbers(part, point) for part in node.values)
@@ -141,13 +141,13 @@ def _all_numbers(node: ast.AST, point: Point) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Terms at values that are known between rational ends, as roots are.
+# Terms at values that are known only between rational ends, such as roots.
 
 
 def ends_of(node: ast.AST, point: Mapping[str, Ends]) -> Ends:
-    """Ends between which a term lies, by interval arithmetic; its value twice where those of its
-    names are exact.  Raises KeyError for a name without ends, ZeroDivisionError for a divisor that
-    may be 0.
+    """The ends between which a term lies, by interval arithmetic; both are its value where its
+    names have exact values.  Raises KeyError for a name without ends, ZeroDivisionError for a
+    divisor that may be 0.
 
     >>> root_of_2 = {"z": (Fraction(7, 5), Fraction(3, 2))}
     >>> [str(end) for end in ends_of(checker.parse("1 - z^2"), root_of_2)]
@@ -175,7 +175,7 @@ def ends_of(node: ast.AST, point: Mapping[str, Ends]) -> Ends:
 
 
 def is_surely(truth: bool, node: ast.AST, point: Mapping[str, Ends]) -> bool:
-    """Whether a formula of relations, `and`, `or` and `not` is true, or is false, for all values
+    """Whether a formula of relations, `and`, `or` and `not` has this truth value for all values
     between these ends.
 
     >>> root_of_2 = {"z": (Fraction(7, 5), Fraction(3, 2))}
@@ -205,12 +205,12 @@ def _is_surely_related(truth: bool, sign: type, left: Ends, right: Ends) -> bool
 
 
 # -------------------------------------------------------------------------------------------------
-# Counterexamples in simple rationals: the parameter at a simple value first, at which the roots of
+# Counterexamples in simple rationals: the parameter first gets simple values at which the roots of
 # the statement are rational too.
 
 
 def is_simple(found: Counterexample) -> bool:
-    """Whether all values are rationals of small height."""
+    """Whether all values of the counterexample are rationals of small height."""
     numbers = [int(digits) for text in found.terms.values() for digits in re.findall(r"\d+", text)]
     return not found.adjoined and max(numbers, default=0) <= PLAIN
 
@@ -218,8 +218,8 @@ def is_simple(found: Counterexample) -> bool:
 def at_simple_values(
     statement: Statement, parameter: str, roots: Iterable[Term]
 ) -> Iterator[Statement]:
-    """The statement with the parameter given a simple value, the simplest first, at which the
-    square roots of these terms in it are rational.
+    """The statement with one more given, parameter = value, for simple values, the simplest first,
+    at which the square roots of those terms that are in the parameter alone are rational.
     """
     under = [str(one) for one in roots if names_in(one) == {parameter}]
     values = sorted({Fraction(p, q) for q in range(2, LARGEST + 1) for p in range(1, q)}, key=_size)

@@ -1,4 +1,4 @@
-"""Libraries of the optional extras, asked for where they are used."""
+"""Libraries of the optional extras, imported where they are used."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from types import ModuleType
 
 from juggleproof.statements.language import ClaimError
 
-# What pip installs, in a checkout and beside a wheel alike; as in pyproject.toml.
+# The packages of each extra, as in pyproject.toml, for pip in a checkout and beside a wheel alike.
 EXTRAS = {"report": "jinja2 matplotlib latex2mathml", "part": "numba"}
 
 

@@ -1,4 +1,4 @@
-"""For all, there is, maximum, supremum, equal sets."""
+"""The forms of an assertion: for all, there is, maximum, supremum, equal sets."""
 
 from __future__ import annotations
 
@@ -30,22 +30,21 @@ from juggleproof.statements.language import (
 # The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
 # plain statements.
 #
-# A vocabulary has what is understood where nothing is stated: the standing assumption on a
-# parameter (0 < alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a
-# name is.  The lines it adds stand in the statement, where an auditor reads them.
+# A vocabulary has what the prints leave unsaid: the standing assumption on a parameter
+# (0 < alpha < 1), the term of an abbreviation (T = 2 r/g), the radicand of a name for a square
+# root.  It adds them as lines to the statement, where an auditor reads them.
 
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """What names mean where nothing is stated: order of variables, standing assumptions,
+    """The meanings that names have by default: order of variables, standing assumptions,
     abbreviations and roots.
 
-    `domains` has the parameters over which sharp ranges are sought, the first one first, each with
-    what is assumed of it alone; `scales` the positive variables that a change of units makes 1,
-    which homogeneity decides where it is None; `sample` a point at which signs of denominators are
-    guessed; `reads` gives the environment in which a print is read that is to be corrected,
-    `introduces` the names to which the prose of a section gives a meaning, and `defines` the
-    definitions of the statement file.
+    `domains` gives each parameter of sharp ranges, in order, the assumptions on it alone; `scales`
+    has the positive variables that a change of units makes 1 (None: homogeneity decides); `sample`
+    is a point at which signs of denominators are guessed; `reads` returns the environment in which
+    prints are read for their correction, `introduces` the names to which the prose of a section
+    gives a meaning, and `defines` the definitions of the statement file.
     """
 
     order: tuple[str, ...] = ()
@@ -74,17 +73,17 @@ COMPARISONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 
 
 class _Writer:
-    """Collects the lines of one statement: each line is preceded by the abbreviations, roots and
+    """A writer of the lines of one statement: each line is preceded by the abbreviations, roots and
     side conditions that it needs.
 
-    What the checker would know by then is worked out only where a denominator asks for it.
+    The checker's context after the lines so far is computed only where a denominator needs it.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self.vocabulary, self.known = vocabulary, set[str]()
         self.context = checker.Context()
         self.later: list[Callable[[checker.Context], None]] = []
-        self.nonzero = set[Term]()  # what the lines so far are known to keep from 0
+        self.nonzero = set[Term]()  # terms that the lines so far are known to keep from 0
         self.lines: list[Line] = []
         self.sample = dict(vocabulary.sample)
         self.alone: dict[str, list[Formula]] = {}  # the lines about one variable only
@@ -101,8 +100,8 @@ class _Writer:
         self._license(formula)
 
     def _sample(self, formula: Formula) -> None:
-        """Moves the sample value of a variable to the first one that meets the lines about
-        it alone, where the vocabulary gives none.
+        """Gives a variable that has no sample value in the vocabulary the first value of `SAMPLES`
+        that meets the lines about it alone.
         """
         names = names_in(formula)
         if len(names) == 1 and not names & set(self.vocabulary.sample):
@@ -131,7 +130,7 @@ class _Writer:
         )
 
     def by_now(self) -> checker.Context:
-        """What the checker knows after the lines so far."""
+        """The checker's context after the lines so far."""
         for learn in self.later:
             learn(self.context)
         self.later.clear()
@@ -140,7 +139,7 @@ class _Writer:
     def prepare(self, thing: Term | Formula) -> None:
         """Adds the lines that the names and denominators of a term or formula need."""
         for name in sorted(names_in(thing) - self.known):
-            if name in self.known:  # an abbreviation before it is written with this one
+            if name in self.known:  # one of the others needed it, and added it
                 continue
             self.known.add(name)
             if name in self.vocabulary.roots:
@@ -157,12 +156,12 @@ class _Writer:
             self.license(below)
 
     def license(self, below: Term) -> None:
-        """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor,
-        which the certificate must prove.
+        """Adds `have` lines, which the certificate must prove, for the factors of a denominator
+        that no strict line makes nonzero yet.
         """
         if below.op == "num" or below in self.nonzero:
             return
-        self.nonzero.add(below)  # by what is known now, or by the lines that this adds
+        self.nonzero.add(below)  # by the lines so far, or by those that are added now
         context = self.by_now()
         try:
             context.reciprocal(checker.parse(str(below)))
@@ -203,8 +202,8 @@ def _meets(formula: Formula, sample: Mapping[str, Fraction]) -> bool:
 
 
 def _likely_sign(value: Term, vocabulary: Vocabulary, sample: Mapping[str, Fraction]) -> int:
-    """The sign at the sample point, 2 for names that it lacks: a guess that the certificate of the
-    `have` line has to confirm.
+    """The sign of the term at the sample point, where names without a value are 2: a guess that the
+    certificate of the `have` line must confirm.
     """
     for _ in range(8):
         hidden = {
@@ -240,7 +239,7 @@ def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
 def _needed(
     formulas: Sequence[Term | Formula], vocabulary: Vocabulary, exists: Sequence[str]
 ) -> list[str]:
-    """The variables that occur, abbreviations opened, in the vocabulary's order."""
+    """The variables that occur, also in abbreviations, in the vocabulary's order."""
     names: set[str] = set()
     work = set().union(*(names_in(formula) for formula in formulas))
     while work:
@@ -266,11 +265,11 @@ def always(
     label: str = "main",
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
-    """For all values of the names that occur: the standing assumptions and the givens imply what is
-    shown.
+    """The statement that for all values of the names that occur, the standing assumptions and the
+    givens imply `show`.
 
-    `in_range` replaces the vocabulary's standing range of the parameters; it is what a sharp range
-    leaves open.
+    `in_range` replaces the vocabulary's standing range of the parameters, which a search for a
+    sharp range drops.
 
     >>> from juggleproof.statements.language import reals
     >>> x, y = reals("x y")
@@ -294,8 +293,8 @@ def exists_some(
     label: str = "main",
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
-    """For all values of the other names, under the assumptions, some values of `exists` meet
-    `within` and what is shown.
+    """The statement that for all values of the other names, under the assumptions, some values of
+    `exists` meet `within` and `show`.
     """
     if isinstance(exists, str) or not all(isinstance(name, str) for name in exists):
         raise ClaimError(
@@ -360,8 +359,8 @@ def is_maximum(
     given: Sequence[Formula] = (),
     in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
-    """`value` is the maximum of `of` on the region, attained at the state `at`: bound, member,
-    equality.
+    """Three statements that `value` is the maximum of `of` on the region, attained at the state
+    `at`: bound, member, equality.
     """
     there = {name: term(place) for name, place in at.items()}
     if set(there) != set(state):
@@ -398,8 +397,8 @@ def is_supremum(
     given: Sequence[Formula] = (),
     in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
-    """`value` is the supremum of `of` on the region: a bound (strict where it is not attained), and
-    states that come within any eps > 0.
+    """Two statements that `value` is the supremum of `of` on the region: it is a bound (strict
+    where it is not attained), and for any eps > 0 some state comes within eps.
     """
     eps = real("eps")
     bound = of < value if strict else of <= value
@@ -425,7 +424,7 @@ def same_set(
     given: Sequence[Formula] = (),
     in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
-    """The two regions have the same states: two inclusions."""
+    """Two statements that each region is contained in the other."""
     return [
         always(
             right, given=[*given, left], label="forth", vocabulary=vocabulary, in_range=in_range
@@ -435,7 +434,7 @@ def same_set(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the hypotheses of a statement say: the domain of a parameter, or a part of it.
+# The domains of parameters, read from the hypotheses of statements.
 
 
 def domains_of(
@@ -443,10 +442,10 @@ def domains_of(
 ) -> dict[str, tuple[Formula, ...]]:
     """The parameters of a claim whose vocabulary has none, each with its domain.
 
-    They are the variables that the claim names; else those of which a range line speaks alone; else
-    the one variable of which the givens say that it lies between 0 and 1, and no more.  The domain
-    is what the range lines say of the variable alone, else the givens; a variable of which two
-    statements say different things is left out.
+    The parameters are the variables that the claim names; else those that are the only variable of
+    a range line; else the only variable for which the givens say 0 < x < 1 and no more.  The domain
+    has the range lines about the variable alone, or else such givens; a variable is left out where
+    two statements differ in this.
 
     >>> from juggleproof.statements.language import reals
     >>> a, q = reals("a q")
@@ -481,7 +480,7 @@ def domains_of(
 
 
 def _alone(statement: Statement, keyword: str) -> dict[str, tuple[Formula, ...]]:
-    """What the lines of a keyword say of one variable alone, by variable in order."""
+    """The formulas of the lines with this keyword in one variable only, by variable, in order."""
     alone: dict[str, tuple[Formula, ...]] = {}
     for kind, formula in statement.lines:
         if kind == keyword and isinstance(formula, Formula):
@@ -493,8 +492,8 @@ def _alone(statement: Statement, keyword: str) -> dict[str, tuple[Formula, ...]]
 
 
 def speaks_of_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
-    """Whether a statement is about a range of parameters: by range lines, or by givens that say
-    just the domain of the first one.
+    """Whether a statement is about a range of parameters: it has range lines, or its givens state
+    exactly the domain of the first parameter.
     """
     if any(keyword == "range" for keyword, _ in statement.lines):
         return True
@@ -504,8 +503,8 @@ def speaks_of_range(statement: Statement, domains: Mapping[str, tuple[Formula, .
 
 
 def has_whole_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
-    """Whether the range lines say the domains of the statement's parameters and nothing else,
-    however they are written; what the givens state need not be repeated.
+    """Whether the range lines are equivalent, atom by atom, to the domains of the statement's
+    parameters, apart from conditions that are givens.
     """
     given = {str(line) for keyword, line in statement.lines if keyword == "given"}
     whole = [
@@ -538,8 +537,8 @@ def _texts_agree(variables: tuple[str, ...], left: tuple[str, ...], right: tuple
 
 
 def _atoms(context: checker.Context, trees: list[ast.expr]) -> set[Hashable]:
-    """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as
-    itself.
+    """The parts of a conjunction: an atom as its primitive polynomial and relation, any other part
+    as its text.
     """
     joined = checker.join("and", [context.formula(tree) for tree in trees])
     parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]

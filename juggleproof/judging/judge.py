@@ -1,5 +1,5 @@
 """Judges one claim: states it, finds or reuses certificates, has the checker settle them, corrects
-what is refuted, finds sharp ranges.
+a refuted print, finds sharp ranges.
 """
 
 from __future__ import annotations
@@ -77,18 +77,18 @@ def judge(claim: Claim, resources: Resources) -> Judgement:
 
 
 class Judge:
-    """One claim on its way to a judgement."""
+    """A judge of one claim, whose judgement grows as statements are settled."""
 
     def __init__(self, claim: Claim, resources: Resources) -> None:
         self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
         self.premises: dict[str, dict[str, checker.Statement]] = {}  # of rules that were searched
         self.is_trial = self.lacks_lemmas = False
-        self.where = claim.where  # file and line of what is settled
+        self.where = claim.where  # file and line of the statement that is being settled
 
     @cached_property
     def search(self) -> searches.ClaimSearch:
-        """The searches for the claim, which are loaded when one of them is first asked."""
+        """The searches for the claim; they are loaded when a search is first needed."""
         return searches.ClaimSearch(
             self.resources.budget,
             self.claim.hints.get("search"),
@@ -103,12 +103,12 @@ class Judge:
 
     @property
     def finding(self) -> Finding:
-        """What an earlier run found about the claim."""
+        """The finding of an earlier run about the claim."""
         return self.resources.findings.get(self.claim.id) or {}
 
     def run(self) -> Judgement:
-        """The claim stated, each of its statements settled, a refuted print corrected, and the
-        sharp ranges found.
+        """The judgement: the claim is stated, each of its statements settled, a refuted print
+        corrected, and the sharp ranges found.
         """
         claim, judgement = self.claim, self.judgement
         for name in claim.hints.get("uses", ()):
@@ -146,7 +146,7 @@ class Judge:
             judgement.by_rules = verdict_of(
                 claim.id, body, {**judgement.outcomes, **dict.fromkeys(awaited(body), "certified")}
             )
-        if not judgement.follows:  # what stands beside a conclusion of map rules has no range
+        if not judgement.follows:  # an assertion beside a conclusion of map rules has no range
             for prefix, assertion in assertions(body):
                 sharp = self.find_sharp_range(prefix, assertion)
                 if sharp is not None:
@@ -155,7 +155,9 @@ class Judge:
         return judgement
 
     def settle_remark(self) -> None:
-        """Settles what the remark of the claim states, which has to be certified."""
+        """Settles the assertion of the claim's remark; unless it is certified, the verdict becomes
+        unknown.
+        """
         beside = self.claim.shown_beside()
         if beside is None:
             return
@@ -165,9 +167,9 @@ class Judge:
             self.judgement.verdict = self.judgement.by_rules = unshown
 
     def body(self) -> Body:
-        """What the claim asserts.
+        """The body of the claim.
 
-        Raises ClaimError for whatever the function of a claim outside of this package raises.
+        Raises ClaimError for any exception of a claim function outside of this package.
         """
         try:
             return self.claim.body()
@@ -187,7 +189,7 @@ class Judge:
 
     def settle(self, statement: AnyStatement) -> str:
         """The outcome of one statement, by a stored certificate that is still valid or by a
-        search; what was unknown is searched again, by this budget and from what is known now.
+        search; a stored `unknown` is searched again, with this budget and the lemmas known now.
         """
         rule, rests = None, list[str]()
         self.where = self.claim.where
@@ -198,7 +200,7 @@ class Judge:
         name, text = statement.name, statement.text()
         store = self.resources.store
         certificate: Certificate | None = store.certificate(name, text) if store else None
-        if not self.known.keys() >= {*rests}:  # what was certified of other rules says nothing
+        if not self.known.keys() >= {*rests}:  # not all rules it rests on are certified
             certificate = None
         outcome = self.stored_outcome(name, text, certificate)
         if certificate is None or outcome in ("rejected", "unknown"):
@@ -225,27 +227,27 @@ class Judge:
         return outcome
 
     def place_of(self, rule: MapRule) -> str:
-        """File and line of a rule, where it stands in the file of the claim; else of the claim."""
+        """File and line of a rule, if it stands in the file of the claim; else of the claim."""
         place = place_in_file(*rule.place) if rule.place else ""
         own = self.claim.where.rpartition(":")[0]
         return place if place.rpartition(":")[0] == own else self.claim.where
 
     def stored_outcome(self, name: str, text: str, certificate: Certificate | None) -> str:
-        """The checker's outcome of the stored certificate when it read the store; it is asked again
-        where it rejected the certificate there, or read other lemmas.
+        """The checker's outcome of the stored certificate, from its reading of the store; it is
+        asked again where it rejected the certificate there, or the store has other lemmas.
         """
         if certificate is None:
             return "rejected"
         stored = self.resources.store.texts if self.resources.store else {}
         as_stored = not self.lacks_lemmas and all(
             stored.get(one.name) == one.text() for one in self.known.values()
-        )  # else what it rests on is not what was read there
+        )  # the checker read the store with these very lemmas
         outcome = self.resources.checked.get(name, "rejected") if as_stored else "rejected"
         return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
-        """One vote a route: as it is on record, where the very same was asked and no vote
-        contradicts the outcome, or else cast now.
+        """One vote of each route: the recorded votes, if they are on the same question and none
+        contradicts the outcome; else votes that are cast now.
         """
         routes, budget = [route for route in self.resources.routes if route != "exact"], Budget()
         recorded = self.resources.votes.get(self.claim.id)
@@ -277,7 +279,7 @@ class Judge:
     def record(self, name: str, text: str, certificate: Certificate, outcome: str) -> None:
         """Adds a settled statement to the judgement.
 
-        Raises ClaimError where its name is that of another one.
+        Raises ClaimError where another statement has its name.
         """
         if name in self.judgement.outcomes:
             raise ClaimError(
@@ -291,7 +293,7 @@ class Judge:
 
     def correct(self, body: Body) -> None:
         """Keeps the first correction that is certified: the true assertion nearby that the claim
-        names, or a candidate print, of which the one that an earlier run found is tried first.
+        names, or a candidate print; the one that an earlier run found is tried first.
         """
         if self.nearby_is_certified() or not self.claim.printed or isinstance(body, Argument):
             return
@@ -308,7 +310,7 @@ class Judge:
                 return
 
     def nearby_is_certified(self) -> bool:
-        """Whether the claim names a true assertion nearby that is certified; if so it is the
+        """Whether the claim names a true assertion nearby that is certified; if so, it becomes the
         correction.
         """
         if self.claim.true_nearby is None:
@@ -325,20 +327,20 @@ class Judge:
         return True
 
     def candidate_is_certified(self, candidate: Candidate) -> bool:
-        """Whether the claim, read with this print, is certified, and each name in it is bound
-        where it stands; if so its statements are kept as ID/corrected...
+        """Whether the claim, read with this print, is certified, and each name in the print has a
+        meaning in its section; if so, the statements are kept under the names ID/corrected.LABEL.
         """
         try:
             if candidate.unbound(self.claim):
                 return False
-            named = candidate.kind == "marks"  # by the claim, and one only
+            named = candidate.kind == "marks"  # the claim names this candidate
             return self.correction_is_certified(self.claim.body(candidate.printed), named)
         except (ClaimError, checker.Rejected):
             return False
 
     def correction_is_certified(self, body: Body, named: bool) -> bool:
-        """Whether every statement of a corrected body is certified; if so they are kept.  One that
-        the claim names gets all of the budget, one of many candidates a part.
+        """Whether every statement of a corrected body is certified; if so, they are kept.  A
+        correction that the claim names gets the whole budget, one of many candidates a part.
         """
         try:
             statements = [
@@ -359,7 +361,7 @@ class Judge:
         try:
             if any(trial.settle(part) != "certified" for part in statements):
                 return False
-        except ClaimError:  # it contradicts itself, or divides by what may vanish
+        except ClaimError:  # its givens are contradictory, or a divisor may be 0
             return False
         tried = trial.judgement
         for name, text in tried.statements:
@@ -368,8 +370,8 @@ class Judge:
         return True
 
     def is_stored_certified(self, statement: AnyStatement) -> bool:
-        """Whether the store holds this very statement, and the checker accepted its proof there: no
-        point can then refute it.
+        """Whether the store holds this very statement, and the checker accepted its proof there, so
+        that no point can refute it.
         """
         store, name = self.resources.store, statement.name
         return (
@@ -379,7 +381,7 @@ class Judge:
         )
 
     def trial(self, budget: int) -> Judge:
-        """A judge of the same claim that settles what may correct it, with this budget."""
+        """A judge of the same claim that settles candidates for its correction with this budget."""
         trial = Judge(self.claim, replace(self.resources, routes=("exact",), budget=budget))
         trial.known, trial.is_trial, trial.judgement.roles = self.known, True, self.judgement.roles
         return trial
@@ -387,11 +389,11 @@ class Judge:
     # -------------------------------------------------------------- sharp ranges
 
     def find_sharp_range(self, prefix: str, assertion: Assertion) -> Sharp | None:
-        """The set of parameters in the whole domain on which the assertion holds, settled on both
-        sides by the checker; None where it is about no range, or is open itself.
+        """The set of parameters in the whole domain on which the assertion holds, settled inside
+        and outside by the checker; None where the assertion is not about a range, or is open.
 
-        Statements that are certified with the whole domain as their range hold on all of it: the
-        others decide, with all that are about no range and not certified.
+        Statements that are certified with the whole domain as their range hold on all of it.  The
+        range is that of all others: those about a range, and those that are not certified.
         """
         roles = self.judgement.roles
         sought = self.claim.over(roles)
@@ -433,15 +435,15 @@ class Judge:
 
     def sharp_range_of_rule(self, name: str, parts: Sequence[AnyStatement]) -> Sharp | None:
         """The range for which the conclusion of a map rule of this claim is proved; None unless all
-        parts of its assertion are certified, and the domain of every rule on which it does not rest
-        contains its own.
+        parts of its assertion are certified, and its domain is contained in the domain of each map
+        rule among them that it does not rest on.
         """
         if any(self.judgement.outcomes[part.name] != "certified" for part in parts):
             return None
         texts = {**self.resources.lemmas, **dict(self.judgement.statements)}
         rested_on = [name]
         for one in rested_on:
-            if one not in texts:  # of a claim that this one does not name among what it uses
+            if one not in texts:  # a rule of a claim that this one does not list in `uses`
                 return None
             rows = (row.partition(" ") for row in texts[one].splitlines())
             rested_on += [rest for keyword, _, rest in rows if keyword in checker.NAMED]
@@ -453,8 +455,8 @@ class Judge:
         return Sharp(text, (name,)) if text else None
 
     def contains(self, outer: str, inner: str) -> bool:
-        """Whether the checker accepts a quick proof that one domain contains another, in the
-        variables of the other.
+        """Whether the checker accepts a quick proof that the outer domain contains the inner one;
+        conditions of the outer one that share no variable with the inner one are not asked for.
         """
         if not outer or not inner:
             return not outer
@@ -474,8 +476,8 @@ class Judge:
     def stored_sharp_range(
         self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
     ) -> Sharp | None:
-        """The stored sharp range of these statements, if the checker accepts it and it is on the
-        whole domain.
+        """The stored sharp range of these statements, if the checker accepts it and its domain is
+        the whole domain.
         """
         name, store = f"{self.claim.id}/{prefix}sharp", self.resources.store
         text = store.texts.get(name) if store else None
@@ -497,8 +499,8 @@ class Judge:
     def new_sharp_range(
         self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
     ) -> Sharp:
-        """The sharp range of these statements by a search, unless the same one failed in an earlier
-        run.
+        """The sharp range of these statements by a search, unless the same search failed in an
+        earlier run.
         """
         name = f"{self.claim.id}/{prefix}sharp"
         tried = digest(f"{self.resources.budget}\n" + "\n".join(part.text() for part in parts))
@@ -523,8 +525,8 @@ class Judge:
     def sharp_outcome(
         self, name: str, stored: str, certificate: Certificate, ranged: Sequence[Statement]
     ) -> str:
-        """The checker's outcome of a stored sharp range; it is asked again where a statement that
-        is ranged over is not as stored.
+        """The checker's outcome of a stored sharp range; it is asked again where one of the
+        statements of the range is not as stored.
         """
         texts = self.resources.store.texts if self.resources.store else {}
         if self.resources.checked.get(name) == "certified" and all(
@@ -536,7 +538,7 @@ class Judge:
 
 
 def _as_votes(recorded: RecordedVotes, routes: Sequence[str]) -> tuple[Vote, ...]:
-    """The votes of these routes, as they are recorded."""
+    """The recorded votes of these routes."""
     return tuple(
         Vote(one["route"], one["answer"], one["detail"])
         for one in recorded["votes"]

@@ -1,4 +1,4 @@
-"""What a claim is judged with, the judgement on it, and what of this a later run tries first."""
+"""The resources for judging a claim, its judgement, and findings that a later run tries first."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROUTES = ("exact", "z3", "boxes")
 DEFAULT_BUDGET = 2_000_000
 
 # -------------------------------------------------------------------------------------------------
-# Findings: what the file `findings` of a store keeps of a claim; it saves time and proves nothing.
+# Findings: the entry of a claim in the file `findings` of a store; it saves time, proves nothing.
 
 # `text` is the corrected LaTeX, the corrected right-hand side, or the true assertion nearby
 Correction = TypedDict(
@@ -29,7 +29,7 @@ Correction = TypedDict(
 
 
 class RecordedVote(TypedDict):
-    """A vote as the file has it."""
+    """A vote in the file of findings."""
 
     route: str
     answer: str
@@ -37,14 +37,14 @@ class RecordedVote(TypedDict):
 
 
 class RecordedVotes(TypedDict):
-    """The votes on one statement, and the digest of what was asked."""
+    """The votes on one statement, and the digest of the question (`digest_of_question`)."""
 
     on: str
     votes: list[RecordedVote]
 
 
-# sharp ranges as text and digests of searches that ended without one, both by the prefix of an
-# assertion; the correction; the votes by the name of the statement
+# sharp ranges as text, and digests of searches that found none, both by the prefix of an assertion;
+# the correction; the votes by the name of the statement
 Finding = TypedDict(
     "Finding",
     {
@@ -58,7 +58,7 @@ Finding = TypedDict(
 
 
 def is_finding(data: object) -> bool:
-    """Whether what a file holds has the shape of a finding; anyone may have written it."""
+    """Whether data of a file, which anyone may have written, has the shape of a finding."""
     if not isinstance(data, dict) or not data.keys() <= Finding.__annotations__.keys():
         return False
     texts = [*_values(data.get("sharp", {})), *_values(data.get("not found", {}))]
@@ -81,13 +81,13 @@ def is_finding(data: object) -> bool:
 
 
 def _values(data: object) -> list[object]:
-    """The values of a mapping; of anything else one that is no text."""
+    """The values of a mapping; [None] for anything else, so that a test for texts fails."""
     return [*data.values()] if isinstance(data, dict) else [None]
 
 
 @cache
 def _tools() -> str:
-    version = import_module("importlib.metadata").version  # some hundredths of a second
+    version = import_module("importlib.metadata").version  # loading it takes 0.01 s or more
     return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
 
 
@@ -97,8 +97,8 @@ def digest(text: str) -> str:
 
 
 def digest_of_question(text: str, budget: Budget) -> str:
-    """The digest of all that a vote depends on but our own sources: the text of the statement, the
-    budget, and the versions of the tools that vote.
+    """The digest of all that a vote depends on, apart from our own sources: the text of the
+    statement, the budget, and the versions of the tools that vote.
     """
     return digest(f"{budget}\n{text}")
 
@@ -109,13 +109,12 @@ def digest_of_question(text: str, budget: Budget) -> str:
 
 @dataclass(frozen=True)
 class Resources:
-    """What a claim is judged with: which routes vote, how much counted work a statement may take,
+    """The resources for judging a claim: the routes that vote, the counted work for each statement,
     and the findings of an earlier run by claim.  `votes` has the recorded votes that need not be
-    cast again, by claim and by the digest of what was asked.
+    cast again, by claim and by the digest of the question.
 
-    `lemmas` has the texts of statements that other claims state, by name; `checked` the checker's
-    outcomes of the stored statements, by name, when it read the whole store at the start of this
-    run.
+    `lemmas` has the texts of statements of other claims, by name; `checked` has the checker's
+    outcomes of the stored statements, by name, from its reading at the start of this run.
     """
 
     routes: tuple[str, ...] = ROUTES
@@ -127,8 +126,8 @@ class Resources:
     checked: Mapping[str, str] = field(default_factory=dict)
 
     def only(self, claim: Claim) -> Resources:
-        """What these are for one claim, with the stored certificates read, so that no folder
-        is needed.
+        """The part of these resources that one claim needs, with the stored certificates loaded, so
+        that no folder is needed.
         """
         used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
         return replace(
@@ -151,10 +150,10 @@ class Resources:
 
 @dataclass(frozen=True)
 class Sharp:
-    """A sharp range of the parameters: as text, and the names of the statements that settle it.
+    """A sharp range of the parameters: its text, and the names of the statements that settle it.
 
-    Where the search ended without one, `tried` is a digest of what it was for, so that the same
-    search is not made again.
+    Where the search found none, `tried` is a digest of its question, so that the same search is not
+    made again.
     """
 
     text: str
@@ -164,11 +163,11 @@ class Sharp:
 
 @dataclass
 class Judgement:
-    """All that is known of one claim once it is judged; plain data, which passes between
-    processes.
+    """The judgement on one claim: plain data, which passes between processes.
 
-    Statements with their texts are in order; certificates, outcomes and votes are by the name of
-    the statement, as are the texts of the premises of map rules for which no proof was found.
+    `statements` has names and texts in order; certificates, outcomes and votes are by the name of
+    the statement, as is `unproved`: the texts of those premises of map rules for which no proof was
+    found.
     """
 
     id: str
@@ -181,17 +180,17 @@ class Judgement:
     verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
     correction: Correction | None = None
     recorded: dict[str, RecordedVotes] = field(default_factory=dict)
-    rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
-    awaits: tuple[str, ...] = ()  # these, and the claim that it is proved by
-    # the verdict if they are certified
+    rests_on: tuple[str, ...] = ()  # map rules, mostly of other claims
+    awaits: tuple[str, ...] = ()  # these map rules, and the claim `proved_by` of an argument
+    # the verdict if all of `awaits` are certified
     by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))
     follows: bool = False
     is_conclusion: bool = False
-    checked_by: str = ""  # another checker, which settles what has no statements
+    checked_by: str = ""  # the other checker, for a `CheckedApart`
     roles: Roles = NO_ROLES
 
     def finding(self) -> Finding:
-        """What a later run may try first: the sharp ranges, the correction and the votes."""
+        """The finding that a later run tries first: sharp ranges, correction and votes."""
         finding: Finding = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
         tried = {prefix: one.tried for prefix, one in self.sharp.items() if one.tried}
         if tried:
@@ -204,7 +203,7 @@ class Judgement:
 
 
 def statements_of(claim: Claim, correction: Correction | None = None) -> list[AnyStatement]:
-    """The statements that a claim comes to, with those of its correction and of its remark."""
+    """The statements of a claim, of its correction and of its remark."""
     found, beside = assertions(claim.body()), claim.shown_beside()
     if correction and correction["kind"] == "nearby" and claim.true_nearby:
         found += assertions(as_body(claim.true_nearby[1](), claim.id))

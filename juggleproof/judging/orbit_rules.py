@@ -1,5 +1,5 @@
-"""The rules for orbits of maps as a claim writes them: lines that make no rule, and the premises of
-one that does.
+"""Map rules as a claim writes them: the errors for lines that make no rule, and the premises of a
+rule.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from juggleproof.statements.language import ClaimError, MapRule
 def read_rule(rule: MapRule) -> checker.Statement:
     """The rule as the checker reads it.
 
-    Raises ClaimError, which names the line and what is wanted, where it cannot.
+    Raises ClaimError, which names the line and the expected form, where the checker rejects it.
     """
     try:
         keywords = [keyword for keyword, _ in rule.lines]
@@ -39,11 +39,11 @@ def read_rule(rule: MapRule) -> checker.Statement:
 def premises_of(
     rule: checker.Statement, known: Mapping[str, checker.Statement], stated: Collection[str]
 ) -> dict[str, checker.Statement] | str:
-    """The premises by name, or why there are none: a rule that it names is stated, and not among
-    those known to be certified.
+    """The premises by name; or the reason why there are none: the rule names another that is
+    stated, but not known to be certified.
 
-    Raises ClaimError for a name that is not stated before it, or is that of another kind of rule;
-    and for lines of which the checker makes no premises.
+    Raises ClaimError for a name that is not stated before the rule, or that names another kind of
+    rule, and where the checker makes no premises of the lines.
     """
     for keyword, name in ((key, text) for key, text in rule.lines if key in checker.NAMED):
         if name not in stated:
@@ -72,13 +72,15 @@ def premises_of(
 
 
 def _fault(keywords: Sequence[str]) -> str:
-    """What keeps lines with these keywords from being a rule; nothing where they are one."""
+    """The reason why lines with these keywords are no rule; empty where they are one."""
     row = "".join(f"{keyword} " for keyword in keywords)
     if any(re.fullmatch(rule.lines, row) for rule in RULES.values()):
         return ""
 
     def parts(kind: str) -> list[tuple[list[str], str]]:
-        """The keywords of which one stands at each place, and how often: once, or *, + or ?."""
+        """For each place in the order of lines, the keywords that may stand there, and how often:
+        *, + or ?, or empty for exactly once.
+        """
         found = re.findall(r"\(([a-z| ]+)\) ?([*+?]?)|([a-z]+) ", RULES[kind].lines)
         return [
             ((group or word).replace(" ", "").split("|"), often) for group, often, word in found

@@ -1,5 +1,5 @@
-"""The register: the verdicts that stand, committed; only `certify --accept` writes it, showing
-before and after.
+"""The register: the committed file of expected verdicts; only `certify --accept` writes it, and
+shows each entry before and after.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ Register = Mapping[str, Mapping[str, str]]  # the entry of each claim: a text fo
 def load_register(path: Path = PATH) -> dict[str, dict[str, str]]:
     """The registered verdicts by claim; empty where there is no register yet.
 
-    Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a
-    register.
+    Raises ClaimError, one line that names the file, the claim and the remedy, where the file cannot
+    be read as a register.
     """
     if not path.exists():
         return {}
@@ -55,7 +55,7 @@ def load_register(path: Path = PATH) -> dict[str, dict[str, str]]:
 
 
 class _Twice(Exception):
-    """A name that an object of the register has twice."""
+    """The error that an object of the register has a name twice."""
 
 
 def _each_name_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
@@ -67,12 +67,12 @@ def _each_name_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 def _fault(entry: object) -> str:
-    """What is wrong with an entry, and its mend; nothing where it is one."""
+    """The fault of an entry, with its remedy; empty where the entry is valid."""
     if not isinstance(entry, dict):
         return 'not an object; write {"verdict": ...}'
     if "verdict" not in entry:
         return 'no verdict; add "verdict", one of ' + ", ".join(VERDICTS)
-    if entry["verdict"] not in [*VERDICTS]:  # what stands there may be anything
+    if entry["verdict"] not in [*VERDICTS]:  # a list, since the value may be unhashable
         return (
             f"{json.dumps(entry['verdict'])[:40]} is no verdict; write one of {', '.join(VERDICTS)}"
         )
@@ -85,16 +85,14 @@ def _fault(entry: object) -> str:
 
 
 def registered(verdict: str, detail: str, correction: str, sharp: str) -> dict[str, str]:
-    """The entry of a claim: its verdict, and what there is of the rest."""
+    """The entry of a claim: its verdict, and those other fields that are not empty."""
     values = zip(FIELDS, (verdict, detail, correction, sharp))
     return {name: value for name, value in values if value}
 
 
 @dataclass(frozen=True)
 class Change:
-    """What differs between the register and a run, about one claim; None where the claim is
-    absent.
-    """
+    """A difference between the register and a run, for one claim; None where that has no entry."""
 
     claim: str
     before: Mapping[str, str] | None

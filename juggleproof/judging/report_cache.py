@@ -1,5 +1,5 @@
-"""Reports and what they have drawn, kept between runs in files outside the tree; every fault of
-these only costs time, and nothing is concluded from them.
+"""A cache of reports and figures between runs, in files outside the tree.  A faulty file only costs
+time, and nothing is concluded from one.
 
 JUGGLEPROOF_CACHE names another folder, or is `off`.
 """
@@ -21,15 +21,15 @@ from juggleproof.statements.store import canonical, plain_file, write_file
 Record = dict[str, Any]  # plain data, as JSON has it
 VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("juggleproof", "symbolic", "proofs", "certificates")  # installed, the first holds all
+SOURCES = ("juggleproof", "symbolic", "proofs", "certificates")  # in a wheel the first has the rest
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
-KEPT = 8  # files of a kind, each of one state of the sources
+KEPT = 8  # files with the same prefix, each for one state of the sources
 LARGEST = 50_000_000
 
 
 def folder() -> Path | None:
-    """Where they are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None
-    where it is off or there is no home.
+    """The folder of the cache: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None
+    where the cache is off or there is no home.
     """
     chosen = os.environ.get(VARIABLE, "")
     if chosen == "off":
@@ -43,8 +43,8 @@ def folder() -> Path | None:
 
 
 def key(*settings: object, root: Path = ROOT, files: str = "*.py") -> str:
-    """A digest of the packages' files of such names, the versions of Python and of the libraries,
-    and the settings.
+    """A digest of the packages' files that match `files`, the versions of Python and of the
+    libraries, and the settings.
     """
     digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
@@ -57,7 +57,7 @@ def key(*settings: object, root: Path = ROOT, files: str = "*.py") -> str:
 
 
 def version_of(tool: str) -> str:
-    """The version of a library, or that it is absent."""
+    """The version of a library, or "absent"."""
     try:
         return version(tool)
     except PackageNotFoundError:
@@ -72,8 +72,8 @@ def _sources(root: Path, files: str = "*.py") -> Iterator[Path]:
 
 
 def load(key: str) -> list[Record]:
-    """The records that were kept under the key; none where there is no such file, or it is not
-    whole, or not the user's own.
+    """The records that were kept under the key; none where there is no such file, it is damaged, or
+    another user owns it or may write it.
     """
     place = folder()
     if place is None:
@@ -101,8 +101,8 @@ def load(key: str) -> list[Record]:
 
 
 def keep(key: str, records: Sequence[Record]) -> None:
-    """Keeps the records under the key, and only the latest few files; a folder that cannot be
-    written is let be.
+    """Keeps the records under the key, and removes all but the latest `KEPT` files; does nothing
+    where the folder cannot be written.
     """
     place = folder()
     if place is None:

@@ -1,5 +1,5 @@
 """The range of parameters for which the conclusion of a certified map rule is proved, and the whole
-range, as a person reads them.
+range, as text for a reader.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from juggleproof.statements.language import (
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
-    """The domain of a map rule's conclusion as text, nothing where it has none, and whether the
-    rule refutes the conclusion outside of it.
+    """The domain of a map rule's conclusion as text (empty where it has none), and whether the rule
+    refutes the conclusion outside of the domain.
     """
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
     for inner in ("attraction", "settling", "descent"):
@@ -33,18 +33,18 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
 def range_of_rule(
     name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES, is_conclusion: bool = True
 ) -> str:
-    """The parameters for which the rule's conclusion is proved; `at least` stands before them
-    unless it is refuted for all others of their domain, or it is not that conclusion itself which
-    is asserted.
+    """The parameters for which the rule's conclusion is proved, as text.  It begins with `at least`
+    unless these are known to be all: because the conclusion itself is asserted and the rule refutes
+    it for all others, because the range is the whole domain of the roles, or a single point.
 
     >>> text = "statement t/map\\nover a r\\ndomain a > 0 and 3*a < 1 and r > 0"
     >>> range_of_rule("t/map", {"t/map": text})
     'at least a > 0 and 3*a < 1 and r > 0'
 
-    The parameter is the first of the roles, else the first that the map is over.  The text
-    is empty where the domain does not name it, and the domain itself where it is no interval, or
-    asks something of the other parameters; with roles, where it asks more of them than the map's
-    domain. A rational number just inside stands for an irrational end, after `at least`.
+    The parameter is the first of the roles, else the first parameter of the map.  The text is empty
+    where the domain does not name it; it is the domain itself where this is not an interval, or has
+    conditions on other parameters (with roles: conditions that the map's domain has not).  An
+    irrational end is replaced by a rational number just inside, after `at least`.
 
     >>> text = "statement t/map\\nover a\\ndomain a > 0 and 2*a^2 < 1"
     >>> range_of_rule("t/map", {"t/map": text})
@@ -83,7 +83,7 @@ def _map_of(name: str, texts: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def _conditions(domain: str) -> set[str]:
-    """What a domain joins by `and`."""
+    """The conditions that a domain joins by `and`."""
     tree = checker.parse(domain)
     parts = tree.values if isinstance(tree, ast.BoolOp) and isinstance(tree.op, ast.And) else [tree]
     return set(map(ast.unparse, parts))

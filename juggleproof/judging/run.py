@@ -1,4 +1,6 @@
-"""Many claims over processes: load, judge, have the checker read what is stored."""
+"""Runs over many claims in several processes: they are loaded and judged, and the checker reads the
+store.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +61,7 @@ from juggleproof.statements.store import (
 from juggleproof.statements.work import read
 
 FINDINGS = "findings"
-WIDTH = 96  # of a comment in the statement file
+WIDTH = 96  # characters of a comment line in the statement file
 TITLE = (
     "Every statement that the claims come to; certificates/checker reads this file and believes"
     " nothing else."
@@ -67,17 +69,17 @@ TITLE = (
 Progress = Callable[[Claim, Judgement], None]
 
 # -------------------------------------------------------------------------------------------------
-# A run: judge every claim, store what was found, let the checker read the whole store.
+# A run: judge every claim, store the results, let the checker read the whole store.
 
 
 @dataclass(frozen=True)
 class Options:
-    """How claims are judged: the folder of their statements and certificates, by which routes, with
-    how much counted work for each statement, in how many processes (0: one a core), whether stored
-    certificates are ignored, which claims (none: all), and whether each vote is cast again.
+    """The options of a run: the folder of statements and certificates, the routes, the counted work
+    for each statement (`budget`), the number of processes (0: one a core), whether stored
+    certificates are ignored (`fresh`), the claims (none: all), and whether each vote is cast again.
 
-    Raises ClaimError, one line, for routes that are unknown or lack the exact one, and for votes
-    that are to be cast again by some routes only.
+    Raises ClaimError, one line, for unknown routes, for routes without the exact one, and for
+    `revote` without all routes.
     """
 
     store: Path
@@ -105,8 +107,8 @@ class Options:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run came to: the claims and the judgements on them, the seconds they took, and the
-    checker's outcome of each stored statement.
+    """The results of a run: the claims and the judgements on them, the seconds that each took, and
+    the checker's outcome of each stored statement; `restated` names those with a new text.
     """
 
     claims: Sequence[Claim]
@@ -123,7 +125,7 @@ class Run:
 
     @property
     def rejected(self) -> list[tuple[str, str]]:
-        """The stored statements that the checker rejects, with its reasons."""
+        """The stored statements that the checker rejects, each with its reason."""
         return [(name, reason) for name, outcome, reason in self.checked if outcome == "rejected"]
 
 
@@ -137,13 +139,13 @@ def run(
     progress: Progress = no_progress,
     executor: Executor | None = None,
 ) -> Run:
-    """Judges the claims, stores what was found, and has the checker read all that is stored.
+    """Judges the claims, stores the results, and has the checker read the whole store.
 
-    `progress` is called with each judgement as it is ready; an executor judges in place of
-    processes of our own.  Claims that `options.only` leaves out keep what is stored of them.
+    `progress` is called with each judgement as it is ready; an executor, if given, replaces the
+    pool of processes.  Claims that `options.only` leaves out keep their stored entries.
 
-    Raises ClaimError, one line, for two claims of one name, a name that no claim bears, and the
-    first claim in order that cannot be stated.
+    Raises ClaimError, one line, for two claims with the same name, a name that no claim has, and
+    the first claim in order that cannot be stated.
     """
     done = judge_stored(claims, options, progress, executor, is_checked_after=True)
     before = Store(options.store).texts
@@ -165,8 +167,8 @@ def run(
 
 
 def take_back(judgement: Judgement, done: Run) -> None:
-    """Leaves a judgement open whose statements the checker, which read all that is stored, did not
-    accept as they were judged: a lemma that one uses may be none.
+    """Makes a judgement unknown where the checker, on reading the whole store, gives one of its
+    statements another outcome: for instance, a lemma may have turned out not to be certified.
     """
     reasons = {name: f"{outcome}: {why}" for name, outcome, why in done.checked}
     for name, outcome in judgement.outcomes.items():
@@ -185,10 +187,11 @@ def judge_stored(
     is_checked_after: bool = False,
     checked: Checked | None = None,
 ) -> Run:
-    """The same without writing anything: `checked` is the checker's reading of the store as it is,
-    which is read here unless it was just now, and what waits for other claims is not settled;
-    lemmas are used that the checker accepted in the store, or all where it reads what comes of
-    them.
+    """Judges the claims like `run`, but writes nothing, and settles no claim that awaits others.
+
+    `checked` has the checker's outcomes of the store, which is checked here where it is None.  Only
+    lemmas that are certified in the store are used, or all lemmas if `is_checked_after`: then the
+    caller has the checker read the results.
     """
     refuse_duplicates(claims)
     chosen, jobs = _selected(claims, options.only), options.processes
@@ -219,10 +222,11 @@ def judge_some(
     folder: Path,
     outcomes: Mapping[str, str] | None = None,
 ) -> list[Judgement]:
-    """The judgements on some of the claims by their stored certificates: the checker is asked of
-    these, and of what they rest on, unless its outcomes are given, and no other route is; a lemma
-    of an earlier claim that is not certified in the store is judged first, and is not used where
-    that is in vain.
+    """The judgements on some of the claims by their stored certificates and the exact route alone.
+
+    Without `outcomes`, the checker checks the stored statements of these claims and all that they
+    rest on.  An earlier claim with a lemma that is not certified in the store is judged first; the
+    lemma is used only if this certifies it.
 
     Raises what `judge` raises, and ClaimError where the folder cannot be read.
     """
@@ -235,7 +239,7 @@ def judge_some(
     certified = accepted(resources)
     last = max((index for index, name in enumerate(claims) if name in ids), default=0)
     lacking = {name.split("/")[0] for name in used if name not in certified}
-    # as the checker reads, in order
+    # in order, as the checker reads them
     before = [claims[name] for name in islice(claims, last) if name in lacking]
     for earlier in judge_some(before, claims, folder, outcomes) if before else ():
         certified.update(
@@ -253,7 +257,7 @@ def judge_some(
 
 
 def with_below(names: Iterable[str], claims: Mapping[str, Claim]) -> list[str]:
-    """The names of rules and claims, and of all that these claims state and await."""
+    """These names of rules and claims, and the names of all that the claims state and await."""
     found = [*names]
     for name in found:
         if name in claims:
@@ -268,16 +272,15 @@ def settle_by_rules(
     texts: Mapping[str, str],
     claims: Mapping[str, Claim],
 ) -> None:
-    """Gives each judgement that rests on map rules or on a claim its verdict and range, now that
-    the outcomes of all statements are known, with their texts; the claims state what these should
-    be.
+    """Gives each judgement that awaits map rules or a claim its verdict and range, from the
+    outcomes and texts of all statements; an outcome counts only if the claims state the same text.
     """
     stated = dict[str, str]()
     above = list[str]()
 
     def stands(name: str) -> bool:
-        """Whether the claim holds by the outcomes of its statements as stated, and by what it
-        awaits, which is not itself.
+        """Whether the claim holds by the outcomes of its own statements, and by the rules and
+        claims that it awaits; a claim that awaits itself does not.
         """
         claim = claims.get(name)
         if claim is None or name in above:
@@ -296,8 +299,8 @@ def settle_by_rules(
         return verdict_of(name, body, settled).word == "holds"
 
     def holds(name: str) -> bool:
-        """Whether the claim stands, or the rule is certified, and it and all that it rests on are
-        rules, and as stated.
+        """Whether the claim stands; or whether the rule is certified, and it and all that it rests
+        on are map rules with the text that their claims state.
         """
         if "/" not in name:
             return stands(name)
@@ -333,7 +336,7 @@ def settle_by_rules(
 
 
 def accepted(resources: Resources) -> dict[str, str]:
-    """The lemmas that are stored as they are stated, and certified there."""
+    """The lemmas that the store has with the same text, and certified."""
     texts = resources.store.texts if resources.store else {}
     return {
         name: text
@@ -343,7 +346,7 @@ def accepted(resources: Resources) -> dict[str, str]:
 
 
 def refuse_duplicates(claims: Sequence[Claim]) -> None:
-    """Raises ClaimError where two claims have one name."""
+    """Raises ClaimError where two claims have the same name."""
     seen: set[str] = set()
     for claim in claims:
         if claim.id in seen:
@@ -364,7 +367,7 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
 
 def findings_in(folder: Path) -> dict[str, Finding]:
     """The findings of an earlier run by claim, which are tried first; none where the file cannot be
-    read, or what it holds has not their shape.
+    read, and without entries that do not have the shape of a finding.
     """
     try:
         data = json.loads(plain_file(folder / FINDINGS).read_text(encoding="utf-8"))
@@ -375,8 +378,8 @@ def findings_in(folder: Path) -> dict[str, Finding]:
 
 
 def votes_on_record(folder: Path, claims: Sequence[Claim]) -> dict[str, dict[str, RecordedVotes]]:
-    """The recorded votes by claim and by the digest of what was asked: those of the folder and, for
-    the paper's claims, those that stand beside the committed certificates.
+    """The recorded votes by claim and by the digest of the question: those of the folder and, for
+    the paper's claims, those beside the committed certificates.
     """
     is_paper = any(claim.is_of_package for claim in claims)
     votes: dict[str, dict[str, RecordedVotes]] = {}
@@ -388,13 +391,13 @@ def votes_on_record(folder: Path, claims: Sequence[Claim]) -> dict[str, dict[str
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
-    """The definitions of the statement file, those of the first vocabulary that has some."""
+    """The definitions of the statement file: those of the first vocabulary that defines any."""
     sources = [one.vocabulary.defines for one in claims if one.vocabulary.defines is not None]
     return sources[0]() if sources else ()
 
 
 def heading(claim: Claim) -> str:
-    """What stands above the statements of a claim: its id and place, its print, its sentence."""
+    """The comment above the statements of a claim: its id and place, its print, its sentence."""
     place = " ".join(part for part in (claim.section, claim.place) if part)
     lines = [f"{claim.id}: {place}" if place else claim.id]
     lines += [f"    {line.strip()}" for line in claim.printed.splitlines()]
@@ -402,11 +405,11 @@ def heading(claim: Claim) -> str:
 
 
 def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
-    """Writes statements, certificates and findings; claims that were not selected keep what is
-    stored of them.  Returns the files changed.
+    """Writes statements, certificates and findings; claims that were not selected keep their stored
+    entries.  Returns the number of files that changed.
     """
     store, fresh = Store(folder), {judgement.id: judgement for judgement in done.judgements}
-    names: dict[str, list[str]] = {}  # of the stored statements, by claim
+    names: dict[str, list[str]] = {}  # names of the stored statements, by claim
     for name in store.texts:
         names.setdefault(name.split("/")[0], []).append(name)
     chapters: list[tuple[str, Sequence[str]]] = []
@@ -432,7 +435,7 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
 
 
 # -------------------------------------------------------------------------------------------------
-# Loads the claims of a user's own file.
+# The claims of a user's own file.
 
 
 def claims_of_file(path: Path) -> list[Claim]:
@@ -477,12 +480,12 @@ def claims_of_files(paths: Sequence[Path]) -> list[Claim]:
 
 
 def store_of(paths: Sequence[Path]) -> Path:
-    """The folder of the certificates of such claims: beside the first file, with its name."""
+    """The folder for the certificates of such claims: beside the first file, with its name."""
     return paths[0].with_suffix(".certificates")
 
 
 def _line_in(path: Path) -> int:
-    """The last line of the file on the stack of the error at hand."""
+    """The last line of the file in the traceback of the exception that is being handled."""
     frames = traceback.extract_tb(sys.exc_info()[2])
     lines = [
         frame.lineno for frame in frames if frame.filename == str(path.absolute()) and frame.lineno
@@ -491,8 +494,8 @@ def _line_in(path: Path) -> int:
 
 
 # -------------------------------------------------------------------------------------------------
-# Runs the judgement of many claims over processes, or over any executor; results come in order and
-# do not depend on who does the work.
+# The judgement of many claims by a pool of processes or by any executor; results come in order and
+# do not depend on this.
 
 _work: tuple[Sequence[Claim], Resources] | None = None
 # ------------------------------------------------------------ claims
@@ -500,8 +503,8 @@ _work: tuple[Sequence[Claim], Resources] | None = None
 
 @dataclass(frozen=True)
 class Sent:
-    """A claim as it goes to another process: one of this package by its module and name, another by
-    what it asserts; with what it is judged with.
+    """A claim that is sent to another process with its resources: a claim of this package as module
+    and name, any other with a fixed body.
     """
 
     claim: tuple[str, str] | Claim
@@ -522,7 +525,9 @@ def judge_sent(sent: Sent) -> tuple[Judgement, float]:
 
 
 def sent(claim: Claim, resources: Resources) -> Sent:
-    """A claim, with what it is judged with, as data that can be pickled."""
+    """A claim with its resources as data that can be pickled; raises ClaimError for a claim with a
+    print that may need correcting.
+    """
     module = claim.source.rpartition(".")[0]
     if claim.is_of_package and any(one is claim for one in claims_in([module])):
         return Sent((module, claim.id), resources.only(claim))
@@ -545,8 +550,8 @@ def judge_all(
     progress: Progress = no_progress,
     executor: Executor | None = None,
 ) -> tuple[list[Judgement], dict[str, float]]:
-    """The judgements on all claims in order, and the seconds that each took; by an executor where
-    one is given.
+    """The judgements on all claims in order, and the seconds that each took; an executor, if given,
+    replaces the pool of processes.
 
     Raises ClaimError for the first claim in order that cannot be stated.
     """

@@ -1,7 +1,7 @@
-"""Derived expressions as terms that carry their origin; what a claim rests on in `symbolic`: each
-derivation that its statements contain, with its sentence, its result, and what it is made from.
+"""Derived expressions as terms that carry their origin; and the derivations in `symbolic` that a
+claim's statements contain: each with its sentence, its result, and the derivations that it uses.
 
-No SymPy is loaded for what is kept of `deriving`.
+SymPy is not loaded for results that `derived` keeps.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)
 
 
 class Origin(NamedTuple):
-    """What made a term: a function of `symbolic` by its name, and its arguments."""
+    """The origin of a term: the name of a function of `symbolic`, and its arguments."""
 
     function: str
     arguments: tuple[Hashable, ...] = ()
 
 
 def from_deriving(function: str) -> str:
-    """A function of the module of the paper that loads SymPy, by its whole name.
+    """The full name of a function in the paper's module `deriving`, which loads SymPy.
 
     >>> from_deriving("margin")
     'juggleproof.proofs.deriving.margin'
@@ -46,12 +46,12 @@ def from_deriving(function: str) -> str:
 
 
 def derived(name: str, *arguments: Hashable) -> Term:
-    """A derived expression of `symbolic` by its function's name, as a term that says what made it.
+    """The term that a function of `symbolic` derives, with its origin.
 
     >>> str(derived("E_max")), derived("E_max").origins
     ('r^2*(alpha + 1)^2/(2*(alpha - 1)^2)', (Origin(function='E_max', arguments=()),))
 
-    Raises ClaimError where the function comes to a column or matrix.
+    Raises ClaimError where the function returns a column or matrix.
     """
     value = derived_value(Origin(name, arguments))
     if not isinstance(value, Term):
@@ -60,12 +60,12 @@ def derived(name: str, *arguments: Hashable) -> Term:
 
 
 def derived_vector(name: str, *arguments: Hashable) -> Vector:
-    """A derived column, each of whose entries says what made it.
+    """The column that a function of `symbolic` derives; each entry has this origin.
 
     >>> derived_vector("launch_state")
     Vector(entries=(Term('0'), Term('r')))
 
-    Raises ClaimError where the function comes to anything else.
+    Raises ClaimError where the function returns anything else.
     """
     value = derived_value(Origin(name, arguments))
     if not isinstance(value, Vector):
@@ -74,9 +74,9 @@ def derived_vector(name: str, *arguments: Hashable) -> Vector:
 
 
 def derived_matrix(name: str, *arguments: Hashable) -> Matrix:
-    """A derived matrix, each of whose entries says what made it.
+    """The matrix that a function of `symbolic` derives; each entry has this origin.
 
-    Raises ClaimError where the function comes to anything else.
+    Raises ClaimError where the function returns anything else.
     """
     value = derived_value(Origin(name, arguments))
     if not isinstance(value, Matrix):
@@ -86,7 +86,7 @@ def derived_matrix(name: str, *arguments: Hashable) -> Matrix:
 
 @cache
 def derived_value(origin: Origin) -> Derived:
-    """What the function of an origin derives, whatever it is."""
+    """The term, column or matrix that the function of an origin derives."""
     value = kept().value(from_deriving("value"), origin.function, *origin.arguments)
     if not isinstance(value, (Term, Vector, Matrix)):
         raise ClaimError(f"symbolic.{origin.function} is no expression")
@@ -94,9 +94,7 @@ def derived_value(origin: Origin) -> Derived:
 
 
 def made_by(origin: Origin, value: Made) -> Made:
-    """The same term, formula, vector or matrix, each of whose entries or sides says that this made
-    it.
-    """
+    """The same term, formula, vector or matrix, with this origin added to each entry or side."""
     if isinstance(value, Term):
         return value.made_by(origin)
     if isinstance(value, Formula):
@@ -109,7 +107,7 @@ def made_by(origin: Origin, value: Made) -> Made:
 
 
 def tidied(name: str, **values: int) -> Vector:
-    """A derived column of `symbolic` in lowest terms, with numbers put for some of its symbols.
+    """A derived column in lowest terms, with numbers put for some of its symbols.
 
     >>> print(*tidied("e_1"))
     4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
@@ -131,7 +129,7 @@ def where_positive(name: str) -> Formula:
 
 
 def sentence(name: str) -> str:
-    """What a function of `symbolic` derives: the first paragraph of its docstring.
+    """The first paragraph of the docstring of a function of `symbolic`, which says what it derives.
 
     >>> sentence("launch_state")
     'The table as it leaves the ground: r_0 = (0, r) (section 3.1).'
@@ -141,8 +139,8 @@ def sentence(name: str) -> str:
 
 @dataclass(frozen=True)
 class Derivation:
-    """A derived expression: the function of `symbolic` with its arguments, its docstring's first
-    sentence, its entries, what it calls.
+    """A derived expression: its origin, the first sentence of the function's docstring, its entries
+    by rows, and the functions that it calls.
     """
 
     origin: Origin
@@ -157,7 +155,7 @@ class Derivation:
         return name + (f"({', '.join(map(str, arguments))})" if arguments else "")
 
     def shown(self) -> Rows:
-        """The entries in the paper's manner, where T stands for 2 r/g."""
+        """The entries in the paper's notation, where T stands for 2 r/g."""
         rows = derived_by(
             tuple, from_deriving("in_paper_form"), self.origin.function, *self.origin.arguments
         )
@@ -173,7 +171,7 @@ class Derivation:
 
     @property
     def title(self) -> str:
-        """What is derived, in words: the sentence up to its colon, without formula or source."""
+        """The sentence up to its colon, without formula and source."""
         arguments = ", ".join(
             " ".join(map(str, one)) if isinstance(one, tuple) else str(one)
             for one in self.origin.arguments
@@ -188,7 +186,7 @@ class Derivation:
 
 @cache
 def derivation(origin: Origin) -> Derivation:
-    """The derivation behind an origin, worked out.
+    """The derivation of an origin, computed or taken from the stored results.
 
     >>> derivation(Origin("launch_state")).line
     'symbolic.launch_state: The table as it leaves the ground: r_0 = (0, r) (section 3.1). (0, r)'
@@ -199,7 +197,7 @@ def derivation(origin: Origin) -> Derivation:
 
 
 def rows_of(value: Derived) -> Rows:
-    """The entries of a value as text, in rows; those of a column in one.
+    """The entries of a value as text, by rows; the entries of a column are one row.
 
     >>> rows_of(derived_vector("launch_state"))
     (('0', 'r'),)
@@ -212,7 +210,7 @@ def rows_of(value: Derived) -> Rows:
 
 
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
-    """All that the derivations are made from, themselves included, each after what it is made from.
+    """The derivations and all that they use, directly or not, each after those that it uses.
 
     >>> [one.function for one in behind([derivation(Origin("total_energy"))])]
     ['acceleration', 'total_energy']
@@ -231,8 +229,7 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
 
 
 def derivations_of(statements: Sequence[AnyStatement]) -> list[Derivation]:
-    """The derived expressions that the statements contain, each once, in the order in which they
-    stand there.
+    """The derived expressions that the statements contain, each once, in their order there.
 
     >>> from juggleproof.judging.forms import always
     >>> [one.function for one in derivations_of([always(derived("E_max") > 0)])]

@@ -1,5 +1,5 @@
-"""What SymPy derives for the claims, kept as text beside a digest of the sources that derive it, so
-that a claim is stated without SymPy.
+"""The results of SymPy for the claims, stored as text with a digest of the sources that derive
+them, so that a claim is stated without SymPy.
 
 `certify --accept` writes the file.  `certify --rederive` derives everything again and compares.
 """
@@ -32,8 +32,8 @@ Kind = TypeVar("Kind", Term, Formula, Vector, Matrix, str, tuple[Value, ...])
 
 
 class Kept:
-    """The values of one file: those that it holds, where its sources are still the same, and those
-    that were asked for.
+    """The stored results of one file: `held` has all that the file holds (nothing where the sources
+    have changed), `asked` those that were used or derived since.
     """
 
     def __init__(self, path: Path = PATH) -> None:
@@ -49,15 +49,15 @@ class Kept:
             return {}
 
     def value(self, function: str, *arguments: Hashable) -> Value:
-        """What a function, named with its module, comes to: as it is kept, else by
+        """The value of a function, given with its module: the stored value, or else the result of
         calling it.
 
-        Raises ClaimError where its text would not be read as the same value.
+        Raises ClaimError where the value as text is not read back as the same value.
         """
         name = f"{function}({', '.join(map(repr, arguments))})"
         if name in self.held and name not in self.asked:
             self.asked[name] = self.held[name]
-        if name in self.asked:  # kept, or derived before
+        if name in self.asked:  # stored, or derived before
             return unpacked(self.asked[name])
         module, _, called = function.rpartition(".")
         value: Value = getattr(import_module(module), called)(*arguments)
@@ -67,13 +67,13 @@ class Kept:
         return value
 
     def write(self) -> bool:
-        """Writes what was asked for in canonical bytes; returns whether the file changed."""
+        """Writes the values in `asked` in canonical bytes; returns whether the file changed."""
         data = {"derived": self.asked, "sources": digest_of(self.asked)}
         return write_file(self.path, canonical(data))
 
     def otherwise(self) -> str:
-        """The first name whose kept value is not the one that was asked for; none where the file
-        is as `write` would write it.
+        """The first name whose value in the file differs from the one in `asked`; empty where the
+        file is as `write` would write it.
         """
         data = {"derived": self.asked, "sources": digest_of(self.asked)}
         if self.path.is_file() and self.path.read_bytes() == canonical(data):
@@ -87,17 +87,17 @@ class Kept:
 
 @cache
 def kept() -> Kept:
-    """The values that this project keeps."""
+    """The stored results for the paper."""
     return Kept()
 
 
 def derive_again() -> None:
-    """From now on every value is derived, whatever is kept."""
+    """Makes every value be derived from now on, even if it is stored."""
     kept().held = {}
 
 
 def derived_by(kind: type[Kind], function: str, *arguments: Hashable) -> Kind:
-    """What a function comes to, as `Kept.value`; raises ClaimError where it is of another kind.
+    """The value of a function, as by `Kept.value`; raises ClaimError where it has another type.
 
     >>> str(derived_by(Formula, "juggleproof.proofs.deriving.margin", "normal_margin"))
     'x < w'
@@ -109,8 +109,8 @@ def derived_by(kind: type[Kind], function: str, *arguments: Hashable) -> Kind:
 
 
 def digest_of(names: Iterable[str]) -> str:
-    """A digest of the sources that derive: all of `symbolic`, the encoder, and the modules in which
-    the functions of these names stand.
+    """A digest of the sources that derive values: all of `symbolic`, the encoder, and the modules
+    of the named functions.
     """
     modules = {name.partition("(")[0].rpartition(".")[0] for name in names} | {ENCODER}
     paths = {
@@ -133,7 +133,7 @@ def digest_of(names: Iterable[str]) -> str:
 
 
 def packed(value: Value) -> Plain:
-    """The value as plain data: a name, a number, or what it is and its parts.
+    """The value as plain data: a name, a number, or a list of its kind and its parts.
 
     >>> packed(Vector((real("x") / 2, term(Fraction(1, 3)))))
     ['column', ['/', 'x', '2'], '1/3']
@@ -158,7 +158,7 @@ def _packed(part: Argument) -> Plain:
 
 
 def unpacked(plain: Plain) -> Value:
-    """The value that such data stands for.
+    """The value of such plain data.
 
     >>> str(unpacked(["<", ["^", "x", 2], "1/3"]))
     'x^2 < 1/3'

@@ -1,4 +1,4 @@
-"""A figure of a paper, described; what draws it is loaded when it is drawn."""
+"""The description of a paper's figure; the function that draws it is loaded on demand."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 class PaperFigure(NamedTuple):
     """A figure: its number in the paper ("" where the paper has none), the stem of its ids and file
-    names, its title, its caption, and a description for those who do not see it.
+    names, its title, its caption, and its alternative text.
 
-    `place` is "module:function", which draws it; `data` likewise returns what the function is
-    given, from the entries of a report, where it is given anything.  A figure `of_verdicts` is
-    never read from a cache.
+    `place` is the "module:function" that draws it; `data`, if not empty, is the "module:function"
+    that returns its arguments from the entries of a report.  A figure `of_verdicts` is never read
+    from a cache.
     """
 
     number: str

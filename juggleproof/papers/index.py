@@ -1,4 +1,4 @@
-"""The index of the paper's claims: what `list` prints, and in which module each claim stands; only
+"""The index of the paper's claims: the data that `list` prints, and the module of each claim; only
 `certify --accept` writes it.
 """
 
@@ -16,14 +16,14 @@ from juggleproof.statements.store import canonical, write_file
 def load_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, str]]:
     """The entry of each claim, in the paper's order: id, section, place, line, says and module.
 
-    Where the file was not made from these modules as they are, their claims are loaded.
+    Where the file was not made from the present sources of these modules, they are imported.
     """
     stored = stored_index(modules, path)
     return index_of(claims_in(modules)) if stored is None else stored
 
 
 def index_of(claims: Sequence[Claim]) -> list[dict[str, str]]:
-    """The entries of these claims, as the sources have them."""
+    """The entries of these claims, made from the claims themselves."""
     return [
         {
             "id": claim.id,

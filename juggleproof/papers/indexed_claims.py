@@ -1,6 +1,4 @@
-"""The paper's claims by id, each of whose modules is loaded when it is first asked for: the index
-says which.
-"""
+"""The paper's claims by id; the index says which module to import when a claim is asked for."""
 
 from __future__ import annotations
 
@@ -15,12 +13,12 @@ from juggleproof.folders import LEDGER
 from juggleproof.judging.claims import Claim, claims_in
 
 PATH = LEDGER / "index.json"
-ROWS = LEDGER / "rows.tsv"  # the ledger, from which places come
+ROWS = LEDGER / "rows.tsv"  # the ledger, from which the places of claims are computed
 
 
 def stored_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, str]] | None:
-    """The stored entry of each claim; None where the file was not made from these modules as they
-    are.
+    """The stored entry of each claim; None where the file was not made from the present sources of
+    these modules.
     """
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
@@ -31,7 +29,7 @@ def stored_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, st
 
 
 def digest_of(modules: Sequence[str]) -> str:
-    """A digest of the ledger and of the sources of modules, which are not imported."""
+    """A digest of the ledger and of the sources of modules; does not import them."""
     digest = hashlib.sha256(ROWS.read_bytes())
     for name in modules:
         spec = find_spec(name)
@@ -41,8 +39,8 @@ def digest_of(modules: Sequence[str]) -> str:
 
 
 class IndexedClaims(Mapping[str, Claim]):
-    """The claims of modules by id, in order; a module is imported when a claim of it is first asked
-    for.
+    """The claims of modules by id, in order; a module is imported when one of its claims is first
+    asked for.
     """
 
     def __init__(self, modules: Sequence[str]) -> None:

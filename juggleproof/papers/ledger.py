@@ -14,10 +14,10 @@ from pathlib import Path
 from juggleproof.folders import LEDGER
 
 # -------------------------------------------------------------------------------------------------
-# Why an item of the paper may need no claim: a closed list.
+# The reasons for which an item of the paper needs no claim: a closed list.
 
-# An item that asserts something about the juggler has claims; only what asserts nothing may give
-# one of these.
+# An item that asserts something about the juggler has claims; one that asserts nothing has one of
+# these reasons.
 REASONS = {
     "heading": "names a section, a proof or a part of a table",
     "names": "gives or recalls a name or notation, or is a formula that only names a thing",
@@ -36,8 +36,8 @@ REASONS_WITH_KEY = {
 
 
 # -------------------------------------------------------------------------------------------------
-# Rebuild, from the text of the paper, the ordered list of all it prints but its references; what
-# stands before section 1 (title, abstract, key words) is section 0.
+# The ordered list of all items of the paper except its references, made from its text; the items
+# before section 1 (title, abstract, key words) are section 0.
 #
 # An item is a display, an inline formula or a piece of prose: a sentence, a sentence of a footnote,
 # a caption, a table row. A sentence that a display, a page turn or a footnote interrupts gives one
@@ -63,7 +63,7 @@ NUMBERED = re.compile(r"\s*(?:APPENDIX )?(\d(?:\.\d){0,2}|[AB](?:\.\d){0,2})\.\s
 NUMBER_AT_THE_END = re.compile(
     r"\s([AB]\.\d)\.\s*$"
 )  # the transcription puts one heading's number after its words
-# What opens or closes a section without a number: section 4.2 has lost its heading.
+# Lines without a number that open or close a section: section 4.2 has lost its heading.
 UNNUMBERED = {re.compile(r"\s*References\s*$"): "", re.compile(r"\s*Proposition 1\."): "4.2"}
 CAPTION = re.compile(r"\s*(?:Figure \d+ (?=[A-Z#\u0370-\u03ff])|Table II? (?=[A-Z]))")
 FOOTNOTE = re.compile(r"\s*(?:[⁰¹²³⁴-⁹]+|\$\^\{\^\{\d+\}\}\$)\s*")
@@ -75,9 +75,7 @@ SENTENCE_END = re.compile(r"""[.?!][)"”]*[⁰¹²³⁴-⁹]*\s+(?=[A-Z\\("“\
 
 @dataclass(frozen=True)
 class Item:
-    """One thing the paper prints: where it stands, what kind of thing it is, and a digest of its
-    text.
-    """
+    """One item of the paper: its key, section and line, its kind, and its text."""
 
     key: str
     section: str
@@ -132,7 +130,7 @@ def _pieces(paper: str) -> Iterator[tuple[str, int, str, str]]:
 
 def _blocks(paper: str) -> Iterator[tuple[str, int, str]]:
     """Section, first line and text of every display and of every line of prose between displays,
-    but for the references.
+    without the references.
     """
     if paper.count("$$") % 2:
         raise ValueError(
@@ -197,8 +195,7 @@ if __name__ == "__main__":
 
 
 # -------------------------------------------------------------------------------------------------
-# Load the ledger; check that claims that exist, or a reason from the closed list, settle every item
-# in order.
+# The ledger: each item in order has existing claims or a reason from the closed list.
 
 ROWS = LEDGER / "rows.tsv"
 COLUMNS = ("key", "line", "kind", "digest", "claims", "reason")
@@ -208,13 +205,13 @@ DIGEST = re.compile(r"[0-9a-f]{16}", re.ASCII)
 
 
 class LedgerError(ValueError):
-    """What is wrong with the ledger, in one line that names the row and the mend."""
+    """An error in the ledger; the message is one line that names the row and the remedy."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """One item of the paper and what settles it: exactly one of `claims` and `reason` is not
-    empty.
+    """A row of the ledger: an item of the paper with its claims, or with the reason why it has
+    none; exactly one of `claims` and `reason` is not empty.
     """
 
     key: str
@@ -249,7 +246,9 @@ def load_ledger(path: Path = ROWS) -> list[Row]:
 
 
 def check_rows(rows: Sequence[Row]) -> None:
-    """Raise unless the rows are settled, in order, and every reason is from the closed list."""
+    """Raises LedgerError unless the rows are in order, each has claims or a reason, and the reasons
+    are from the closed list.
+    """
     if not rows:
         raise LedgerError("the ledger has no rows: rebuild it from the paper")
     _check_order(rows)
@@ -269,8 +268,8 @@ def check_rows(rows: Sequence[Row]) -> None:
 def check_claims(
     rows: Iterable[Row], register: Collection[str], unprinted: Collection[str]
 ) -> None:
-    """Raise unless the rows name registered claims only, and every registered claim that the paper
-    prints has a row.
+    """Raises LedgerError unless the rows name registered claims only, and every registered claim
+    that the paper prints has a row.
     """
     named: set[str] = set()
     for row in rows:
@@ -292,12 +291,12 @@ def check_claims(
 
 
 def check_against_paper(rows: Sequence[Row], items: Sequence[Item]) -> None:
-    """Raise unless key, line, kind and digest of the rows are those of the items that the paper's
-    text holds.
+    """Raises LedgerError unless key, line, kind and digest of the rows are those of the items in
+    the paper's text.
     """
     for row, item in zip(
         rows, items, strict=False
-    ):  # a difference in length is told below, once the rest agrees
+    ):  # a difference in length is reported below, if the rest agrees
         for name in ("key", "line", "kind", "digest"):
             held, found = getattr(row, name), getattr(item, name)
             if held != found:
@@ -326,8 +325,8 @@ def _row(line: str, place: str) -> Row:
 
 
 def _check_order(rows: Sequence[Row]) -> None:
-    """Keys count upward within section and kind, sections are not torn apart, lines never go
-    back.
+    """Raises LedgerError unless keys count upward within section and kind, the rows of a section
+    are contiguous, and lines never decrease.
     """
     counts: dict[tuple[str, str], int] = {}
     section, line, closed = "", 0, set[str]()

@@ -1,7 +1,7 @@
-"""A paper described, and the one that commands are about, opened.
+"""The description of a paper, and the paper that commands are about.
 
-The tool imports no paper.  A paper is a package that describes itself by a `Paper`; what it alone
-has, such as a page on its theorem, is named there by module and function, and loaded when asked.
+The tool imports no paper.  A paper is a package that describes itself by a `Paper`; its
+hooks name, by module and function, what this paper alone has, such as a page on its theorem.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ Kind = TypeVar("Kind")
 
 @dataclass(frozen=True)
 class Theorem:
-    """The main result of a paper: its statement's name, a digest of that statement and of all that
-    it rests on, as the sources write them, and what it says.
+    """The main result of a paper: the name of its statement, a digest of that statement and of all
+    that it rests on, and the sentence that it proves.
 
-    A certified statement of the same name may say anything; the digest tells.
+    Only the digest shows that a certified statement of this name is the theorem.
     """
 
     name: str
@@ -40,12 +40,12 @@ class Theorem:
 
 @dataclass(frozen=True)
 class Paper:
-    """A paper: the modules of its claims in order, its theorem, and what hangs in from it.
+    """A paper: the modules of its claims, its theorem, and its hooks.
 
-    modules       of its claims, in the paper's order
-    checked_apart those of them whose claims another checker settles
+    modules       the modules of its claims, in the paper's order
+    checked_apart the modules whose claims another checker settles
     unprinted     claims that the paper itself does not print, each with its reason
-    hooks         by name, what this paper alone has: a module and a name in it, as "module:name"
+    hooks         the places, as "module:name", of what this paper alone has, by name
     """
 
     modules: tuple[str, ...]
@@ -64,7 +64,7 @@ class Paper:
         return IndexedClaims(self.modules)
 
     def hook(self, name: str, kind: type[Kind]) -> Kind:
-        """What hangs in under a name; raises ClaimError, one line, for what is not of this kind.
+        """The object of a hook; raises ClaimError, one line, where it is not of this type.
 
         >>> opened().hook("explain-state", object).__name__
         'explain_state'

@@ -1,5 +1,5 @@
-"""Where a claim stands, as a reader of the paper finds it: by the number of an equation, or counted
-from the last one.
+"""The place of a claim, as a reader of the paper finds it: the number of an equation, or a count
+from the last numbered one.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ FORMULAS = ("display", "inline")
 
 
 def place_of(claim: Claim) -> str:
-    """The section, and the equation or what is counted from the last numbered one.
+    """The section of a claim, with its equation, or its sentence, display or table row counted from
+    the last numbered equation.
 
     A sentence that a display interrupts counts as several, as it does in the ledger; headings do
     not count.
@@ -35,7 +36,7 @@ def _counted(claim: Claim) -> str:
     above = [i for i in here if rows[i].line <= line and rows[i].kind not in FORMULAS]
     if not of_claim:
         return ""
-    if above:  # the claim may be asserted before, where it is not its place
+    if above:  # the claim's line decides, not an earlier row that also asserts it
         last = [i for i in above if rows[i].line == rows[above[-1]].line]
         at = min(last, key=lambda i: is_heading(rows[i]))
     else:
@@ -55,8 +56,8 @@ def _counted(claim: Claim) -> str:
 
 
 def is_heading(row: Row) -> bool:
-    """Whether it heads a section or a part of a table; the first sentence of a section does, also
-    where it has claims.
+    """Whether the row is the heading of a section or of a part of a table; the first sentence of a
+    section is one, even if it has claims.
     """
     return row.reason == "heading" or row.key.endswith("-s01")
 
@@ -69,7 +70,7 @@ def load_rows() -> tuple[Row, ...]:
 
 @cache
 def rows_of_claims() -> dict[str, list[int]]:
-    """The rows of each claim."""
+    """The indices of the rows of each claim."""
     found: dict[str, list[int]] = {}
     for i, row in enumerate(load_rows()):
         for name in dict.fromkeys(row.claims):
@@ -79,7 +80,7 @@ def rows_of_claims() -> dict[str, list[int]]:
 
 @cache
 def rows_of_sections() -> dict[str, list[int]]:
-    """The rows of each section."""
+    """The indices of the rows of each section."""
     found: dict[str, list[int]] = {}
     for i, row in enumerate(load_rows()):
         found.setdefault(row.section, []).append(i)
@@ -88,8 +89,8 @@ def rows_of_sections() -> dict[str, list[int]]:
 
 @cache
 def numbers() -> dict[int, str]:
-    """The rows that end a numbered equation, with its number: the last displays of the claims that
-    are named for it.
+    """The number of an equation by the index of the row that ends it: the last display of the
+    claims that are named for the equation.
     """
     last: dict[str, int] = {}
     for i, row in enumerate(load_rows()):

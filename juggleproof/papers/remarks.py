@@ -1,11 +1,11 @@
-"""Remarks on the paper's notation and citations: the meanings that each symbol has, by section, and
-what each equation or section is cited for.
+"""Remarks on the paper's notation and citations: the meanings of each symbol, by section, and the
+equations and sections that are cited.
 
 names.tsv        a row for each meaning of a name: the name as the reader of prints spells it, the
-                 sections in which it has the meaning, and the meaning; a section with a star has it
-                 in prose, or where the transcription mangles it
-citations.tsv    a row for each item of the ledger that cites an equation or a section: what it
-                 cites, and what is to be remarked where that does not carry what it is cited for
+                 sections in which it has the meaning, and the meaning; a star after a section says
+                 that no print there has the name: it is in prose, or the transcription mangles it
+citations.tsv    a row for each item of the ledger that cites an equation or a section: the item's
+                 key, what it cites, and a remark where that does not support what it is cited for
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Meant(NamedTuple):
 
 
 class Citation(NamedTuple):
-    """What an item of the paper cites, and the remark on it, if there is one."""
+    """The citations of one item of the paper, and the remark on them, if there is one."""
 
     key: str
     cited: tuple[str, ...]
@@ -57,7 +57,7 @@ def citations(path: Path = CITATIONS) -> list[Citation]:
 
 
 def _rows(path: Path, columns: Sequence[str]) -> Iterator[tuple[str, str, str]]:
-    """The rows of a table of three columns; raises LedgerError, one line, for another file."""
+    """The rows of a table of three columns; raises LedgerError, one line, for any other file."""
     head, *lines = path.read_text(encoding="utf-8").splitlines()
     if head.split("\t") != list(columns):
         raise LedgerError(f"{path.name}: the first line must name the columns {', '.join(columns)}")
@@ -69,11 +69,11 @@ def _rows(path: Path, columns: Sequence[str]) -> Iterator[tuple[str, str, str]]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The names of the prints, by section; and whether the table has each of them, and no other.
+# The names of the prints, by section; and the check that the table has these and no others.
 
 
 def names_of(tree: object) -> Iterator[str]:
-    r"""The names in a tree, with those in subscripts but for the letters that only label.
+    r"""The names in a tree, also in subscripts, except for letters that only label.
 
     >>> from juggleproof.reading.parser import parse
     >>> sorted(set(names_of(parse(r"A_{-\xi_1} r_0 = \overline b_k"))))
@@ -93,7 +93,7 @@ def names_of(tree: object) -> Iterator[str]:
 
 
 def _is_label(tree: Tree) -> bool:
-    """Whether a subscript is a mere letter or word in small letters."""
+    """Whether a subscript is only a lower-case letter or word."""
     return (
         isinstance(tree, Name)
         and not tree.subscripts
@@ -114,8 +114,8 @@ def printed_names(claims: Iterable[Claim]) -> set[tuple[str, str]]:
 
 
 def check_names(table: Sequence[Meant], printed: set[tuple[str, str]]) -> None:
-    """Raises LedgerError, one line, for a name of a print that the table lacks, and for one that it
-    has where no print does.
+    """Raises LedgerError, one line, for a name of a print that the table lacks, and for a name of
+    the table in a section where no print has it.
     """
     listed = {(row.name, section) for row in table for section in row.sections}
     held = {(name, section) for name, section in listed if not section.endswith(PROSE)}
@@ -146,7 +146,7 @@ _FORMULAS = ("display", "inline")
 
 
 def cited_in(text: str) -> tuple[str, ...]:
-    """What a sentence cites.
+    """The equations and sections that a sentence cites.
 
     >>> cited_in("By (1) and section 3.4, as in Appendix section A.1")
     ('(1)', '3.4', 'A.1')

@@ -1,5 +1,5 @@
-"""Changes of a print at its tokens: every single one, for mutation tests, and the plausible ones,
-in which a correction is sought.
+"""Changes of a print at its tokens: all single changes, for mutation tests, and the plausible ones,
+among which a correction is sought.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _OPENS_A_TERM = RELATIONS | frozenset(
 
 
 class Edits:
-    """A print with its tokens, and the edits that single marks of it allow."""
+    """A print with its tokens, and the edits of single tokens."""
 
     def __init__(self, latex: str) -> None:
         self.latex = latex
@@ -36,8 +36,8 @@ class Edits:
         self.words = frozenset(i for word in self._words() for i in word)
 
     def replaced(self, start: int, end: int, text: str) -> str:
-        """The print with this text in place of a span; a command is kept apart from a letter that
-        follows.
+        """The print with this text in place of the characters from start to end; spaces keep
+        commands and letters apart.
         """
         after = self.latex[end:]
         gap = " " if text[-1:].isalpha() and "\\" in text and after[:1].isalpha() else ""
@@ -53,7 +53,7 @@ class Edits:
         return self.replaced(self.tokens[i].start, self.tokens[i].end, "")
 
     def instead(self, i: int, text: str) -> str:
-        """The print with this text for the token."""
+        """The print with this text in place of the token."""
         return self.replaced(self.tokens[i].start, self.tokens[i].end, text)
 
     def around(self, i: int, command: str) -> str:
@@ -66,7 +66,7 @@ class Edits:
         )
 
     def inserted(self, at: int, text: str) -> str:
-        """The print with a text put in."""
+        """The print with a text inserted."""
         return self.replaced(at, at, text)
 
     def partner(self, i: int) -> int | None:
@@ -95,7 +95,7 @@ class Edits:
         return i, i + 1
 
     def script(self, i: int) -> tuple[int, int] | None:
-        """The characters of a script, with its ^ or _ at token i."""
+        """The span of characters of a script, from its ^ or _ at token i on."""
         span = self.argument(i + 1)
         if span is None:
             return None
@@ -105,8 +105,8 @@ class Edits:
         return self.tokens[i].start, end
 
     def after_name(self, i: int) -> int:
-        """The token after the name that the letter i belongs to, with its accents, subscripts and
-        primes.
+        """The token after the name that contains letter i; accents, subscripts and primes are parts
+        of a name.
         """
         j = i + 1
         start = i
@@ -129,7 +129,7 @@ class Edits:
         return j
 
     def end_of(self, i: int) -> int:
-        """The character after the token before token i."""
+        """The position after the end of the token before token i."""
         return self.tokens[i - 1].end
 
     def term_starts(self) -> list[int]:
@@ -173,13 +173,13 @@ class Edits:
 
 
 # -------------------------------------------------------------------------------------------------
-# Single changes of a print: all of them, to see that every token matters; the plausible ones, to
+# Single changes of a print: all of them, to test that every token matters; the plausible ones, to
 # seek a correction.
 #
-# Left out, because they say the same: := for = and \equiv, \subset for \subseteq, \bar for
-# \overline, layout, spacing, fonts, TeX's own braces.
+# Changes without a change of meaning are left out: := for = and \equiv, \subset for \subseteq, \bar
+# for \overline, layout, spacing, fonts, TeX's own braces.
 
-Change = tuple[str, str]  # what was changed, and the print that comes of it
+Change = tuple[str, str]  # a description of the change, and the changed print
 
 ALTERNATIVES: dict[str, tuple[str, ...]] = {
     "+": ("-",),
@@ -244,7 +244,7 @@ _LAYOUT = frozenset(("{", "}", "&", ",", ".", ";"))
 
 
 def mutations(latex: str) -> Iterator[Change]:
-    r"""Every single change of the print: what was changed, and the changed print.
+    r"""All single changes of the print: a description of each, and the changed print.
 
     >>> changes = [change for change, _ in mutations(r"x < 2")]
     >>> [change for change in changes if "becomes" in change]  # doctest: +NORMALIZE_WHITESPACE
@@ -341,8 +341,9 @@ def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
 def one_mark_changes(latex: str) -> Iterator[Change]:
     r"""Prints that differ by one mark and can still be read, the simplest marks first.
 
-    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, swap, and in each
-    the right of the first relation before its left; each change names its kind first.
+    The order of kinds is dot, bar, prime, sign, exponent, half, index, strictness, letter, swap.
+    Within a kind, changes to the right of the first relation come before those to its left.  Each
+    description begins with the kind.
 
     >>> changes = one_mark_changes(r"a \le b")
     >>> [changed for change, changed in changes if change.startswith("strictness")]

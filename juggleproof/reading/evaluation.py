@@ -1,5 +1,5 @@
-"""What the names of a print mean, and the values of its terms and relations in such an
-environment.
+"""The environment, which gives meanings to the names of a print, and the values of terms and
+relations in it.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ from juggleproof.statements.language import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# What the names of a print mean: LaTeX keys, in which \cdot is the place of an argument.
+# The meanings of the names of a print: the keys are LaTeX, in which \cdot stands for an argument.
 #
 #     Environment(
 #         {r"\alpha": alpha, r"\dot\rho_0": r, r"\overline\beta": beta, r"\dot{\overline\beta}": v,
@@ -62,10 +62,10 @@ from juggleproof.statements.language import (
 #         state=r"\overline b",
 #     )
 #
-# `points` says which names are the components of a state, so that a set {b | ..} can be asked about
-# any state; `state` is the present one, which stands in where a print leaves the argument of a
-# function out. A key may be any expression (`\Delta E_{max}`, `\sqrt{2(1+\alpha)}`, `E(t)`):
-# wherever the print says the same, the key's value is meant, before its pieces are looked at.
+# `points` says which names are the components of a state, so that a set {b | ..} can be evaluated
+# at any state; `state` is the present one, which is the argument where a print leaves that of a
+# function out. A key may be any expression (`\Delta E_{max}`, `\sqrt{2(1+\alpha)}`, `E(t)`): an
+# equal part of the print has the key's value, whatever the values of its own parts are.
 
 _key = lru_cache(maxsize=4096)(parse_name)
 
@@ -110,14 +110,14 @@ class Environment:
         )
 
     def meaning_of(self, latex: str) -> Value:
-        """The value bound to this very key."""
+        """The value of this key."""
         if _key(latex) not in self.meanings:
             raise ClaimError(f"{latex} is no key of this environment")
         return self.meanings[_key(latex)]
 
     def at(self, point: Tree, state: Vector) -> Environment:
-        """This environment with the point, and its components, and the present state, being this
-        state.
+        """This environment with `state` as the value of the point, and of its components, and as
+        the present state.
         """
         components = self.points.get(point)
         if components is None or len(components) != len(state.entries):
@@ -143,8 +143,8 @@ def _exact(latex: str, value: Value) -> Value:
 
 
 # -------------------------------------------------------------------------------------------------
-# The evaluation of names, sums and products, where juxtaposition is settled as product or
-# application.
+# The evaluation of names, sums and products, which also decides whether a juxtaposition is a
+# product or an application.
 #
 # A factor that is a function is applied to the bracket that follows it; everything else is a
 # product. A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b)
@@ -152,7 +152,7 @@ def _exact(latex: str, value: Value) -> Value:
 
 
 class Evaluation:
-    """The evaluation of trees in one environment: what holds for all of them, and arithmetic.
+    """The evaluation of trees in one environment: the common methods, and arithmetic.
 
     `rules` has the method for each kind of node, which returns the value of the node.
     """
@@ -229,7 +229,7 @@ class Evaluation:
         raise self._without_meaning(tree)
 
     def sign(self, tree: t.Sign) -> Value:
-        """Refused: a bare sign has a meaning as part of a key only."""
+        """Raises PrintError: a bare sign has a meaning only as part of a key."""
         raise self._without_meaning(tree)
 
     def power(self, tree: t.Power) -> Value:
@@ -273,7 +273,7 @@ class Evaluation:
     def quotient(self, tree: t.Quotient) -> Value:
         """A quotient of scalars, or a vector or matrix over a scalar.
 
-        A slash before a product is refused: what it divides by is ambiguous.
+        A slash before a product is refused, because the divisor is ambiguous.
         """
         if (
             tree.slash
@@ -328,7 +328,7 @@ class Evaluation:
         return StateFunction(lambda *arguments: applied(outer, applied(inner, *arguments)))
 
     def juxtaposition(self, tree: t.Juxtaposition) -> Value:
-        """Factors from left to right: a function takes the bracket after it; all is multiplied."""
+        """The product of the factors, where a function is applied to the bracket after it."""
         factors, values, i = tree.factors, list[Value](), 0
         while i < len(factors):
             first, value, i = factors[i], self._applied_key(factors, i), i + 1
@@ -353,13 +353,13 @@ class Evaluation:
         return reduce(multiply, values)
 
     def _applied_key(self, factors: tuple[Tree, ...], i: int) -> Value | None:
-        """The meaning of a key such as E(t), where it stands among the factors."""
+        """The value of a key such as E(t), if factors i and i + 1 are one; else None."""
         if t.Juxtaposition not in self.environment.kinds or i + 1 == len(factors):
             return None
         return self.meanings.get(t.Juxtaposition(factors[i : i + 2]))
 
     def _applied(self, function: Value, name: Tree, bracket: t.Group) -> Value | None:
-        """The function at what the bracket holds, or None where the two are a product."""
+        """The function applied to the content of the bracket; None where the two are a product."""
         if isinstance(function, Region) or not (callable(function) or isinstance(function, Vector)):
             return None
         arguments: list[Value] = [self.here(item) for item in bracket.items]
@@ -384,7 +384,7 @@ class Evaluation:
 
 
 def _bracket(tree: Tree) -> t.Group | None:
-    """The round bracket that this factor is, perhaps under an exponent."""
+    """The factor itself, or its base if it is a power, where that is a round bracket; else None."""
     inner = tree.base if isinstance(tree, t.Power) else tree
     return inner if isinstance(inner, t.Group) and inner.bracket == "(" else None
 
@@ -392,9 +392,9 @@ def _bracket(tree: Tree) -> t.Group | None:
 # -------------------------------------------------------------------------------------------------
 # The formula that `left sign right` states, for values of every kind.
 #
-# A definition := and an identity \equiv state equality; vectors are equal entry by entry, regions
-# at the present state, a list of cases case by case; a restricted function is spoken of inside its
-# region only; \subset allows equality.
+# A definition := and an identity \equiv state equality; vectors are compared entry by entry,
+# regions at the present state, a list of cases case by case; a relation with a restricted function
+# is stated inside its region only; \subset allows equality.
 
 EQUALITIES = frozenset(("=", ":=", r"\equiv"))
 _INCLUSIONS = frozenset((r"\subset", r"\subseteq"))
@@ -411,7 +411,7 @@ _OF_TERMS: dict[str, Callable[[Scalar, Scalar], Formula]] = {
 
 
 def relate(left: Value, sign: str, right: Value, state: Vector | None = None) -> Formula:
-    """The formula of one relation; `state` is where regions are compared."""
+    """The formula of one relation; regions are compared at `state`."""
     if is_scalar(left) and is_scalar(right) and sign in _OF_TERMS:
         return _OF_TERMS[sign](left, right)
     for value, other, turned in ((left, right, False), (right, left, True)):

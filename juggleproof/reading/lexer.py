@@ -1,5 +1,5 @@
-"""The tokens of a print, the commands that it may use, and the error that an unreadable one
-causes.
+"""The tokens of a print, the commands that a print may use, and the error for one that cannot be
+read.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from functools import lru_cache
 from juggleproof.statements.language import ClaimError
 
 # -------------------------------------------------------------------------------------------------
-# The one error that a print can cause: a single line that names the token and its column.
+# The error of a print: a single line that names the token and its column.
 
 
 class PrintError(ClaimError):
-    r"""A print cannot be read, or says something that has no meaning in its environment.
+    r"""The error of a print that cannot be read, or has no meaning in its environment.
 
     >>> str(PrintError(4, r"unknown command \foo"))
     'column 5: unknown command \\foo'
@@ -28,8 +28,7 @@ class PrintError(ClaimError):
 
 
 # -------------------------------------------------------------------------------------------------
-# The commands that a print may use, in tables: what is dropped, what is another spelling, what is
-# an operator.
+# The commands that a print may use, in tables: those that are dropped, other spellings, operators.
 
 # Layout and fonts: they carry no meaning and are dropped.
 DROPPED = frozenset(
@@ -40,12 +39,12 @@ DROPPED = frozenset(
     ).split()
 )
 
-# Environments that only lay lines out: their line ends and & marks are joins.
+# Environments that are only layout: their line ends and & marks join the lines.
 LAYOUT = frozenset(
     "split aligned align align* alignedat gathered gather gather* equation equation*"
     " multline".split()
 )
-# Environments whose & and line ends are cells.
+# Environments whose & and line ends separate cells.
 TABLES = frozenset("bmatrix pmatrix matrix array cases".split())
 
 SAME = {
@@ -78,8 +77,8 @@ LETTERS = frozenset(
     ).split()
 )
 
-# What stands over or around a letter and makes another name of it.  Two dots are `dot` twice: \ddot
-# x = \dot{\dot x}.
+# Commands over or around a letter that make another name of it.  Two dots are `dot` twice:
+# \ddot x = \dot{\dot x}.
 ACCENTS = {
     r"\bar": ("bar",),
     r"\dot": ("dot",),
@@ -109,7 +108,7 @@ RELATIONS = frozenset(
     )
 )
 
-# Infix operators and how tightly they bind; juxtaposition binds more tightly than all of them.
+# Infix operators with their binding power; juxtaposition binds more tightly than all of them.
 BINARY = {
     r"\cup": 20,
     r"\cap": 22,
@@ -122,7 +121,7 @@ BINARY = {
     "/": 40,
     r"\circ": 45,
 }
-SIGN = 35  # -a b + c is (-(a b)) + c
+SIGN = 35  # the binding power of a leading minus: -a b + c is (-(a b)) + c
 
 EXTREMA = frozenset((r"\max", r"\min", r"\sup", r"\inf"))
 OPERATORS = frozenset((r"\Delta", r"\partial", r"\nabla"))
@@ -145,8 +144,8 @@ KNOWN = (
 # LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command is
 # refused.
 #
-# A line end counts as a join where the next line goes on with a relation or an infix operator (a
-# leading minus goes on), and otherwise separates two parts of a display.
+# A line end joins two lines where the next one begins with a relation or an infix operator, also
+# with a minus; otherwise it separates two parts of a display.
 
 _PATTERN = re.compile(
     r"""

@@ -1,4 +1,4 @@
-"""What a print states in an environment, and the print as a claim receives it."""
+"""The meaning of a print in an environment, and the print as a claim receives it."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ class Meaning(Evaluation):
         return Piece(self.side(value.first), when, self.chain(value))
 
     def chain(self, tree: t.Chain) -> Formula:
-        """Every relation of the chain, between the values beside it."""
+        """The conjunction of the relations in the chain, each between the values beside it."""
         state = self.environment.state
         return conjunction(
             [relate(left, sign, right, state) for left, sign, right in self.triples(tree)]
@@ -213,7 +213,7 @@ Meaning.rules = {
 
 
 # -------------------------------------------------------------------------------------------------
-# A print as a claim receives it: its LaTeX, its tree, and what it states in an environment.
+# A print as a claim receives it: its LaTeX, its tree, and its meaning in an environment.
 
 
 class Printed:
@@ -241,8 +241,8 @@ class Printed:
 
     @property
     def parts(self) -> tuple[Printed, ...]:
-        """The parts of a display of several lines, each a print of its own (columns count in the
-        whole).
+        """The parts of a display of several lines, each as a print; columns in errors are those of
+        the whole display.
         """
         return tuple(Printed(self.latex, (part,)) for part in self._parts)
 
@@ -270,11 +270,11 @@ class Printed:
         ]
 
     def left(self, environment: Environment) -> Value:
-        """The value of what stands before the first relation."""
+        """The value of the expression before the first relation."""
         return self.relation_chain(environment)[0][0]
 
     def right(self, environment: Environment) -> Value:
-        """The value of what stands after the last relation."""
+        """The value of the expression after the last relation."""
         return self.relation_chain(environment)[-1][2]
 
     def definition(self, environment: Environment, of: str) -> Value:
@@ -300,15 +300,15 @@ class Printed:
         return _as_term(Meaning(environment).side(self.tree))
 
     def formula(self, environment: Environment) -> Formula:
-        """All that the print states: every relation of every part."""
+        """The conjunction of all relations in all parts of the print."""
         meaning = Meaning(environment)
         return conjunction([meaning.formula(part) for part in self._parts])
 
     def set_predicate(self, environment: Environment, of: str | None = None) -> Region:
         """The region that the print defines: state -> formula.
 
-        The head must be the name `of`, or, where none is given, a name of the environment.  Base
-        set, element and condition all go into the formula; nothing else may stand there.
+        The head must be the name `of`, or, where that is None, a name of the environment.  Base
+        set, element and condition all enter the formula; the print may contain nothing else.
         """
         chain = self._chain()
         if len(chain.rest) != 1 or chain.rest[0][0] not in (":=", "="):
@@ -326,7 +326,7 @@ class Printed:
         for (
             point,
             components,
-        ) in environment.points.items():  # refuse now, not when the region is first asked
+        ) in environment.points.items():  # refuse now, not when the region is first used
             state = environment.meanings.get(point)
             if isinstance(state, Vector) and len(components) > 1:
                 region(state)

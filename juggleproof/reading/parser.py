@@ -1,5 +1,5 @@
-"""The tokens of a print as a tree, by a Pratt parser: names, scripts and tables first, then factors
-and formulas.
+"""A Pratt parser from the tokens of a print to a tree: first names, scripts and tables, then
+factors and formulas.
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ from juggleproof.reading.tree import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# Names with their accents and scripts, arguments as TeX delimits them, and tables.
+# Names with their accents and scripts, arguments as delimited by TeX, and tables.
 
 _SIGNS = frozenset(("+", "-", "*", r"\circ", r"\cdot"))
 
 
 class Pieces:
-    """A place in the tokens of a print, and the readers of its smallest pieces."""
+    """A reader of the smallest pieces of a print, with its position in the tokens."""
 
     def __init__(self, latex: str) -> None:
         self.tokens = lex(latex)
@@ -76,11 +76,11 @@ class Pieces:
         raise NotImplementedError
 
     def refuse(self, problem: str) -> NoReturn:
-        """Refuse the token that stands here."""
+        """Raises PrintError at the present token."""
         raise PrintError(self.token.start, f"{problem} {_shown(self.token)}")
 
     def advance(self) -> Token:
-        """The token that stands here, stepping over it."""
+        """Returns the present token, and steps over it."""
         token = self.token
         if token.kind == "stop":
             self.refuse("expected more before")
@@ -89,7 +89,7 @@ class Pieces:
         return token
 
     def expect(self, text: str) -> Token:
-        """Step over this very token."""
+        """Steps over a token with this text; raises PrintError for any other."""
         if self.token.text != text:
             self.refuse(f"expected {text} before")
         return self.advance()
@@ -117,7 +117,7 @@ class Pieces:
         )
 
     def argument(self) -> Tree:
-        """What TeX takes as one argument: a brace, one letter, one digit, one command."""
+        """The argument that TeX would take: a brace, one letter, one digit, one command."""
         token = self.token
         if token.text == "{":
             return self.braced()
@@ -132,7 +132,7 @@ class Pieces:
         self.refuse("expected an argument instead of")
 
     def digit(self) -> Number:
-        """One digit: TeX takes no more than that without a brace, so \\frac12 is a half."""
+        """One digit: without a brace TeX takes no more, so \\frac12 is a half."""
         token = self.token
         if len(token.text) == 1:
             return self.numeral()
@@ -174,7 +174,7 @@ class Pieces:
         return replace(tree, primes=tree.primes + 1)
 
     def is_prime(self) -> bool:
-        r"""Steps over \prime or {\prime}, if that is what stands here."""
+        r"""Steps over \prime or {\prime}, if one comes next; returns whether it does."""
         texts = [token.text for token in self.tokens[self.index : self.index + 3]]
         steps = 1 if texts[:1] == [r"\prime"] else 3 if texts == ["{", r"\prime", "}"] else 0
         for _ in range(steps):
@@ -245,7 +245,7 @@ class Pieces:
         return Array(tuple(rows), at=begin.start)
 
     def cases(self, begin: Token) -> Tree:
-        """Lines `value : condition`, where &, a comma, `if` or `for` may stand for the colon or
+        """Lines `value : condition`, where &, a comma, `if` or `for` may replace the colon or stand
         beside it.
         """
         pieces: list[tuple[Tree, Tree]] = []
@@ -302,10 +302,8 @@ def _shown(token: Token) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Tokens to the tree of a display, by a Pratt parser; what TeX itself would read differently is
+# The Pratt parser for formulas and factors; a print that TeX itself would read differently is
 # refused.
-#
-# Formulas and factors are here; names with their scripts, and tables, stand in `pieces`.
 
 _STARTS = (
     frozenset((r"\frac", r"\sqrt", r"\lim", "(", "[", "{", r"\lfloor", r"\lceil"))
@@ -329,8 +327,8 @@ class Parser(Pieces):
     """A reader of one print: `display` reads all of it."""
 
     def display(self) -> tuple[Tree, ...]:
-        """All parts: separated by line ends, commas, semicolons or the word `and`; a last full stop
-        is dropped.
+        """All parts, which are separated by line ends, commas, semicolons or the word `and`; a full
+        stop at the end is dropped.
         """
         parts: list[Tree] = []
         while True:
@@ -361,7 +359,7 @@ class Parser(Pieces):
         return ForAll(head, self.chain(), at=start.start)
 
     def chain(self) -> Tree:
-        """An expression, and the relations that go on from it."""
+        """An expression, with the relations that follow it."""
         first = self.expression(0)
         if self.token.text not in RELATIONS:
             return first
@@ -372,7 +370,7 @@ class Parser(Pieces):
         return Chain(first, tuple(rest), at=first.at)
 
     def expression(self, level: int) -> Tree:
-        """What binds more tightly than `level`, from here on."""
+        """The longest expression from here on whose operators bind more tightly than `level`."""
         start = self.token
         left: Tree
         if start.text in ("-", "+"):
@@ -401,7 +399,7 @@ class Parser(Pieces):
         return factors[0] if len(factors) == 1 else Juxtaposition(tuple(factors), at=factors[0].at)
 
     def starts_a_factor(self) -> bool:
-        """Whether the next token can go on with a product."""
+        """Whether a product can continue with the next token."""
         token = self.token
         if token.kind == "number":
             self.refuse("a numeral after a factor:")
@@ -429,7 +427,7 @@ class Parser(Pieces):
                 return tree
 
     def primary(self) -> Tree:
-        """What a factor starts with."""
+        """The beginning of a factor, without scripts and restrictions."""
         token = self.token
         text, kind, at = token.text, token.kind, token.start
         if kind == "number":
@@ -480,7 +478,7 @@ class Parser(Pieces):
         return content
 
     def braced(self) -> Tree:
-        """TeX's own braces, which say nothing."""
+        """The content of TeX's own braces, which have no meaning."""
         self.expect("{")
         content = self.enclosed(False)
         self.expect("}")

@@ -1,8 +1,7 @@
-r"""The tree of a print: plain frozen nodes that keep what stands on paper, before anything is given
-a meaning.
+r"""The tree of a print: plain frozen nodes for what is on paper, before names get a meaning.
 
-Every node carries `at`, where it starts; two nodes are equal when they say the same, wherever they
-stand.
+Every node has the position `at` where it starts; two nodes are equal when they have the same
+content, whatever their positions are.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ ACCENT_COMMANDS = {
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """What all nodes share: the position of the first token in the print."""
+    """A node of the tree, with the position of its first token in the print."""
 
     at: int = field(compare=False, kw_only=True, default=0)
 
@@ -74,7 +73,7 @@ class Root(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Power(Tree):
-    """base^exponent: a power or a superscript, which only its meaning decides."""
+    """base^exponent: a power or a superscript; the environment decides which."""
 
     base: Tree
     exponent: Tree
@@ -194,7 +193,7 @@ class Restriction(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Chain(Tree):
-    """first and then pairs of a relation sign and what follows it."""
+    """The first side of a chain of relations, then pairs of a relation sign and the next side."""
 
     first: Tree
     rest: tuple[tuple[str, Tree], ...]
@@ -212,7 +211,7 @@ HOLE = Sign(r"\cdot")
 
 
 def spelled(name: Tree) -> str:
-    r"""A name as LaTeX, for messages; anything else by the kind of thing that it is.
+    r"""A name as LaTeX, for messages; any other node as a word for its kind.
 
     >>> spelled(Name(r"\beta", ("bar", "dot"), (Number(0),)))
     '\\dot{\\overline{\\beta}}_{0}'

@@ -19,8 +19,8 @@ Scalar = Union[int, Fraction, Term]
 
 
 class ShapeError(ClaimError):
-    """Two values do not fit together: a vector and a scalar added, matrices of different sizes
-    multiplied.
+    """The error for values that do not fit together, such as the sum of a vector and a scalar, or
+    the product of matrices of different sizes.
     """
 
 
@@ -37,14 +37,14 @@ def scalar(value: object) -> Scalar:
 
 
 def plus(left: Scalar, right: Scalar) -> Scalar:
-    """left + right, where a literal zero leaves the other as it is."""
+    """left + right; if one side is a literal zero, the other side unchanged."""
     if not isinstance(left, Term) and left == 0:
         return right
     return left if not isinstance(right, Term) and right == 0 else left + right
 
 
 def times(left: Scalar, right: Scalar) -> Scalar:
-    """left * right, where a literal zero or one does what it does."""
+    """left * right, simplified where a side is a literal zero or one."""
     for one, other in ((left, right), (right, left)):
         if not isinstance(one, Term) and one in (0, 1):
             return other if one == 1 else 0
@@ -223,8 +223,8 @@ class Matrix:
 
 
 def applied(function: object, *arguments: Value) -> Value:
-    """The function at these arguments; what is no function, and arguments that it is not made for,
-    raise ShapeError.
+    """The value of the function at these arguments; raises ShapeError where it is not a function,
+    or cannot take them.
     """
     if not callable(function):
         raise ShapeError(f"{kind_of(function)} where a function is expected")
@@ -259,7 +259,7 @@ class StateFunction(Generic[Result]):
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A set of states, by the formula that a state is in it."""
+    """A set of states: `holds` returns the formula that a state is in it."""
 
     holds: Callable[[Vector], Formula]
 
@@ -278,7 +278,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Image:
-    """The image of a region under a function; it is met only on the left of an inclusion."""
+    """The image of a region under a function, which may stand only on the left of an inclusion."""
 
     function: Callable[..., Value]
     region: Region
@@ -297,20 +297,20 @@ class Restricted:
 
 @dataclass(frozen=True, slots=True)
 class Guarded:
-    """A value that is only spoken of under a condition."""
+    """A value about which relations are stated only under a condition."""
 
     condition: Formula
     value: Value
 
     def under(self, conclusion: Formula) -> Formula:
-        """The conclusion, under the condition."""
+        """The formula that the condition implies the conclusion."""
         return implies(self.condition, conclusion)
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """One line of a list of cases: a value, its condition, and what the line says besides (a chain
-    on its left).
+    """One line of a list of cases: a value, its condition, and, where the line has a chain of
+    relations in place of a value, the formula of that chain.
     """
 
     value: Value
@@ -351,7 +351,7 @@ class LimitValue:
     value: Value
 
 
-# what an expression of a print can be; a relation is a formula
+# the values of expressions in a print; a relation is a formula
 Value = Union[
     Scalar,
     Vector,
@@ -370,11 +370,11 @@ Value = Union[
 
 
 # -------------------------------------------------------------------------------------------------
-# Sums, products and powers of values of any kind; what does not fit is refused with what was tried.
+# Sums, products and powers of values of any kind; errors name the operation that does not fit.
 
 
 def kind_of(value: object) -> str:
-    """What a value is, in a word, for messages."""
+    """The kind of a value in a word, for messages."""
     if is_scalar(value):
         return "a scalar"
     if isinstance(value, (Formula, Vector, Matrix, Region)):

@@ -21,7 +21,7 @@ from juggleproof.reports.results import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# A badge for a page: what the verdicts say in a few words, as the JSON that shields.io draws.
+# A badge for a page: a summary of the verdicts, as the JSON that shields.io draws.
 
 LABEL = "juggleproof"
 GOOD, BAD = "brightgreen", "red"
@@ -37,8 +37,8 @@ def badge(contents: Contents | Results) -> bytes:
 
 
 def message_of(results: Results) -> tuple[str, str]:
-    """The message and its colour: red where the theorem is not proved, something that is stated is
-    unknown or rejected, or a verdict is not as registered.
+    """The message and its colour: red where the theorem is not proved, a stated claim is unknown, a
+    statement is rejected, or a verdict is not as registered.
     """
     count, unknown = len(results.claims), results.verdicts()["unknown"]
     claims = f"{count} claim{'' if count == 1 else 's'}, {unknown} unknown"
@@ -58,17 +58,16 @@ def message_of(results: Results) -> tuple[str, str]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The results as a JUnit report, which CI systems show: one test case a claim, and nothing is ever
-# skipped.
+# The results as a JUnit report, which CI systems show: each claim is a test case, and nothing is
+# ever skipped.
 #
-# Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file
-# of one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
-# error.
+# A claim of the paper is a failure where its verdict differs from the register, a user's claim
+# where it does not hold. An unknown claim, and a statement that the checker rejects, is an error.
 
 
 def as_junit(contents: Contents | Results, seconds: Mapping[str, float] | None = None) -> bytes:
-    """The report as XML: each claim with its file and line, its class named for the file; `time`
-    only where the seconds of the claims are given, by id.
+    """The report as XML: each claim has its file and line, and a class that is named after the
+    file; `time` is there only if the seconds of the claims are given, by id.
     """
     results = results_of(contents)
     changes = results.change_of()
@@ -115,7 +114,7 @@ def as_junit(contents: Contents | Results, seconds: Mapping[str, float] | None =
 
 
 def class_name(file: str) -> str:
-    """The class of a file's claims: its path with dots, its name where it is elsewhere.
+    """The class of a file's claims: its path with dots, or its name where the path is absolute.
 
     >>> class_name("claims/mine.py"), class_name("/tmp/mine.py")
     ('claims.mine', 'mine')
@@ -147,8 +146,8 @@ def _case(
 
 
 def _failure(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
-    """failure, error or nothing, and the message: what differs first, then where the claim
-    fails.
+    """The kind, "failure", "error" or empty, and the message: what differs from the register, then
+    where the claim fails.
     """
     changed = (
         ""
@@ -169,18 +168,18 @@ NEITHER = f"neither {PROVED} nor {REFUTED}"
 
 
 def verdict_line(one: Result) -> str:
-    """The verdict and how it was settled."""
+    """The verdict, and how the claim was settled."""
     return f"{one.verdict_text}{f'; {one.detail}' if one.detail else ''}; {one.settled_by}"
 
 
 def failing(one: Result) -> str:
-    """Why a claim does not hold: the verdict with its detail, then where its statements fail."""
+    """The reason why a claim does not hold: its verdict with detail, then where statements fail."""
     return "\n".join([one.verdict_text + (f": {one.detail}" if one.detail else ""), *fails_at(one)])
 
 
 def fails_at(one: Result) -> list[str]:
-    """One line for each refuted statement, with the counterexample, and for each open one with the
-    reason.
+    """A line for each refuted statement, with its counterexample, and for each open statement, with
+    the reason.
     """
     return [
         f"{stated.name} fails at {stated.at}" + (f": {stated.words}" if stated.words else "")
@@ -192,15 +191,15 @@ def fails_at(one: Result) -> list[str]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The results as Markdown for the summary of a CI job: what matters first, every claim folded away,
-# under GitHub's limit of a megabyte.
+# The results as Markdown for the summary of a CI job, under GitHub's limit of a megabyte; the list
+# of all claims is folded.
 #
-# What is not known comes first, then what the checker rejects, what changed since the register,
-# what is wrong and how it is mended.
+# The order is: unknown claims, statements that the checker rejects, changes since the register,
+# errors with their corrections.
 
 LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
 LONGEST = 2_000  # characters of one text
-ROOM = 2_000  # bytes kept for the lines that end the file and tell what is left out
+ROOM = 2_000  # bytes kept for the lines at the end, which say how many lines are left out
 
 
 def markdown(contents: Contents | Results) -> str:
@@ -232,7 +231,7 @@ def markdown(contents: Contents | Results) -> str:
 
 
 class _Page:
-    """Lines as long as there is room; what is left out is counted."""
+    """A page that takes lines while there is room, and counts those that it leaves out."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
@@ -260,7 +259,7 @@ class _Page:
 
 
 def escaped(text: str) -> str:
-    """A text that Markdown shows as it stands, in a paragraph or a cell.
+    """The text with Markdown's special characters escaped, for a paragraph or a cell.
 
     >>> escaped("a|b <c> `d` 2*x_1 $5 [e](f)")
     'a\\\\|b \\\\<c\\\\> \\\\`d\\\\` 2\\\\*x\\\\_1 &#36;5 \\\\[e\\\\](f)'
@@ -273,7 +272,7 @@ def escaped(text: str) -> str:
 
 
 def code(text: str) -> str:
-    """A text as code, in a paragraph: fenced by more backticks than it has in a row.
+    """The text as code in a paragraph, between more backticks than it has in a row.
 
     >>> code("a`b")
     '``a`b``'
@@ -376,7 +375,7 @@ def _changes(results: Results) -> list[str]:
 
 
 def _change(change: Change) -> list[tuple[str, str, str, str]]:
-    """One row for each field that differs; a claim that is new or gone says so."""
+    """A row for each field that differs; a row that says so, for a claim that is new or gone."""
     before, after = change.before, change.after
     if before is None or after is None:
         absent = "not registered" if before is None else "no longer in the sources"

@@ -1,4 +1,4 @@
-"""What a run found, as data."""
+"""The contents of a report, as data."""
 
 from __future__ import annotations
 
@@ -49,18 +49,18 @@ if TYPE_CHECKING:
 
 # -------------------------------------------------------------------------------------------------
 # All that reports show, gathered once: claims with verdicts, derivations and statements; the
-# theorem's tree; what differs from the register.
+# theorem's tree; the differences from the register.
 #
-# Verdicts are judged again from the store, by what the checker said of these very files; nothing is
-# taken from the register.
+# Verdicts are judged again from the store, by the checker's outcomes for these files; none is taken
+# from the register.
 
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A statement as reports show it: the text that the checker reads, outcome, certificate as
-    stored, counterexample with its numbers and in words, answers of the routes.
+    """A statement as reports show it: the text that the checker reads, its outcome, the certificate
+    as stored, the counterexample with its numbers and in words, the answers of the routes.
     """
 
     name: str
@@ -103,19 +103,19 @@ class Entry:
 
     @property
     def remark(self) -> str:
-        """The remark on the claim with what shows it, or nothing."""
+        """The remark on the claim, with the claims that show it; empty where there is none."""
         return errata.told(self.claim.remark) if self.claim.remark else ""
 
     @property
     def why_restored(self) -> str:
-        """What keeps the transcription from being judged, for a print that holds as restored."""
+        """The reason why the transcription is not judged, for a print that holds as restored."""
         return errata.why_restored(self.claim) if self.group == "restored" else ""
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A node of the theorem's tree: a map rule, its premises as the checker writes them, and what
-    it rests on.
+    """A node of the theorem's tree: a map rule, its premises as the checker writes them, the rules
+    that it rests on, and the statements that it uses.
     """
 
     name: str
@@ -129,8 +129,8 @@ class Rule:
 
 @dataclass(frozen=True)
 class Contents:
-    """Everything that reports show; entries in the paper's order, derivations each after what it is
-    made from, rules with the theorem first.
+    """The contents of a report: entries in the paper's order, derivations each after those that it
+    uses, rules with the theorem first.
     """
 
     entries: tuple[Entry, ...]
@@ -145,11 +145,11 @@ class Contents:
 
     @property
     def theorem_stands(self) -> str:
-        """Whether the theorem survives the errors."""
+        """The sentence on whether the theorem survives the errors."""
         return errata.theorem_stands([one.claim for one in self.entries], self.theorem)
 
     def first_page(self) -> list[tuple[Entry, list[errata.Line]]]:
-        """What matters to whoever cites the theorem: the claims with their three lines."""
+        """The errors that matter to those who cite the theorem: each claim with its three lines."""
         claims = [one.claim for one in self.entries]
         matters = errata.what_matters(claims, {one.claim.id: one.group for one in self.entries})
         entries = [self.entry(claim.id) for claim in matters]
@@ -164,23 +164,23 @@ class Contents:
 
 
 def gather(register: Path = PATH, checked: Checked | None = None) -> Contents:
-    """The contents of a report on the stored claims, by what the checker says of the store, or has
-    just said.
+    """The contents of a report on the stored claims, by the checker's outcomes for the store, which
+    it is asked for unless `checked` has them.
 
-    Raises ClaimError, one line, where the store holds no certificates, or the register is none.
+    Raises ClaimError, one line, where the store has no certificates, or the register is invalid.
     """
     before = load_register(register)
     claims = opened().claims()
     for claim in claims:
-        with suppress(ClaimError, checker.Rejected):  # which judging raises, and says where
-            claim.body()  # stated once, before there are other processes
+        with suppress(ClaimError, checker.Rejected):  # judging raises these again, with the place
+            claim.body()  # stated once, before other processes are started
     done = judge_stored(claims, Options(DEFAULT), checked=checked)
     settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, by_id(done.claims))
     return contents_of(done, before)
 
 
 def contents_of(done: Run, before: Register) -> Contents:
-    """The contents of a report on a run over all claims of the paper, beside a register."""
+    """The contents of a report on a run over all claims of the paper, compared with a register."""
     store, judgements, checked = Store(done.store), done.judgements, done.outcomes
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     register = _judged(done.claims, judgements)
@@ -201,10 +201,10 @@ def contents_of(done: Run, before: Register) -> Contents:
 
 
 def entries_of(claims: Sequence[Claim]) -> tuple[Entry, ...]:
-    """The entries of some of the paper's claims, which alone are judged, by certificates alone; how
-    much an error weighs depends on the registered verdicts of the others.
+    """The entries of some of the paper's claims.  Only these are judged, by certificates alone; the
+    weight of an error depends on the registered verdicts of the others.
 
-    Raises ClaimError, one line, where the store holds no certificates, or the register is none.
+    Raises ClaimError, one line, where the store has no certificates, or the register is invalid.
     """
     judgements = judge_some(claims, opened().claims_by_id, DEFAULT)
     register = {**load_register(), **_judged(claims, judgements)}
@@ -227,7 +227,7 @@ def _entries(
 
 
 def errata_text() -> str:
-    """Every claim that is not simply true, in groups; a heading with its number opens each.
+    """Every claim that is not simply true, in groups, each under a heading with its number.
 
     Each claim that is shown is judged now: the checker reads its statements and all on which they
     rest, and no others.  A claim is left out where it is registered as `holds` and the store has a
@@ -288,7 +288,7 @@ def tool_versions() -> dict[str, str]:
 
 
 def entry(claim: Claim, judgement: Judgement) -> dict[str, str]:
-    """What the register keeps of a judgement."""
+    """The entry of the register for a judgement."""
     return registered(
         judgement.verdict.word,
         judgement.verdict.detail,
@@ -396,8 +396,8 @@ PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 
 def results_of(contents: Contents | Results, register: Register | None = None) -> Results:
-    """The results that reports are built from: results as they are, and contents of a report as
-    results.
+    """The results of which reports are made: the argument itself, or the contents of a report
+    converted to results.
     """
     if isinstance(contents, Results):
         return contents
@@ -535,8 +535,8 @@ def _change(change: Change) -> dict[str, Json]:
 
 
 def tools() -> dict[str, str]:
-    """The versions of juggleproof, of Python without its patch level, and of the libraries, none of
-    which is believed.
+    """The versions of juggleproof, of Python without its patch level, and of the libraries, which
+    the checker does not use.
     """
     own = {
         "juggleproof": _own_version(),

@@ -1,8 +1,8 @@
-"""A counterexample in words: what the two sides that disagree come to.
+"""A counterexample in words: the values of the two sides that disagree.
 
-A line names what the statement compares and gives both values, worked out exactly at the point; a
-term without a noun is shown, and a long one is called by its side.  What is so at the point is all
-that a line says: it draws no conclusion.  A paper may name its terms by a `Failure` of its own.
+A line names the two terms that the statement compares and gives their exact values at the point.  A
+term without a noun is shown itself; a long one is called by its side.  A line only states facts at
+the point, and draws no conclusion.  A paper may name its terms by a subclass of `Failure`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LONGEST = 26  # characters of a formula that is shown in a line
 
 
 class Named(NamedTuple):
-    """What a term is called: its noun, of which state it is, and when."""
+    """The name of a term: its noun, the state that it belongs to, and a time."""
 
     noun: str
     of: str = ""
@@ -30,18 +30,18 @@ class Named(NamedTuple):
 
     @property
     def whole(self) -> str:
-        """The name where another one stands beside it."""
+        """The whole name, for a sentence with two names."""
         return " ".join(part for part in self if part)
 
 
 def parts_of(formula: Formula) -> Sequence[Formula]:
-    """The parts of a conjunction; else the formula alone."""
+    """The parts of a conjunction, or the formula alone."""
     return formula.parts if formula.op == "and" else (formula,)
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A statement, and a point with rational values at which it fails."""
+    """A failure of a statement at a point with rational values."""
 
     name: str
     point: Point
@@ -49,7 +49,7 @@ class Failure:
     goals: tuple[Formula, ...]
 
     def truth(self, formula: Formula) -> bool:
-        """Whether the formula is true; raises LookupError where that cannot be worked out."""
+        """Whether the formula is true; raises LookupError where it cannot be evaluated."""
         known = is_true_at(str(formula), self.point)
         if known is None:
             raise LookupError(str(formula))
@@ -63,11 +63,11 @@ class Failure:
         return known
 
     def assumed(self) -> Iterator[str]:
-        """What is so at the point and is worth a word before what fails."""
+        """The facts at the point that are stated before the goal that fails; none by default."""
         return iter(())
 
     # ---------------------------------------------------------------------------------------------
-    # What fails there.
+    # The goal that fails.
 
     def failing(self) -> str:
         """The values that make the first false goal false."""
@@ -122,26 +122,26 @@ class Failure:
         return f"{one.whole} is {a}{order} {other}, {b}"
 
     def sides(self) -> tuple[str, str]:
-        """What the two sides of a relation are called; nothing where they have no name."""
+        """The nouns of the two sides of the goal; empty where they have none."""
         return "", ""
 
     def named(self, part: Term, otherwise: str = "") -> Named:
-        """What a term is called: by the name that is given, or by its formula."""
+        """The name of a term: the noun `otherwise`, or else its formula."""
         return Named(otherwise or str(part))
 
     def beside(self, one: Named, two: Named) -> str:
-        """What the second of two terms is called where the first stands before it."""
+        """The name of the second of two terms, after the first has been named."""
         return two.whole
 
     @staticmethod
     def state_named(chosen: str) -> str:
-        """Variables that are chosen, a state by its letter."""
+        """The names of chosen variables; a paper may replace those of a state by its letter."""
         return chosen
 
 
 def in_words(text: str, point: Point, of_paper: bool = True) -> str:
-    """What is so at a point with rational values at which a statement fails, of the paper's system
-    with what its terms are called; nothing where that cannot be worked out.
+    """The sentence on a rational point at which a statement fails, with the paper's nouns if it is
+    about the paper's system; empty where terms cannot be evaluated.
     """
     lines = [line.partition(" ")[::2] for line in text.splitlines()]
     premises, goals = (

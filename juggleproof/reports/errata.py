@@ -1,5 +1,5 @@
-"""`juggleproof errata`: what the paper prints wrongly, with what is wrong, the correction, and
-exact values at which the print fails.
+"""`juggleproof errata`: the errors of the paper, each with its fault, its correction, and exact
+values at which the print fails.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ words.
 certificates, and with --lines
 the line of the transcription.
 """
-GROUPS = {  # by weight, the heaviest first
+GROUPS = {  # in order of weight, the heaviest first
     "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",
     "statement": "Wrong statements",
     "mark": "Wrong formulas, mended by one mark",
@@ -68,11 +68,11 @@ WEIGHTS = {
     "marks": "wrong formula, mended by several marks",
     "readings": "wording",
 }
-WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
+WIDTH, LONGEST_GOAL = 124, 110  # characters of a line of text, and of a formula that is shown
 
 
 def is_noted(claim: Claim) -> bool:
-    """Whether the errata have something to say of a claim that holds."""
+    """Whether the errata have a note on the claim, even if it holds."""
     return bool(claim.as_it_stands or claim.remark)
 
 
@@ -81,8 +81,8 @@ def group_of(
     register: Register,
     findings: Mapping[str, Finding],
 ) -> str:
-    """The group that lists the claim, or none: a repeat is one only of a print that is itself
-    listed.
+    """The group that lists the claim, or empty; a claim counts as a repeat only if the print that
+    it repeats is wrong too.
     """
 
     def wrong(name: str) -> bool:
@@ -100,11 +100,11 @@ def group_of(
 
 
 def weight_of(claim: Claim, register: Register, correction: Correction | None) -> str:
-    """How much an error weighs, as a key of `WEIGHTS`.
+    """The weight of an error, as a key of `WEIGHTS`.
 
-    An argument that falls back on the theorem's rules breaks the proof, and so does a claim that
-    asserts one of its refuted steps; what one mark or several mend is a wrong formula, all else a
-    wrong statement.
+    An argument whose conclusion stands only by the theorem's rules breaks the proof, and so does a
+    claim that asserts one of its refuted steps.  An error that one mark or several marks mend is a
+    wrong formula, any other a wrong statement.
     """
     if register[claim.id]["verdict"] == "ambiguous":
         return "readings"
@@ -119,14 +119,14 @@ def weight_of(claim: Claim, register: Register, correction: Correction | None) -
 
 @cache
 def _broken_steps(details: frozenset[tuple[str, str]]) -> frozenset[str]:
-    """The refuted steps of arguments whose conclusion stands by rules of the theorem, as texts
-    without their names.
+    """The texts, without names, of the refuted steps of arguments whose conclusion stands by rules
+    of the theorem.
     """
     by_id = {name: detail for name, detail in details if detail.startswith("step ")}
     found = set[str]()
     for claim in (
         opened().claims() if by_id else ()
-    ):  # else a false claim of one's own loads the paper
+    ):  # without such steps, a false claim of a user does not load the paper
         body = claim.body() if claim.id in by_id else None
         if isinstance(body, Argument) and body.rests_on:
             steps = by_id[claim.id].removeprefix("step ").partition(" is false")[0].split(", ")
@@ -140,13 +140,14 @@ Settled = tuple[str, str, Certificate | None]  # a statement: its name, its text
 
 
 def stored(claim: Claim, store: Store) -> list[Settled]:
-    """The statements of a claim as a store holds them."""
+    """The statements of a claim in a store."""
     names = (name for name in store.texts if name.split("/")[0] == claim.id)
     return [(name, store.texts[name], store.certificate(name, store.texts[name])) for name in names]
 
 
 class Row(NamedTuple):
-    """One row of an entry: its title, empty where it goes on with the row before, and its text.
+    """A row of an entry: its title, which is empty where the row continues the one before, and its
+    text.
 
     `latex` says that the text is LaTeX; `code` that it is an exact text of the program.
     """
@@ -163,8 +164,8 @@ def rows_of(
     finding: Finding,
     settled: Sequence[Settled],
 ) -> list[Row]:
-    """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
-    correction, exact counterexamples and what is so there.
+    """The rows of an entry: a heading with place and verdict, then the claim's sentence, its print,
+    the fault, the correction, and exact counterexamples, also in words.
     """
     entry = register[claim.id]
     heading = f"{claim.id}, {place_of(claim)}: {entry['verdict']}"
@@ -243,7 +244,7 @@ def passages_of(claim: Claim) -> dict[str, str]:
 
 
 def why_restored(claim: Claim) -> str:
-    """What keeps the transcription from being judged as it stands."""
+    """The reason why the transcription is not judged as it stands."""
     try:
         claim.body(read(claim.as_it_stands))
     except (ClaimError, checker.Rejected) as problem:
@@ -259,8 +260,8 @@ def first_page(
     settled: Mapping[str, Sequence[Settled]],
     theorem: str,
 ) -> list[str]:
-    """What matters to whoever cites the theorem, by the line about it: the heaviest errors of
-    section 4 and appendix A, each as what is said, why it is wrong, and what is true.
+    """The first page, for those who cite the theorem: whether it stands, by its line `theorem`, and
+    the heaviest errors of section 4 and appendix A, each with its three lines.
     """
     lines = [f"{FIRST}\n", theorem_stands(claims, theorem), ""]
     for claim in what_matters(claims, groups):
@@ -282,7 +283,7 @@ def three_lines_of(
 
 
 def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
-    """Whether the theorem survives, by the line about it."""
+    """The sentence on whether the theorem survives, by its line `theorem`."""
     says = [claim.says for claim in claims if claim.id == opened().theorem.claim]
     if not theorem.startswith(STANDS) or not says:
         return f"The theorem is not certified ({opened().theorem.claim})."
@@ -292,8 +293,8 @@ def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
 
 
 def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Claim]:
-    """The errors that bear on the theorem, by the groups of all: those that break its proof, then
-    the wrong statements of section 4 and appendix A.
+    """The errors that concern the theorem, by the group of each claim: those that break its proof,
+    then the wrong statements of section 4 and appendix A.
     """
     wrong = [claim for claim in claims if group[claim.id] == "statement"]
     return [claim for claim in claims if group[claim.id] == "proof"] + [
@@ -302,12 +303,12 @@ def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Clai
 
 
 def at_a_glance(values: str, numbers: str, words: str) -> str:
-    """The values of a counterexample, the numbers that disagree there, and what is so in words."""
+    """The values of a counterexample, the numbers that disagree there, and the words on it."""
     return " ".join([f"{values}: {numbers}." if numbers else f"{values}.", words]).rstrip()
 
 
 class Line(NamedTuple):
-    """A line of the first page: its title, a formula as LaTeX or nothing, and words."""
+    """A line of the first page: its title, a formula as LaTeX or empty, and words."""
 
     title: str
     words: str
@@ -322,7 +323,7 @@ class Line(NamedTuple):
 def in_three_lines(
     claim: Claim, wrong: Sequence[str], fails: Sequence[str], correction: Correction | None
 ) -> list[Line]:
-    """What is said, why it is wrong, and what is true instead."""
+    """The three lines of a claim: what is said, why it is wrong, and what is true instead."""
     mended = correction["text"] if correction else ""
     latex, words = (mended, "") if correction and is_latex(correction) else ("", mended)
     parts = [words, told(claim.remark) if claim.remark else ""]
@@ -349,8 +350,8 @@ def _row(title: str, text: str) -> str:
 def what_is_wrong(
     entry: Mapping[str, str], sharp: Mapping[str, str], passages: Mapping[str, str] | None = None
 ) -> list[str]:
-    """One line for each reading where there are several, with the passage that prints it so, else
-    one in all; with the alpha for which it holds where that is known.
+    """The fault of a claim: a line for each reading, if there are several, with the passage that
+    prints it so, else one line; with the alpha for which it holds, where that is known.
     """
     detail, verdict = entry.get("detail", ""), entry["verdict"]
     readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
@@ -400,8 +401,8 @@ def counterexample(refutation: object) -> str:
 
 
 class Fails(NamedTuple):
-    """Exact values at which a statement fails, with the part of the claim that it is; what it shows
-    where that is short, the numbers that disagree, and what is so there in words.
+    """A counterexample: the exact values, with the label of the statement that fails; its goal, if
+    that is short; the numbers that disagree; and the sentence in words.
     """
 
     values: str
@@ -420,7 +421,7 @@ class Fails(NamedTuple):
 
 
 def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
-    """Where the refuted statements fail, each values once."""
+    """The counterexamples of the refuted statements; those with equal values are shown once."""
     fails = dict[str, Fails]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
@@ -433,14 +434,14 @@ def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
 
 
 def words_of(text: str, refutation: object, of_paper: bool = True) -> str:
-    """What is so at a rational counterexample, in a line of words; nothing at a root."""
+    """The sentence in words on a rational counterexample; empty where it has a root."""
     point = point_of(text, refutation)
     return "" if point is None else in_words(text, point, of_paper)
 
 
 def numbers_of(text: str, refutation: object) -> str:
-    """What the statement shows, with the numbers of a rational counterexample in place; nothing
-    where there is a choice or a root, or where that is long.
+    """The first false goal of the statement, with the numbers of a rational counterexample in
+    place; empty where it has a root, the statement has `exists`, or the text is long.
     """
     point = point_of(text, refutation)
     lines = [line.partition(" ") for line in text.splitlines()]
@@ -452,8 +453,8 @@ def numbers_of(text: str, refutation: object) -> str:
 
 
 def point_of(text: str, refutation: object) -> dict[str, Fraction] | None:
-    """The values at a rational counterexample, of abbreviations too; None where there is a choice
-    or a root.
+    """The values at a rational counterexample, also of abbreviations; None for a family, and for a
+    counterexample with a root.
     """
     match refutation:
         case [_, [] | (), {**terms}, *_]:
@@ -471,8 +472,7 @@ def point_of(text: str, refutation: object) -> dict[str, Fraction] | None:
 
 
 def goal_of(text: str) -> str:
-    """What the statement shows at a point of its givens, in its own words; nothing where that is
-    long.
+    """The goal of the statement in its own notation; empty where it is long.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
     >>> goal_of(text)

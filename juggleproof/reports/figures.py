@@ -1,6 +1,4 @@
-"""The figures of a report: those that need no claims as they are, and those that show ranges and
-the trap with what they show.
-"""
+"""The figures of a report, and the data of those that show the ranges of claims."""
 
 from __future__ import annotations
 
@@ -22,13 +20,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-# claim (and reading), verdict, range; None where it cannot be drawn
+# claim (and reading), verdict, range; None where the range cannot be drawn
 Row = tuple[str, str, "Sequence[Interval] | None"]
 FORMS = ("svg", "pdf")
 
 
 class Saved(NamedTuple):
-    """A figure as a file, with what stands beside it."""
+    """A figure as a file, with its title, caption and alternative text."""
 
     slug: str
     title: str
@@ -46,8 +44,8 @@ def of_paper() -> tuple[PaperFigure, ...]:
 def figures(
     contents: Contents | None = None, leaving_out: Collection[str] = ()
 ) -> list[tuple[str, str, str, str, Figure]]:
-    """Every figure in order but those left out: slug, title, caption, alternative text and the
-    figure; raises ClaimError where matplotlib is absent.
+    """Slug, title, caption, alternative text and figure of every figure, in order, except those
+    left out; raises ClaimError where matplotlib is absent.
     """
     needed("matplotlib")
     entries = (contents or gather()).entries
@@ -56,9 +54,7 @@ def figures(
 
 
 def rows(entries: Iterable[Judged]) -> list[Row]:
-    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
-    them.
-    """
+    """A row for each range of each claim in which alpha occurs."""
     return [
         (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
         for entry in entries
@@ -73,7 +69,7 @@ def without_alpha(entries: Iterable[Judged]) -> int:
 
 
 def what_ranges_show(entries: Sequence[Judged]) -> tuple[list[Row], int]:
-    """A row for each range, and how many claims have none."""
+    """A row for each range, and the number of claims without a range."""
     return rows(entries), without_alpha(entries)
 
 
@@ -88,10 +84,10 @@ def labels(one: PaperFigure) -> tuple[str, str, str, str]:
 
 
 def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
-    """Every figure in order as a file of this form (svg or pdf); kept beside the records of runs,
-    so that unchanged ones need not be drawn again.
+    """Every figure in order as a file of this form (svg or pdf); they are kept in the cache, so
+    that unchanged ones are not drawn again.
 
-    Raises ClaimError where they must be drawn and matplotlib is absent, or for another form.
+    Raises ClaimError where they must be drawn and matplotlib is absent, and for another form.
     """
     if form not in FORMS:
         raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")

@@ -13,8 +13,8 @@ from functools import cache, partial
 from juggleproof.certificates import checker
 
 # -------------------------------------------------------------------------------------------------
-# How the names of statements are written on paper, in the notation of the paper; names that it
-# lacks are made from their letters.
+# The names of statements in the notation of the paper; names that it lacks are made from their
+# letters.
 #
 # The notation table of a report is this table with its explanations.
 
@@ -60,7 +60,7 @@ NOTATION = (
     ("change_2", r"\Delta_2 E", ""),
 )
 GLYPHS = {name: latex for name, latex, _ in NOTATION}
-# The order in which the paper writes factors, and the addends that hold them: numbers, alpha, and
+# The order in which the paper writes factors, and addends by their factors: numbers, alpha, and
 # then these.
 ORDER = (
     "alpha",
@@ -117,8 +117,8 @@ def glyph(name: str) -> str:
 # Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms and
 # factors in the paper's order.
 #
-# What is printed is read from the text of the statement itself; sums and products are reordered,
-# signs drawn together, and nothing else is changed.
+# The LaTeX is made from the text of the statement itself: sums and products are reordered, signs
+# are collected, and nothing else is changed.
 
 RELATIONS: Mapping[type, str] = {
     ast.Lt: "<",
@@ -138,8 +138,8 @@ ALPHA = frozenset({"alpha"})
 
 
 def latex_of(text: str, like: str = "") -> str:
-    r"""A term or formula of the statement language as LaTeX; `like` is a text whose names lead the
-    order of factors and addends.
+    r"""A term or formula of the statement language as LaTeX; the names in the text `like` come
+    first in the order of factors and addends.
 
     >>> latex_of("beta*g + v^2/2")
     '\\gamma\\bar\\beta + \\frac{1}{2}\\dot{\\bar\\beta}^2'
@@ -159,7 +159,7 @@ def _cached(text: str, like: str) -> str:
 
 
 def names_in_order(text: str) -> list[str]:
-    """The names of a term or formula as they first occur."""
+    """The names of a term or formula in order of first occurrence."""
     names = [
         (node.lineno, node.col_offset, node.id)
         for node in ast.walk(checker.parse(text))
@@ -219,8 +219,8 @@ class _Printer:
         return shown
 
     def addends(self, node: ast.AST) -> list[tuple[bool, str]]:
-        """The addends in the paper's order, each with whether it is taken away; zeros are left out
-        where anything else stands.
+        """The addends in the paper's order, each with whether it is subtracted; zeros are left out
+        unless nothing else remains.
         """
         found = []
         for sign, addend in _numbers_added(_flat_sum(node, 1)):
@@ -250,7 +250,7 @@ class _Printer:
     # ------------------------------------------------------------ products
 
     def product(self, node: ast.AST) -> tuple[str, bool]:
-        """A product or quotient as LaTeX, and whether a minus belongs before it."""
+        """A product or quotient as LaTeX without its sign, and whether it is negative."""
         above, below, number = list[ast.AST](), list[ast.AST](), Fraction(1)
         for factor, inverted in _flat_product(node):
             value = _number(factor)
@@ -345,7 +345,7 @@ class _Printer:
 
 
 def is_bracketed(text: str) -> bool:
-    """Whether one pair of round brackets holds the whole text."""
+    """Whether one pair of round brackets encloses the whole text."""
     depth = 0
     for place, sign in enumerate(text):
         depth += (sign == "(") - (sign == ")")
@@ -359,7 +359,7 @@ def _fraction(above: str, below: str) -> str:
 
 
 def _number(node: ast.AST) -> Fraction | None:
-    """The value of a factor that is a numeral, its negative, or a power of one."""
+    """The value of a factor that is a numeral, a minus sign, or a power of a numeral; else None."""
     if isinstance(node, ast.UnaryOp):
         return Fraction(-1)
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
@@ -403,7 +403,7 @@ def _base(node: ast.AST) -> ast.AST:
 
 
 def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AST]]:
-    """Whole numbers among other addends as one, where the first of them stands."""
+    """The addends with all whole numbers added up, at the place of the first one."""
     places = [place for place, (_, node) in enumerate(addends) if _integer(node) is not None]
     if len(places) < 2 or len(places) == len(addends):
         return addends
@@ -417,7 +417,7 @@ def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AS
 
 
 def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
-    """Powers of one name as one power."""
+    """The factors with all powers of a name multiplied to one power."""
     exponents: dict[str, int] = {}
     others = []
     for factor in factors:
@@ -445,7 +445,7 @@ def _flat_sum(node: ast.AST, sign: int) -> list[tuple[int, ast.AST]]:
 
 
 def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, bool]]:
-    """The factors with whether they divide; a minus stands as the unary operator itself."""
+    """The factors, each with whether it divides; a minus is the unary operator itself."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
         return [
             *_flat_product(node.left, inverted),
@@ -457,11 +457,11 @@ def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, 
 
 
 # -------------------------------------------------------------------------------------------------
-# The notation macros of the LaTeX reports, one for each of the paper's accented names and regions:
-# an author changes them in one place.
+# The notation macros of the LaTeX reports, one for each of the paper's accented names and regions,
+# so that an author can change the notation in one place.
 
 PREFIX = "jug"
-# macro, what it stands for, the ways in which prints and formulas write it
+# macro, its meaning, the ways in which prints and formulas write it
 MACROS = (
     ("speed", r"\dot{\bar\beta}", r"\\dot\{\\bar(?:\{\s*\\beta\}|\s*\\beta)\}"),
     ("height", r"\bar\beta", r"\\bar(?:\{\s*\\beta\}|\s*\\beta(?![A-Za-z]))"),
@@ -480,7 +480,7 @@ _NARROW = re.compile(
 
 
 def narrow(latex: str) -> str:
-    r"""A bar over one letter is \bar.
+    r"""The LaTeX with \bar for each bar over one letter.
 
     >>> narrow(r"\dot{\overline{\beta}} + \overline b")
     '\\dot{\\bar{\\beta}} + \\bar b'
@@ -489,7 +489,7 @@ def narrow(latex: str) -> str:
 
 
 def with_macros(latex: str) -> str:
-    r"""The same LaTeX with the notation macros, and words apart from the formulas beside them.
+    r"""The same LaTeX with the notation macros, and with spaces between words and formulas.
 
     >>> with_macros(r"\gamma\overline{\beta} + \frac{1}{2} \dot{\overline{\beta}}^2")
     '\\juggravity\\jugheight + \\frac{1}{2} \\jugspeed^2'
@@ -504,17 +504,17 @@ def with_macros(latex: str) -> str:
 
 
 def _macro(macro: str, match: re.Match[str]) -> str:
-    """The macro, parted from a letter that follows."""
+    """The macro, with a space before a letter that follows."""
     return macro + (" " if match[2].isalpha() else match[1])
 
 
 def without_macros(latex: str) -> str:
-    r"""The LaTeX with every notation macro replaced by what it stands for.
+    r"""The LaTeX with every notation macro replaced by its meaning.
 
     >>> without_macros(r"\juggravity T")
     '\\gamma T'
     """
     for name, means, _ in MACROS:
-        meaning = means.replace("\\", r"\\")  # a backslash of its own in what replaces
+        meaning = means.replace("\\", r"\\")  # re.sub reads backslashes in the replacement
         latex = re.sub(rf"\\{PREFIX}{name}(?![A-Za-z])", meaning, latex)
     return latex

@@ -1,4 +1,4 @@
-"""Sentences, statements and values, and the picture of a proof tree, as markup of the page."""
+"""The markup of the page for sentences, statements, values and the picture of a proof tree."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ ONE_LINE = {
     "show": 144,
     "with": 144,
     "holds": 144,
-}  # characters of a formula that stands in one line
+}  # the longest formula, in characters, that is kept on one line
 ELSE = 64
 ARROW = r"\mapsto"
 
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a statement: the word for its keyword, and what it says as markup, in parts between
+    """A line of a statement: the word for its keyword, and its content as markup, in parts between
     which a line may break; or names to link to.
     """
 
@@ -67,7 +67,7 @@ def prose(sentence: str) -> str:
 
 
 def line(text: str) -> str:
-    """A line of the program's own output as markup: what stands between backquotes is code."""
+    """A line of the program's own output as markup; text between backquotes is code."""
     return "".join(
         f"<code>{escape(part, quote=False)}</code>" if i % 2 else escape(part, quote=False)
         for i, part in enumerate(text.split("`"))
@@ -81,21 +81,21 @@ def formula(text: str, block: bool = False) -> str:
 
 
 def shown(text: str, longest: int) -> str:
-    """A formula as markup, or as the checker reads it where it is too long for one line: as text it
-    can be broken.
+    """A formula as markup; one that is too long for a line is shown as the checker reads it, since
+    text can be broken.
     """
     return formula(text) if len(text) <= longest else f"<code>{escape(text, quote=False)}</code>"
 
 
 def change(text: str) -> str:
-    """What a correction changes: the letters and signs in it as formulas."""
+    """The description of a correction's change, with its letters and signs as formulas."""
     return "".join(
         mathml(part) if i % 2 else escape(part, quote=False)
         for i, part in enumerate(SIGN.split(text))
     )
 
 
-SIDE = r"-?[\w/()*^]+(?: [+-] [\w/()*^]+)*"  # a term, whose signs stand between spaces
+SIDE = r"-?[\w/()*^]+(?: [+-] [\w/()*^]+)*"  # a term with spaces around its signs
 RANGE = re.compile(
     rf"(?P<point>\bc\d+ = \d\.\d+\.{{3}})|\ba root of (?P<polynomial>{SIDE})"
     rf"|(?P<condition>(?:{SIDE} <=? )?\balpha (?:<=?|>=?|=) {SIDE})|(?P<alpha>\balpha\b)"
@@ -103,10 +103,10 @@ RANGE = re.compile(
 
 
 def ranged(sentence: str) -> str:
-    """A sharp range, or a line with one: conditions on alpha, end points and the polynomials that
-    they are roots of as formulas.
+    """A sharp range, or a line with one, as markup: conditions on alpha, end points and their
+    polynomials are formulas.
 
-    Labels of readings and steps stay as they are.
+    Labels of readings and steps are unchanged.
     """
     shown, at = "", 0
     for match in RANGE.finditer(sentence):
@@ -121,7 +121,7 @@ def ranged(sentence: str) -> str:
 
 
 def polynomial(text: str) -> str:
-    """A polynomial as markup, its terms in the order in which they are written."""
+    """A polynomial as markup, with its terms in their written order."""
     latex = re.sub(
         r"\^(\d+)", r"^{\1}", re.sub(r"[A-Za-z]\w*", lambda name: glyph(name.group()), text)
     ).replace("*", " ")
@@ -132,8 +132,8 @@ ADJOINED = re.compile(r"(\w+) is a root of (.+?) between (\S+) and (\S+?)(?= \w+
 
 
 def values(at: str) -> str:
-    """A counterexample: values of names, and where adjoined roots lie; or a family, by the sign of
-    a polynomial.
+    """A counterexample as markup: the values of names, with the bounds of adjoined roots; or a
+    family, by the sign of a polynomial.
     """
     family = "a family by the sign of "
     if at.startswith(family):
@@ -151,11 +151,10 @@ def values(at: str) -> str:
 
 @cache
 def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
-    """The lines of a statement below its name, each keyword with its formulas; lines of one keyword
-    that follow each other are joined.
+    """The lines of a statement below its name, each keyword with its formulas; successive lines
+    with the same keyword are joined.
 
-    The names that `forall` lists are left out: they are all that stand in the lines.  So is a line
-    that names nothing.
+    The line `forall` is left out, since the other lines have its names.  So is an empty line.
 
     >>> lines_of("statement a/b\\nforall x y\\ngiven x > 0 and y > 1\\ngiven x < y\\nshow x > y")
     [('given', ('x > 0', 'y > 1', 'x < y')), ('show', ('x > y',))]
@@ -213,7 +212,7 @@ def _row(keyword: str, parts: Sequence[str]) -> Row:
 
 
 def _listed(text: str) -> list[str]:
-    """The entries of a list in brackets; a list of one ends with a comma."""
+    """The entries of a list in brackets; a list with one entry ends with a comma."""
     return [part for part in parts_of(text[1:-1]) if part]
 
 
@@ -222,7 +221,9 @@ def _tuple(parts: Sequence[str]) -> str:
 
 
 def named(name: str, value: str) -> str:
-    """A name with its value, a square root, or a root of a polynomial between two bounds."""
+    """A name with its value as markup: a term, a square root, or a root of a polynomial between two
+    bounds.
+    """
     if value.startswith("sqrt(") and value.endswith(")"):
         return mathml(rf"{glyph(name)} = \sqrt{{{latex_of(value[5:-1])}}}")
     if value.startswith("root(") and value.endswith(")"):
@@ -233,7 +234,7 @@ def named(name: str, value: str) -> str:
 
 
 def _apart(text: str, by: str) -> list[str]:
-    """The parts of a text between separators that stand outside of brackets.
+    """The parts of a text between separators, except those inside brackets.
 
     >>> _apart("(a, b)*c, d", ", ")
     ['(a, b)*c', 'd']
@@ -249,7 +250,7 @@ def _apart(text: str, by: str) -> list[str]:
 
 
 def conjuncts(text: str) -> list[str]:
-    """What a formula joins by `and`, each apart.
+    """The parts that a formula joins by `and`.
 
     >>> conjuncts("x > 0 and (y > 0 and z > 0 or x < 1)"), conjuncts("x > 0 and y > 0 or z > 0")
     (['x > 0', '(y > 0 and z > 0 or x < 1)'], ['x > 0 and y > 0 or z > 0'])
@@ -258,7 +259,7 @@ def conjuncts(text: str) -> list[str]:
 
 
 def chained(parts: Sequence[str]) -> list[str]:
-    """A lower bound of a name and then an upper one as one chain.
+    """The conditions, where a lower bound of a name and the upper bound after it become a chain.
 
     >>> chained(["r > 0", "alpha > 0", "alpha < 1", "0 <= t", "t < T"])
     ['r > 0', '0 < alpha < 1', '0 <= t < T']
@@ -280,9 +281,9 @@ def chained(parts: Sequence[str]) -> list[str]:
 
 
 # -------------------------------------------------------------------------------------------------
-# What the letters of a statement stand for.
+# The meanings of the letters in a statement.
 
-LETTERS = {  # names in statements that the notation lacks -> what they stand for
+LETTERS = {  # names in statements that the notation lacks -> their meanings
     "beta0": "height of the ball in another state, b_0",
     "v0": "velocity of the ball in b_0",
     "beta1": "height of the ball in a third state",
@@ -322,13 +323,13 @@ LETTERS = {  # names in statements that the notation lacks -> what they stand fo
     "cosine": "cosine of the angle of the table's sine at the impact",
     "sine": "sine of that angle",
 }
-WHOLE = ("whole number", "whole numbers")  # of one letter, and of several
+WHOLE = ("whole number", "whole numbers")  # for one letter, and for several
 ANY = ("any number that meets what is given", "any numbers that meet what is given")
 
 
 def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[str, str]]:
-    """Each letter of the statements with its meaning; those without one are whole numbers, or any
-    numbers, for which the statement holds or fails.
+    """Each letter of the statements with its meaning; letters without one are grouped as whole
+    numbers, and as any numbers that meet what is given.
     """
     lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
     listed = {
@@ -347,7 +348,7 @@ def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[s
 
 
 def letters(names: Collection[str], with_notation: bool = True) -> list[tuple[str, str]]:
-    """Those of the names that have a meaning throughout, as markup, with it."""
+    """The names that have a fixed meaning, as markup, each with its meaning."""
     notation = {name: meaning for name, _, meaning in NOTATION if with_notation and meaning}
     return [
         (mathml(glyph(name)), meaning)
@@ -357,17 +358,18 @@ def letters(names: Collection[str], with_notation: bool = True) -> list[tuple[st
 
 
 def is_meant(name: str, names: Collection[str]) -> bool:
-    """Whether a name stands for what the notation says: x, w and u do so together only."""
+    """Whether a name has the meaning of the notation; x, w and u have it only beside x and w."""
     return name not in ("x", "w", "u") or {"x", "w"} <= set(names)
 
 
 # -------------------------------------------------------------------------------------------------
-# The picture of a proof tree: rules in layers, each above what it rests on, as SVG whose boxes are
-# links.
+# The picture of a proof tree: rules in layers, each above the rules that it rests on, as SVG whose
+# boxes are links.
 #
-# The layout is a small layered drawing: a node's layer is the longest way down to it; a line that
-# passes a layer takes a place in it; the order in a layer follows the neighbours' middles; places
-# are moved towards the neighbours as far as the order allows. Same nodes, same bytes.
+# The layout is a layered drawing: a node's layer is the length of the longest path down to it; a
+# line that passes a layer takes a place in it; the order in a layer follows the neighbours'
+# middles; places are moved towards the neighbours as far as the order allows. Equal nodes give
+# equal bytes.
 
 LETTER, LINE, CHIP, PAD, GAP, RISE = 7.0, 18, 24, 10, 28, 44
 THROUGH = 12.0  # the width of a line that passes a layer
@@ -377,7 +379,7 @@ MARKS = {"certified": "✓", "refuted": "✗", "unknown": "?"}
 
 @dataclass(frozen=True)
 class Chip:
-    """A premise: its label, where it leads, and its outcome."""
+    """A premise: its label, its link, and its outcome."""
 
     label: str
     link: str
@@ -386,8 +388,8 @@ class Chip:
 
 @dataclass(frozen=True)
 class Node:
-    """A rule or statement: lines of text, where it leads, its outcome, its premises, and the names
-    of what it rests on.
+    """A rule or statement: its lines of text, its link, its outcome, its premises, and the names of
+    the nodes that it rests on.
     """
 
     name: str
@@ -400,12 +402,12 @@ class Node:
 
     @property
     def columns(self) -> int:
-        """Premises stand in one, two or three columns."""
+        """The number of columns of premises: one, two or three."""
         return 1 + (len(self.chips) > 2) + (len(self.chips) > 8)
 
     @property
     def chip_width(self) -> float:
-        """As wide as the longest label asks for."""
+        """The width of a premise, which fits the longest label."""
         return max((len(chip.label) for chip in self.chips), default=0) * LETTER + 34
 
     @property
@@ -428,8 +430,8 @@ class Node:
 
 @dataclass
 class _Place:
-    """A node, or the stretch of a line that passes its layer, with the places that it is joined to
-    above and below.
+    """A place in a layer, for a node or for a line that passes the layer, with the places above and
+    below that it is joined to.
     """
 
     layer: int
@@ -441,7 +443,7 @@ class _Place:
 
 
 def picture(nodes: Sequence[Node], title: str) -> str:
-    """The SVG; what is named below a node and is no node itself is left out."""
+    """The SVG of the nodes; names below a node that are not nodes themselves are left out."""
     rows = _laid_out(nodes)
     heights = [max((place.node.height for place in row if place.node), default=0.0) for row in rows]
     tops = [PAD + sum(heights[:i]) + i * RISE for i in range(len(rows))]
@@ -459,7 +461,7 @@ def picture(nodes: Sequence[Node], title: str) -> str:
 
 
 def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
-    """The longest way from a node that nothing rests on; raises ValueError for a circle.
+    """The length of the longest path to each node from above; raises ValueError for a cycle.
 
     >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
     >>> depths([a, b, Node("c", "", "", "", "")])
@@ -532,8 +534,8 @@ def _middle(values: Sequence[float], otherwise: float) -> float:
 
 
 def _set_apart(row: Sequence[_Place], wanted: Sequence[float]) -> None:
-    """Puts each place close to where it is wanted, in order and without overlap: the mean of
-    pushing rightwards and pushing leftwards.
+    """Puts each place close to its wanted position, in order and without overlap: at the mean of
+    the positions by pushing all to the right and by pushing all to the left.
     """
     if not row:
         return

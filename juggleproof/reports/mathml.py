@@ -1,9 +1,9 @@
-"""LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script; what
-is not known is an error, never left out.
+"""LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script.  An
+unknown command is an error; nothing is left out.
 
-latex2mathml converts. It draws a command that it does not know as text, passes over environments
-and comments, and takes words apart into letters: so a formula may have only what is listed here,
-is spelled as latex2mathml draws it right, and its operators are then set as MathML Core needs it.
+latex2mathml converts. It draws an unknown command as text, skips environments and comments, and
+splits words into letters.  So a formula may have only the tokens listed here; it is first spelled
+in a form that latex2mathml draws correctly, and then its operators are set as MathML Core needs it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from juggleproof.judging.extras import needed
 from juggleproof.statements.language import ClaimError
 
 # -------------------------------------------------------------------------------------------------
-# What a formula may have.
+# The tokens that a formula may have.
 
 COMMANDS = frozenset(
     r"""
@@ -71,19 +71,19 @@ def _checked(latex: str) -> list[str]:
 
 
 # -------------------------------------------------------------------------------------------------
-# How it is spelled for latex2mathml, and how its markup is set.
+# The spelling for latex2mathml, and the changes to its markup.
 
 SPELLED = (
     (re.compile(r":="), r"\\coloneq "),
-    (re.compile(r"\\text\{\s*([^{}]*?)\s*\}"), r"\\text{ \1 }"),  # words keep their distance
+    (re.compile(r"\\text\{\s*([^{}]*?)\s*\}"), r"\\text{ \1 }"),  # spaces around words
     (re.compile(r"\\mathrm\{([^{}]+)\}"), r"\\text{\1}"),  # a word is one element
     (re.compile(r"\\mathit\{([^{}]+)\}"), r"\\textit{\1}"),
     (re.compile(r"([_^])\{\\(lim|max|min|sup|inf)\}"), r"\1{\\text{\2}}"),
     (re.compile(r"\\(lim|max|min|sup|inf)\s*_"), r"\\\1\\limits_"),
     (re.compile(r"(\\begin\{[bp]matrix\}.*?\\end\{[bp]matrix\})"), r"{\1}"),
 )
-OPERATORS = frozenset(":¬′⟹⟺⌊⌋⌈⌉⟨⟩±⧵…")  # which latex2mathml takes for names
-NAMES = frozenset("∂∞∅")  # and these for operators
+OPERATORS = frozenset(":¬′⟹⟺⌊⌋⌈⌉⟨⟩±⧵…")  # latex2mathml takes these for names
+NAMES = frozenset("∂∞∅")  # latex2mathml takes these for operators
 UPRIGHT = frozenset("ΓΔΘΛΞΠΣΦΨΩ∂∞∅")  # set upright by TeX
 PREFIX = frozenset("+−±")  # written closer to what follows where no operand stands before them
 CLOSING = frozenset(")]}|!⌋⌉⟩′")
@@ -94,7 +94,7 @@ CHILDREN = {"mfrac": 2, "msup": 2, "msub": 2, "msubsup": 3, "mover": 2, "munder"
 def mathml(latex: str, block: bool = False) -> str:
     r"""The formula as one <math> element, with its LaTeX as alternative text.
 
-    Raises ClaimError, one line, where any of it is not known.
+    Raises ClaimError, one line, for an unknown token.
 
     >>> mathml("x_1 < -2")  # doctest: +NORMALIZE_WHITESPACE
     '<math alttext="x_1 &lt; -2"><msub><mi>x</mi><mn>1</mn></msub><mo>&lt;</mo><mo
@@ -114,9 +114,9 @@ def mathml(latex: str, block: bool = False) -> str:
 
 
 def _spelled(tokens: list[str]) -> str:
-    """The formula as latex2mathml draws it right: one table where it has several lines.
+    """The formula in a form that latex2mathml draws correctly; several lines become one table.
 
-    Outside of an environment a mark of alignment means nothing, and a line's end at the end too.
+    Outside of an environment, alignment marks are dropped, and so are line ends at the end.
     """
     lines, depth = [""], 0
     for token in tokens:
@@ -137,8 +137,8 @@ def _spelled(tokens: list[str]) -> str:
 
 
 def _set(element: Element) -> None:
-    """Sets an element and all in it as MathML Core needs it; raises ValueError where an element
-    lacks a part.
+    """Changes an element and its descendants as MathML Core needs it; raises ValueError where an
+    element lacks a part.
     """
     element.text = text = unescape(element.text or "")
     if element.tag == "mi" and text in OPERATORS:
@@ -154,24 +154,24 @@ def _set(element: Element) -> None:
     if text == "/":
         element.attrib.update(lspace="0", rspace="0")
     for fence in [child for child in element if child.tag == "mo" and not child.text]:
-        element.remove(fence)  # what \left. and \right. leave
+        element.remove(fence)  # \left. and \right. leave an empty operator
     if len(element) != CHILDREN.get(element.tag, len(element)):
         raise ValueError("it ends too early")
     for at, child in enumerate(element):
         _set(child)
         if child.tag == "mrow" and len(child) == 1:
             element[at] = child[0]
-    if element.tag == "mover":  # nothing but accents is put above
+    if element.tag == "mover":  # only accents stand above
         element.set("accent", "true")
         element[1].text = (element[1].text or "").translate({ord("―"): "‾", ord("¯"): "‾"})
         if element[1].text == "‾":
-            element[1].attrib.pop("stretchy", None)  # MathML Core stretches it unless told not to
+            element[1].attrib.pop("stretchy", None)  # MathML Core stretches it by default
     for row in [[child] for child in element] if element.tag in CHILDREN else [element]:
         _set_prefixes(row)
 
 
 def _set_prefixes(row: Iterable[Element]) -> None:
-    """Marks each sign before which no operand stands."""
+    """Marks each sign without an operand before it as a prefix."""
     follows = False
     for child in row:
         if child.tag == "mo" and child.text in PREFIX and not follows:

@@ -38,11 +38,10 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 # -------------------------------------------------------------------------------------------------
-# What the page shows of the contents: words, marks and links for the templates, which hold no logic
-# of their own.
+# The words, marks and links of the page for the templates, which hold no logic of their own.
 
-# characters: a longer certificate is shown in the theorem's tree only, and else named by where
-# it stands
+# characters of a certificate: a longer one is shown only in the theorem's tree; elsewhere the page
+# names its file
 LONGEST = 300
 MARKS_OF_VERDICTS = dict(zip(VERDICTS, "✓✎✗⋯⇄≈?"))
 
@@ -66,13 +65,13 @@ class Statement:
     stands_in: str
 
 
-Line = tuple[str, str]  # a keyword and one thing that it says
+Line = tuple[str, str]  # a keyword and one of its formulas or names
 
 
 def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) -> Statement:
-    """A statement for the page; a long certificate is left to the store unless the whole is wanted.
+    """A statement for the page; a long certificate is left out unless `whole` is set.
 
-    Lines that it shares with all statements of its claim are left out: they stand before.
+    The `shared` lines of all statements of the claim are left out, since the page shows them once.
     """
     text = certificate_text(shown.certificate)
     refuted = shown.outcome == "refuted"
@@ -104,8 +103,8 @@ SHARED = ("given", "let", "root")
 
 
 def shared_lines(statements: Sequence[Shown]) -> list[Line]:
-    """What all statements of a claim assume, where there are several; rules and sharp ranges assume
-    nothing.
+    """The lines that all statements of a claim assume, if there are several; rules and sharp ranges
+    are not counted.
     """
     assumed = [
         [
@@ -123,7 +122,7 @@ def shared_lines(statements: Sequence[Shown]) -> list[Line]:
 
 
 def _false_there(text: str) -> str:
-    """What is false at a counterexample, as markup; nothing where it is long."""
+    """The goal that is false at a counterexample, as markup; empty where it is long."""
     goal = goal_of(text)
     if not goal or "\nexists " in text:
         return markup.prose(goal)
@@ -140,7 +139,7 @@ def certificate_text(certificate: object) -> str:
 
 @dataclass(frozen=True)
 class ClaimView:
-    """A claim for the page; markup where formulas stand in it."""
+    """A claim for the page; fields with formulas are markup."""
 
     entry: Entry
     place: str
@@ -166,7 +165,7 @@ class ClaimView:
 
     @property
     def refuted(self) -> list[Statement]:
-        """The refuted statements, each counterexample once."""
+        """The refuted statements, without those that repeat a counterexample."""
         by_values: dict[tuple[str, str], Statement] = {}
         for one in self.statements:
             if one.outcome == "refuted":
@@ -175,12 +174,12 @@ class ClaimView:
 
     @property
     def own_letters(self) -> list[tuple[str, str]]:
-        """The letters of the first counterexample that the notation lacks."""
+        """The letters of the first refuted statement that the notation lacks, with meanings."""
         return markup.letters_of([one.text for one in self.refuted[:1]], with_notation=False)
 
     @property
     def outcomes(self) -> str:
-        """How many statements came to which outcome."""
+        """The number of statements by outcome, as text."""
         counts = {
             word: sum(one.outcome == word for one in self.statements)
             for word in ("certified", "refuted", "unknown")
@@ -189,7 +188,7 @@ class ClaimView:
 
 
 def view_of(entry: Entry) -> ClaimView:
-    """One claim for the page."""
+    """The view of one claim for the page."""
     claim, corrected, change = entry.claim, "", ""
     shared = shared_lines(entry.statements)
     if entry.correction:
@@ -218,9 +217,9 @@ def view_of(entry: Entry) -> ClaimView:
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived expression: its anchor, the paper's name for it, what it is, its equation as
-    markup (none where it is too long to be read), its entries as text, its letters, and what it is
-    made from.
+    """A derived expression: its anchor, the paper's name for it, its title, its equation as markup
+    (empty where it is too long to be read), its entries as text, its letters, and the derivations
+    that it uses.
     """
 
     anchor: str
@@ -233,7 +232,7 @@ class Derived:
 
 
 def derivations(contents: Contents) -> list[Derived]:
-    """Every derived expression once."""
+    """The derived expressions, each once."""
     titles = {one.function: markup.prose(one.title) for one in contents.derivations}
     texts = {
         one.function: one.line.rpartition(f"{one.sentence} ")[2] for one in contents.derivations
@@ -253,7 +252,7 @@ def derivations(contents: Contents) -> list[Derived]:
 
 
 def anchor(function: str) -> str:
-    """Where a derivation stands in the page.
+    """The anchor of a derivation in the page.
 
     >>> anchor("controlled_step(u, t)")
     'derived-controlled_step-u-t'
@@ -290,12 +289,12 @@ def _rows(lines: Sequence[Line]) -> list[markup.Row]:
 
 
 def section_title(section: str) -> str:
-    """The heading of a section: the paper's have numbers, ours have words."""
+    """The heading of a section: with its number for the paper's, in words for ours."""
     return f"Section {section}" if re.match(r"[A-Z0-9]", section) else section.capitalize()
 
 
 def sections(contents: Contents) -> list[tuple[str, list[ClaimView]]]:
-    """The claims by section, in the paper's order, what the paper lacks behind it."""
+    """The claims by section, in the paper's order; sections that the paper lacks come last."""
     by_section: dict[str, list[ClaimView]] = {}
     for entry in contents.entries:
         by_section.setdefault(entry.claim.section, []).append(view_of(entry))
@@ -329,9 +328,7 @@ def errata(
 
 @dataclass(frozen=True)
 class Panel:
-    """A rule of the theorem's tree, or a statement that it uses, with what it gives and its
-    premises.
-    """
+    """A rule of the theorem's tree, with its conclusion in the checker's words and its premises."""
 
     name: str
     title: str
@@ -344,7 +341,7 @@ class Panel:
 
 
 def panels(rules: Sequence[Rule]) -> list[Panel]:
-    """The rules with all that proves them; what a rule gives is in the checker's own words."""
+    """The panels of the rules; `gives` is the checker's own docstring of the rule."""
     return [
         Panel(
             rule.name,
@@ -361,9 +358,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
 
 
 def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
-    """The picture of the theorem's tree; statements that a rule uses stand in it beside the
-    rules.
-    """
+    """The picture of the theorem's tree; it also has the statements that rules use."""
     if not rules:
         return ""
     nodes = [
@@ -395,9 +390,9 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
 # -------------------------------------------------------------------------------------------------
 # The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG.
 #
-# What stands in the page is the theorem with its proof, the errata, and everything else as a list.
-# The parts behind the list are data in the page, compressed, that a script puts in their places
-# when they are opened: as elements they would be ten times all the rest.
+# The page has the theorem with its proof, the errata, and everything else as a list.  The parts
+# behind the list are compressed data, which a script puts in place when a part is opened: as
+# elements they would be ten times as large as all the rest.
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
@@ -408,7 +403,7 @@ TRAP = "fig-trap"  # the figure that the written proof shows
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure as it stands in the page: SVG that bears its own title and description."""
+    """A figure of the page: SVG that contains its own title and description."""
 
     slug: str
     title: str
@@ -432,7 +427,7 @@ def pictures(contents: Contents) -> list[Picture]:
 
 
 def scene_picture(scene: Results | None) -> list[Picture]:
-    """Figure 2 as it stands in the page; none where it was not drawn."""
+    """Figure 2 for the page; none where it was not drawn."""
     if scene is None or not scene.figure:
         return []
     slug, title, caption, alt = (scene.figure[key] for key in ("slug", "title", "caption", "alt"))
@@ -457,8 +452,8 @@ def _environment() -> Environment:
 
 
 def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
-    """The page, the same to the byte for the same contents; `scene` is what the part on the
-    vibrating table did.
+    """The page, the same to the byte for the same contents; `scene` has the kept results of the
+    part on the vibrating table.
 
     Raises ClaimError, one line, where a formula cannot be shown.
     """
@@ -475,9 +470,9 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
 
 
 def packed(parts: Mapping[str, str]) -> str:
-    """Named parts of the page, and apart from them their formulas and the outlines of pictures,
-    each once, as JSON that is compressed (RFC 1950) and in base 85 (signs from ! to v but <, with
-    which markup could begin): where one stands in a part, its number stands after #.
+    """The named parts of the page as JSON that is compressed (RFC 1950) and in base 85, with the
+    characters from ! to v without <, which could begin markup.  Formulas and outlines of pictures
+    are stored once, apart from the parts; a part has # and their number in their place.
     """
     shared = dict[str, int]()
     numbered = {

@@ -1,5 +1,5 @@
-"""The part-orienting scene in reports: the tables that `simulate part` prints, and results that are
-kept for the page.
+"""The part-orienting scene in reports: the tables that `simulate part` prints, and the results that
+are kept for the page.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from juggleproof.scenes.part.readings import (
 from juggleproof.scenes.part.setting import Scene
 
 # -------------------------------------------------------------------------------------------------
-# What `juggleproof simulate part` prints.
+# The tables that `juggleproof simulate part` prints.
 
 POINT_HEADS = (
     "face amplitudes    phases        e     mu   log-likelihood: last, first, stopped;"
@@ -79,13 +79,13 @@ def _console() -> Console:
 
 
 def seconds(value: float, horizon: float) -> str:
-    """An onset, or that it is later than the run is long."""
+    """The text of an onset, or `> horizon` where the run ends before it."""
     return f"> {horizon:g}" if math.isinf(value) else f"{value:.2f}"
 
 
 def line(row: Row) -> tuple[str, ...]:
-    """A row of table I: vibration, the paper's onset, median, 16 to 84 percent, chaotic, censored,
-    and the verdict by the rule.
+    """A row of table I: vibration, the paper's onset, median or `chaotic`, 16 to 84 percent, and
+    the numbers of chaotic and of censored ensembles.
     """
     parts = [seconds(row.quantile(part), row.horizon) for part in (0.5, 0.16, 0.84)]
     verdict = "chaotic" if row.is_chaotic() else f"{parts[0]} s"
@@ -100,7 +100,7 @@ def line(row: Row) -> tuple[str, ...]:
 
 
 def table(computed: Table, setting: Scene, amplitudes: str) -> None:
-    """Table I beside the paper's, what it assumes, and where it differs."""
+    """Prints table I beside the paper's, its assumptions, and the rows that differ."""
     count = len(computed.rows[0].chaotic)
     print(
         f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks,"
@@ -132,7 +132,9 @@ def table(computed: Table, setting: Scene, amplitudes: str) -> None:
 
 
 def violations(run: Run, setting: Scene) -> bool:
-    """Tells how often guarantees of the impact law and of depth were broken; whether any was."""
+    """Prints how often guarantees of the impact law and of depth were broken; returns whether any
+    was.
+    """
     broken = run.violations()
     deepest = -float(run.notes[:, body.LEAST_GAP].min())
     print(
@@ -148,7 +150,7 @@ def violations(run: Run, setting: Scene) -> bool:
 
 
 def point(one: Point) -> str:
-    """A point of a sweep in one line."""
+    """The line of a point of a sweep."""
     rows = "  ".join(
         f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.last, one.chaotic)
     )
@@ -160,7 +162,9 @@ def point(one: Point) -> str:
 
 
 def likeliest(stages: Sequence[Stage]) -> str:
-    """The most likely point of a sweep, its onset, and how many are as likely within scatter."""
+    """A line on the most likely point of a sweep, the way to read its onset, and the number of
+    points that are as likely within scatter.
+    """
     best = most_likely_point(stages)
     rule = ONSETS[best.likelihoods.index(best.likelihood)]
     return (
@@ -171,8 +175,8 @@ def likeliest(stages: Sequence[Stage]) -> str:
 
 
 def followed() -> list[list[str]]:
-    """The readings of the last stage that is stored, the likeliest first: name, and the logarithm
-    of the likelihood by each way to read an onset.
+    """The readings of the last stored stage, the likeliest first: name, and the logarithm of the
+    likelihood by each way to read an onset.
     """
     return [
         [name_of(one), *(f"{lnl:.2f}" for lnl in one.likelihoods)]
@@ -190,11 +194,11 @@ def name_of(one: Point) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# What the page shows of the part-orienting scene: results of `simulate part`, kept beside the
-# records of runs while the sources are the same.
+# The results of `simulate part` for the page; they are kept in the cache while the sources are the
+# same.
 #
-# They are simulated, not proved; a report never computes them, so that it needs neither numba nor
-# the time.
+# They are simulated, not proved.  A report never computes them, since this needs numba and takes
+# long.
 
 SWEEP = (
     Path(__file__).resolve().parents[1] / "scenes" / "part" / "sweep.json"
@@ -206,9 +210,9 @@ Lines = Sequence[Sequence[str]]
 
 @dataclass(frozen=True)
 class Results:
-    """Table I and what belongs to it, in words: its rows as `HEADS` says, the rules they are judged
-    by, assumptions (name, value, standing, why), the logarithm of its likelihood, and the likeliest
-    readings that are stored with theirs.
+    """The results of table I as texts: its rows (columns `HEADS`), the rules for judging them, the
+    assumptions (name, value, standing, why), the logarithm of its likelihood, and the likeliest
+    stored readings with theirs.
     """
 
     run: str
@@ -227,14 +231,14 @@ class Results:
 
 
 def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
-    """Whether a run of table I is the one that the report shows: nothing chosen, the
-    reading that is stored, full ensembles.
+    """Whether a run of table I is the one that the report shows: the likeliest stored reading, full
+    ensembles, and no other choices.
     """
     try:
         likely = chosen(recorded()).reading
-    except SceneError:  # no sweep is stored, or none that can be read
+    except SceneError:  # no readable sweep is stored
         return False
-    # table I has its own vibrations along the table
+    # table I takes the vibrations along the table from its rows
     wanted = likely.scene(A_x=setting.A_x, f_x=setting.f_x)
     return (setting, amplitudes, seed) == (wanted, likely.amplitudes, SEED) and all(
         (len(row.chaotic), row.horizon) == (ENSEMBLES, HORIZON) for row in computed.rows
@@ -242,7 +246,7 @@ def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int
 
 
 def results(setting: Scene, computed: Table, amplitudes: str) -> Results:
-    """A run in words, with figure 2 and the still table of the same scene."""
+    """The results of a run as texts, with figure 2 and the still table of the same scene."""
     first = computed.rows[0]
     return Results(
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
@@ -260,7 +264,7 @@ def results(setting: Scene, computed: Table, amplitudes: str) -> Results:
 
 
 def figure_two(setting: Scene, peak: float) -> dict[str, str]:
-    """Figure 2 with what stands beside it; nothing where matplotlib is absent."""
+    """Figure 2 with title, caption and alternative text; empty where matplotlib is absent."""
     if find_spec("matplotlib") is None:
         return {}
     from juggleproof.scenes.part import picture
@@ -277,7 +281,7 @@ def figure_two(setting: Scene, peak: float) -> dict[str, str]:
 
 
 def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
-    """Keeps what the report shows of a run of table I, where it is the report's; whether it is."""
+    """Keeps the results of a run of table I if the report shows it; returns whether it does."""
     if report_cache.folder() is None or not is_of_the_report(setting, computed, amplitudes, seed):
         return False
     report_cache.keep(key(), [asdict(results(setting, computed, amplitudes))])
@@ -285,7 +289,7 @@ def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) ->
 
 
 def kept_results() -> Results | None:
-    """What a run kept under the sources and the sweep as they are; None where there is no such
+    """The results that a run with the present sources and sweep kept; None where there is no such
     run.
     """
     records = report_cache.load(key()) if report_cache.folder() else []
@@ -296,8 +300,8 @@ def kept_results() -> Results | None:
 
 
 def key() -> str:
-    """Under which results are kept: a digest of the sources, the stored sweep and the libraries
-    that compute and draw.
+    """The key under which results are kept: a digest of the sources, the stored sweep and the
+    libraries that compute and draw.
     """
     sweep = hashlib.sha256(SWEEP.read_bytes()).hexdigest() if SWEEP.is_file() else ""
     return "part-" + report_cache.key(

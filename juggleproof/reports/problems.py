@@ -19,7 +19,7 @@ COLOURS = {"unsat": "green", "sat": "cyan", "unknown": "bold red"}
 
 
 def settled_by(one: Answered) -> str:
-    """What settles a problem: a certificate, an exact model, or why nothing does."""
+    """The evidence for an answer: a certificate or an exact model; or the reason for unknown."""
     if one.answer.word == "unsat":
         return "certificate"
     if one.answer.word == "unknown":
@@ -42,7 +42,7 @@ def rows(answered: Sequence[Answered]) -> list[tuple[str, str, str]]:
 
 
 def draw(answered: Sequence[Answered], console: Console | None = None) -> None:
-    """Draws the table on a terminal; plain columns, one row a line, where there is none."""
+    """Draws the table on a terminal; prints plain columns, one row a line, elsewhere."""
     if console is None and sys.stdout is not None and sys.stdout.isatty():
         console = import_module("rich.console").Console(highlight=False)
     if console is None or not console.is_terminal:
@@ -56,7 +56,7 @@ def draw(answered: Sequence[Answered], console: Console | None = None) -> None:
 
 
 def summary(answered: Sequence[Answered]) -> str:
-    """How many problems have which answer."""
+    """The number of problems by answer, as text."""
     words = [one.answer.word for one in answered]
     wrong = sum(one.contradicts for one in answered)
     counted = ", ".join(f"{words.count(word)} {word}" for word in ("unsat", "sat", "unknown"))
@@ -66,7 +66,7 @@ def summary(answered: Sequence[Answered]) -> str:
 
 
 def data(one: Answered) -> dict[str, Json]:
-    """An answer for other programs."""
+    """An answer as data for other programs."""
     return {
         "file": one.path.name,
         "line": one.problem.line,

@@ -45,7 +45,7 @@ from juggleproof.statements.store import Store
 # The table of results, as rows of text and as it is drawn on a terminal.
 
 COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
-OWN_COLUMNS = (*COLUMNS[:-1], "sharp range")  # of claims of one's own, whose cells name parameters
+OWN_COLUMNS = (*COLUMNS[:-1], "sharp range")  # for a user's claims, whose cells name the parameters
 COLOURS = {
     "holds": "green",
     "misprint": "yellow",
@@ -58,8 +58,8 @@ COLOURS = {
 
 
 def counted(outcomes: Mapping[str, str]) -> list[str]:
-    """How many statements of a claim, its corrections apart, have a certificate, how many a
-    counterexample, and how many are open.
+    """The numbers of statements of a claim with a certificate, with a counterexample, and open, as
+    texts; statements of its correction are not counted.
 
     >>> outcomes = {"a/x": "certified", "a/y": "refuted", "a/z": "certified"}
     >>> counted({**outcomes, "a/corrected.x": "certified"})
@@ -76,7 +76,9 @@ def counted(outcomes: Mapping[str, str]) -> list[str]:
 
 
 def settled_by(judgement: Judgement) -> str:
-    """How a claim was settled: certificates, counterexamples, and the votes of the other routes."""
+    """The evidence for a verdict: the numbers of certificates and counterexamples, the votes of the
+    other routes, map rules, and another checker.
+    """
     parts = counted(judgement.outcomes)
     votes = [
         vote for name, cast in judgement.votes.items() if "/corrected." not in name for vote in cast
@@ -94,18 +96,18 @@ NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
 
 
 def is_of_paper(claim: Claim) -> bool:
-    """Whether a claim is the paper's, and not of one's own."""
+    """Whether a claim is the paper's, and not a user's."""
     return claim.is_of_package
 
 
 def locator(claim: Claim) -> str:
-    """Where the claim stands, as a reader of the paper finds it; as it says, for one's own."""
+    """The place of a claim, as a reader of the paper finds it; for a user's claim, as it states."""
     return place_of(claim) if is_of_paper(claim) else f"{claim.section} {claim.place}".strip()
 
 
 def source_of(claim: Claim) -> tuple[str, int]:
-    """File and line of a claim: of the paper's in this project's tree, wherever that is; of one's
-    own relative to the working directory where it is below it.
+    """File and line of a claim; the file is relative to this project's tree if it is in it, else to
+    the working directory if it is below that.
     """
     file, _, line = claim.where.rpartition(":")
     path = Path(file).absolute()
@@ -115,8 +117,8 @@ def source_of(claim: Claim) -> tuple[str, int]:
 
 
 def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
-    """The sharp range, or each reading's; that there is none, for a claim of one's own without the
-    name of the paper's parameter.
+    """The sharp range, or that of each reading; where there is none, a text that names the
+    parameter only for the paper's claims.
     """
     if not judgement.sharp:
         return NO_RANGE if claim is None or is_of_paper(claim) else NO_OWN_RANGE
@@ -128,7 +130,7 @@ def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
 
 
 def reading_of(body: Body) -> str:
-    """How the statements of a body make up the claim, in a few words."""
+    """The kind of a body, in a few words."""
     if isinstance(body, Assertion):
         return "asserts " + (f"{len(body.parts)} statements" if body.parts[1:] else "one statement")
     if isinstance(body, Readings):
@@ -180,7 +182,7 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
 
 
 def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Console) -> None:
-    """Draws the table on a terminal; plain columns, one row a line, where there is none."""
+    """Draws the table on a terminal; prints plain columns, one row a line, elsewhere."""
     columns = COLUMNS if any(map(is_of_paper, claims)) else OWN_COLUMNS
     if not console.is_terminal:
         print(plain([columns, *rows(claims, judgements)]))
@@ -202,7 +204,7 @@ def _many(count: int, thing: str) -> str:
 
 
 def summary(judgements: Sequence[Judgement]) -> str:
-    """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
+    """The numbers of claims by verdict, of statements by outcome, and of decided votes by route."""
     verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in VERDICTS]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
     words = OUTCOMES if "rejected" in outcomes else OUTCOMES[:-1]
@@ -233,10 +235,10 @@ def summary(judgements: Sequence[Judgement]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# What a run found, as plain text and data: the one thing that JSON, JUnit, Markdown and the badge
-# are made of.
+# The results of a run as plain text and data, from which JSON, JUnit, Markdown and the badge are
+# made.
 #
-# It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the
+# They are gathered from a run (`certify`, pytest) or from the contents of a report, and are the
 # same for both.
 
 OUTCOMES = ("certified", "refuted", "unknown", "rejected")
@@ -245,8 +247,8 @@ NO_VALUES = "every value: the negation is certified"
 
 @dataclass(frozen=True)
 class Stated:
-    """A statement of a claim: the text that the checker reads, its outcome, the votes by route,
-    where it fails, and what is so there in words; of an open one these say why it is open.
+    """A statement of a claim: the text that the checker reads, its outcome, the votes by route, the
+    counterexample (`at`), and a sentence on it, or the reason why it is open (`words`).
     """
 
     name: str
@@ -259,8 +261,8 @@ class Stated:
 
 @dataclass(frozen=True)
 class Result:
-    """A claim as it was judged; `wrong` and `group` show what is not simply true, as `errata`
-    does; `source` is the file and line that it stands in.
+    """The result for a claim; `wrong` and `group` are its faults and its group in the errata;
+    `source` is its file and line.
     """
 
     id: str
@@ -285,11 +287,11 @@ class Result:
 
     @property
     def is_open(self) -> bool:
-        """Whether it is stated and not settled."""
+        """Whether the claim is stated but not settled."""
         return self.verdict == "unknown" and not self.detail.startswith(NOT_FORMALISED)
 
     def registered(self) -> dict[str, str]:
-        """What the register keeps of it."""
+        """The entry of the register for the claim."""
         return registered(
             self.verdict,
             self.detail,
@@ -298,9 +300,7 @@ class Result:
         )
 
     def sharp_by_reading(self) -> dict[str, str]:
-        """The sharp range of every reading or step; under no name where the claim has one reading
-        only.
-        """
+        """The sharp range by reading or step; the name is empty where the claim has one reading."""
         parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
         if self.sharp in NO_RANGES:
             return {}
@@ -309,11 +309,11 @@ class Result:
 
 @dataclass(frozen=True)
 class Results:
-    """All results of a run; `own` where they are about files of the user's, which no register
-    knows.
+    """The results of a run; `own` says that they are about a user's files, for which there is no
+    register.
 
-    `rejected` are statements that the checker rejects, with its reason; `accepted` says that the
-    changes are in the register now.
+    `rejected` are statements that the checker rejects, each with the reason; `accepted` says that
+    the changes have been written to the register.
     """
 
     claims: tuple[Result, ...]
@@ -332,8 +332,8 @@ class Results:
 
     @property
     def exit(self) -> int:
-        """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's
-        own hold, and nothing is rejected.
+        """The exit code of `certify`: 0 where nothing is rejected, and all verdicts are as
+        registered, or all claims of a user hold; else 1.
         """
         if self.rejected:
             return 1
@@ -344,12 +344,12 @@ class Results:
         )
 
     def verdicts(self) -> dict[str, int]:
-        """How many claims have each verdict."""
+        """The number of claims by verdict."""
         counts = Counter(one.verdict for one in self.claims)
         return {word: counts[word] for word in VERDICTS}
 
     def outcomes(self) -> dict[str, int]:
-        """How many statements have each outcome."""
+        """The number of statements by outcome."""
         counts = Counter(stated.outcome for one in self.claims for stated in one.statements)
         return {word: counts[word] for word in OUTCOMES}
 
@@ -359,7 +359,7 @@ class Results:
 
 
 def theorem_of_run(done: Run) -> str:
-    """The line about the theorem after a run, with the votes that were cast in it."""
+    """The line about the theorem after a run, with the run's votes."""
     votes = {name: cast for one in done.judgements for name, cast in one.votes.items()}
     return theorem_line(Store(done.store), done.outcomes, votes)
 
@@ -374,7 +374,7 @@ def results_of_run(
     partial: bool = False,
     accepted: bool = False,
 ) -> Results:
-    """The results of a run in hand; without a register they are about the user's own claims."""
+    """The results of judgements; without a register they are about a user's claims."""
     findings = {one.id: one.finding() for one in judgements}
     judged_claims = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
     entries = {**(register or {}), **{one.id: one.registered() for one in judged_claims}}
@@ -453,7 +453,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
 
 
 def where(outcome: str, at: str) -> str:
-    """Where a statement of this outcome fails, its counterexample being `at`."""
+    """The text on where a statement fails: its counterexample `at`; empty unless it is refuted."""
     return (at or NO_VALUES) if outcome == "refuted" else ""
 
 
@@ -463,8 +463,8 @@ def compared(
     rejected: Sequence[tuple[str, str]],
     about: Results,
 ) -> Results:
-    """Takes what the checker rejected back, compares with the register, and leaves out what no file
-    can hold.
+    """The results `about` a run with these claims: those with rejected statements become unknown,
+    the changes from the register are added, and characters that no file can hold are replaced.
     """
     reasons = dict(rejected)
     claims = tuple(_written(_without(one, reasons)) for one in results)
@@ -479,9 +479,7 @@ def compared(
 
 
 def _without(one: Result, reasons: Mapping[str, str]) -> Result:
-    """The result where statements of the claim are rejected: such a claim is not settled, whatever
-    was thought of it.
-    """
+    """The result, which becomes unknown where the checker rejects statements of the claim."""
     lost = [stated.name for stated in one.statements if stated.name in reasons]
     if not lost:
         return one
@@ -503,15 +501,13 @@ def _without(one: Result, reasons: Mapping[str, str]) -> Result:
 
 
 def _written(one: Result) -> Result:
-    """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have
-    any.
-    """
+    """The result with `writable` texts, since the docstring of a claim may have any characters."""
     texts = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
     return Result(**(vars(one) | texts))
 
 
 def writable(text: str) -> str:
-    """The text without control characters and lone surrogates.
+    """The text with the characters replaced that XML or UTF-8 cannot hold.
 
     >>> writable("a" + chr(1) + "b" + chr(0xd800))
     'a\ufffdb\ufffd'

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def plain(rows: Sequence[Sequence[str]]) -> str:
-    """The rows, the first being the heads, in columns two blanks apart.
+    """The rows in columns two blanks apart; the first row has the heads.
 
     >>> print(plain([("n", "x"), ("10", "1/3")]))
     n   x
@@ -31,7 +31,7 @@ def plain(rows: Sequence[Sequence[str]]) -> str:
 
 
 def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Console) -> None:
-    """Draws the table on a terminal; plain columns where there is none."""
+    """Draws the table on a terminal; prints plain columns elsewhere."""
     if not console.is_terminal:
         print(plain([heads, *rows]))
         return
@@ -44,10 +44,10 @@ def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Console) 
 
 
 # -------------------------------------------------------------------------------------------------
-# Exact numbers as a user writes them, and as they are shown, rounded.
+# Exact numbers as users write them, and rounded numbers for users to read.
 
-DIGITS = 12  # shown of a number that is longer
-MAX_BITS = 12000  # of a number that is read
+DIGITS = 12  # digits of a rounded number
+MAX_BITS = 12000  # bits of a number that is read
 _WHOLE = r"(\d{1,1000})(?:\^(\d{1,5}))?"
 _EXACT = re.compile(rf"(-?){_WHOLE}(?:/{_WHOLE})?", re.ASCII)
 _DECIMAL = re.compile(
@@ -56,8 +56,8 @@ _DECIMAL = re.compile(
 
 
 def exact(text: str, name: str) -> Fraction:
-    """The number that is written as p, p/q, p^k or a decimal, such as -41, 3/10, 10^300 or 9.81,
-    which is 981/100 exactly.
+    """The number that is written as p, p/q, p^k or a decimal, such as -41, 3/10, 10^300 or 9.81
+    (exactly 981/100).
 
     >>> exact("-3/10", "x"), exact("2^5", "x"), exact("9.81", "g")
     (Fraction(-3, 10), Fraction(32, 1), Fraction(981, 100))
@@ -77,8 +77,8 @@ def exact(text: str, name: str) -> Fraction:
 
 
 def whole(text: str) -> int:
-    """A whole number, as an option of the command line takes it; raises ArgumentTypeError for
-    another text.
+    """The whole number of an option of the command line; raises ArgumentTypeError for any other
+    text.
     """
     if not (text.isascii() and text.removeprefix("-").isdecimal()):
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
@@ -90,8 +90,8 @@ def whole(text: str) -> int:
 def components(
     text: str, names: Sequence[str], form: str = "x=..,w=.. or beta=..,v=.."
 ) -> dict[str, Fraction]:
-    """The numbers of a text such as x=1000,w=-41, each of these names at most once; raises
-    ClaimError, which says of which form it is to be, for another name, or one that stands twice.
+    """The numbers of a text such as x=1000,w=-41, in which each of these names occurs at most once;
+    raises ClaimError, which shows the expected form, for another name, or one that occurs twice.
 
     >>> components("x=1/2,w=-3", ("x", "w", "r"))
     {'x': Fraction(1, 2), 'w': Fraction(-3, 1)}
@@ -120,7 +120,7 @@ def _power(base: str, exponent: str | None, name: str, zero: bool = True) -> int
 
 
 def shown(value: Fraction | int, digits: int = DIGITS) -> str:
-    """The number with so many digits, rounded half to even where it has more.
+    """The number with at most `digits` digits, rounded half to even.
 
     >>> shown(Fraction(1, 3)), shown(75), shown(-Fraction(81, 1000))
     ('0.333333333333', '75', '-0.081')

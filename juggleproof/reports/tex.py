@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from juggleproof.papers.derivations import Derivation
 
 # -------------------------------------------------------------------------------------------------
-# The LaTeX report: fragments that an author can input, and documents that hold them all, from
-# templates that hold no formula of the paper.
+# The LaTeX report: fragments that an author can input, and documents with all of them, made from
+# templates without formulas of the paper.
 
 TEMPLATES = Path(__file__).parent / "templates"
 SECTIONS = {
@@ -150,7 +150,7 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 
 
 def _counterexamples(entry: Entry) -> list[str]:
-    """The counterexamples as they are set, each once."""
+    """The counterexamples as LaTeX, each once."""
     shown = (
         tex_words.values(one.at)
         + (f": {tex_words.prose(one.numbers)}." if one.numbers else ".")
@@ -181,7 +181,7 @@ def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
 
 
 def _behind_the_appendices(contents: Contents) -> list[Derivation]:
-    """The derivations that the entries of the appendices name, and all that these are made from."""
+    """The derivations that the entries of the appendices name, and all that these use."""
     by_name = {one.function: one for one in contents.derivations}
     needed = {
         one.function
@@ -189,7 +189,7 @@ def _behind_the_appendices(contents: Contents) -> list[Derivation]:
         if entry.claim.section[:1] in APPENDICES
         for one in entry.steps
     }
-    for one in reversed(contents.derivations):  # each stands after what it is made from
+    for one in reversed(contents.derivations):  # each comes after those that it uses
         if one.function in needed:
             needed |= set(one.uses) & set(by_name)
     return [one for one in contents.derivations if one.function in needed]
@@ -232,8 +232,8 @@ def _theorem(contents: Contents) -> dict[str, object]:
         return contents.entry(name)
 
     def conjuncts(text: str, most: int | None = None) -> str:
-        """The parts of a conjunction; the first ones of a domain, where the last is there for a
-        division.
+        """The parts of a conjunction, or the first `most`: the last part of a domain may be there
+        only for a division.
         """
         return with_macros(",\\; ".join(latex_of(part) for part in text.split(" and ")[:most]))
 
@@ -274,12 +274,12 @@ def _theorem(contents: Contents) -> dict[str, object]:
 
 
 # -------------------------------------------------------------------------------------------------
-# One equation of the paper as LaTeX of its own.
+# One equation of the paper as a LaTeX fragment.
 
 
 def equation(entry: Entry) -> str:
-    """One claim's equation with its label, as a fragment of its own, which says what its symbols
-    mean: the correction where the print is false, else the print.
+    """A fragment with the labelled equation of one claim and the meanings of its symbols; the
+    equation is the correction where the print is false, else the print.
 
     Raises ClaimError where the paper prints no formula for the claim, or where a symbol has no
     meaning.
@@ -291,7 +291,7 @@ def equation(entry: Entry) -> str:
         )
     number, printed = tex_words.number(entry.claim), tex_words.without_stop(entry.claim.printed)
     body = tex_words.correction(entry) if entry.correction else printed
-    # a correction that names the print by its number is to stand alone
+    # a correction that refers to the print by its number gets the print itself
     body = body.replace(rf"\text{{({number}) or }}", rf"{printed} \text{{ or }}")
     rows = [with_macros(tex_words.without_stop(row)) for row in tex_words.lines(body)]
     shown = (
@@ -338,15 +338,15 @@ def equation(entry: Entry) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Compiles the LaTeX report: latexmk in a folder of its own, with dates and ids left out so that
+# The PDF of the LaTeX report, by latexmk in a temporary folder, without dates and ids, so that
 # equal sources make equal bytes.
 
-TOO_WIDE = 5.0  # points that a line may stick out
+TOO_WIDE = 5.0  # points by which a line may be too wide
 
 
 def compiled(files: Mapping[str, bytes], document: str) -> tuple[bytes, list[str]]:
-    """The PDF of a document among the files, and what the log complains of: undefined references,
-    lines too wide.
+    """The PDF of a document among the files, and the complaints of the log: undefined references,
+    lines that are too wide.
 
     Raises ClaimError, one line, where latexmk is absent or finds an error.
     """
@@ -387,7 +387,7 @@ def compiled(files: Mapping[str, bytes], document: str) -> tuple[bytes, list[str
 
 
 def complaints(log: str) -> list[str]:
-    """What a log complains of that a reader would see.
+    """The complaints of a log that a reader would see.
 
     >>> log = "LaTeX Warning: Reference `a' on page 1 undefined on input line 2.\\n"
     >>> log += "Overfull \\\\hbox (7.3pt too wide) in paragraph\\n"

@@ -1,4 +1,4 @@
-"""What the templates of the LaTeX report call: text, formulas, headings and notes as LaTeX."""
+"""The functions that the LaTeX templates call: text, formulas, headings and notes as LaTeX."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ SPECIAL = {
     "`": "'",
 }
 CLAIM_IDS = re.compile(r"\b((?:s[\dAB][\w.]*|prop-\d|eq)-\w[\w-]*|theorem-\w[\w-]*(?:/[\w.-]*\w)?)")
-# What a derived expression is called in the paper, where it has a name there.
+# The paper's names for derived expressions.
 SYMBOLS = {
     "f1": r"\bar f_1(\bar b)",
     "f2": r"\bar f_2(\bar b)",
@@ -84,7 +84,7 @@ APPENDICES = {
 
 
 def plain(text: str) -> str:
-    r"""Text with what is special to LaTeX written out.
+    r"""The text with LaTeX's special characters escaped.
 
     >>> plain("50% of f_1")
     '50\\% of f\\_1'
@@ -93,7 +93,7 @@ def plain(text: str) -> str:
 
 
 def code(text: str) -> str:
-    r"""A text of marks in typewriter face, which may be broken after each sign.
+    r"""A text in typewriter face, which may be broken after each sign such as + or _.
 
     >>> code("a_1+b")
     '\\texttt{a\\_\\penalty0{}1+\\penalty0{}b}'
@@ -103,7 +103,7 @@ def code(text: str) -> str:
 
 
 def prose(text: str) -> str:
-    r"""A sentence, its formulas set, and the names of claims in typewriter face.
+    r"""A sentence with its formulas as LaTeX, and names of claims in typewriter face.
 
     >>> prose("The maximum of Delta_1 E on H. (eq-37)")
     'The maximum of $\\Delta_1 E$ on $\\jugH$. (\\texttt{eq-\\penalty0{}37})'
@@ -120,13 +120,13 @@ def _set(kind: str, content: str) -> str:
 
 
 def why(entry: Entry) -> str:
-    """What keeps the transcription from being judged; words with commands of LaTeX are code."""
+    """The reason why the transcription is not judged; words with LaTeX commands are code."""
     text = re.sub(r"column \d+: ", "", entry.why_restored)
     return " ".join(code(one) if "\\" in one or "_" in one else plain(one) for one in text.split())
 
 
 def lines(latex: str) -> list[str]:
-    r"""The lines of a print: parted at \\ outside of environments.
+    r"""The lines of a print, split at each \\ outside of environments.
 
     >>> lines(r"a = b \\ c = \begin{bmatrix} 1 \\ 2 \end{bmatrix}")
     ['a = b', 'c = \\begin{bmatrix} 1 \\\\ 2 \\end{bmatrix}']
@@ -141,7 +141,7 @@ def lines(latex: str) -> list[str]:
 
 
 def formula(latex: str) -> str:
-    """The two arguments for a display: the formula whole, and to be broken."""
+    """The two arguments of a display: the formula as a whole, and in a form that can be broken."""
     rows = [with_macros(row) for row in lines(latex)]
     whole = (
         rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
@@ -150,12 +150,12 @@ def formula(latex: str) -> str:
 
 
 def inline(latex: str) -> str:
-    """A print within a line; its rows one after another."""
+    """A print on one line, with its rows one after another."""
     return r",\quad ".join(with_macros(without_stop(row)) for row in lines(latex))
 
 
 def without_stop(row: str) -> str:
-    r"""A row without the stop or comma of the sentence that it ends.
+    r"""A row without the full stop or comma at its end.
 
     >>> without_stop("a = b."), without_stop(r"\left\{ a \right.")
     ('a = b', '\\left\\{ a \\right.')
@@ -172,7 +172,7 @@ def correction(entry: Entry) -> str:
 
 
 def corrected(entry: Entry) -> str:
-    """The corrected print within a line, or the sentence that is true."""
+    """The corrected print on one line, or the sentence that is true."""
     found = entry.correction
     if found is None or is_latex(found):
         return f"${inline(correction(entry))}$"
@@ -180,7 +180,7 @@ def corrected(entry: Entry) -> str:
 
 
 def change(entry: Entry) -> str:
-    """What the correction changes, the letters and signs in it as formulas."""
+    """The description of the correction's change, with its letters and signs as formulas."""
     text = note_of(entry.correction["change"]) if entry.correction else ""
     return "".join(
         f"${with_macros(part)}$" if i % 2 else plain(part)
@@ -189,20 +189,20 @@ def change(entry: Entry) -> str:
 
 
 def number(claim: Claim) -> str:
-    """The number of a display, without brackets."""
+    """The number of a claim's equation, without brackets; empty where it has none."""
     match = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
     return match.group(1) if match and "," not in claim.place else ""
 
 
 def heading(claim: Claim) -> str:
-    """What the claim is referred to by: the number of its equation, or its section and place."""
+    """The heading of a claim: the number of its equation, or its section and place."""
     numbered = claim.place.startswith("(") and number(claim)
     shown = claim.place if numbered else place_of(claim)
     return plain(shown[:1].upper() + shown[1:])
 
 
 def entries(one: Derivation) -> str:
-    """The result of a derivation: a term, a column or a matrix."""
+    """The result of a derivation as LaTeX: a term, a column or a matrix."""
     shown = [[with_macros(latex_of(entry)) for entry in row] for row in one.shown()]
     if len(shown) == 1:
         return shown[0][0] if len(shown[0]) == 1 else "(" + r",\; ".join(shown[0]) + ")"
@@ -215,12 +215,12 @@ def in_errata(entry: Entry) -> bool:
 
 
 def symbol(one: Derivation) -> str:
-    """The paper's name for what is derived, or nothing."""
+    """The paper's name for a derived expression, or empty."""
     return with_macros(SYMBOLS.get(one.function, ""))
 
 
 # -------------------------------------------------------------------------------------------------
-# The symbols of prints, with what the ledger of names says of them.
+# The symbols of prints, with their meanings in the ledger.
 
 OPERATORS = {
     r"\Delta": "the change from one sampled state to the next",
@@ -232,14 +232,14 @@ OPERATORS = {
 
 
 def symbols(latex: str, section: str) -> list[tuple[str, str]]:
-    r"""The symbols of a print, or of its correction, and what they mean in this section of the
-    paper, else in the others.
+    r"""The symbols of a print, or of its correction, with their meanings in this section of the
+    paper, or else in another.
 
     >>> symbols(r"\tau_p < T \text{ or } \alpha = 1", "3.1")  # doctest: +NORMALIZE_WHITESPACE
     [('\\tau_{p}', 'the time since the period began'), ('T', 'the period of the table'),
      ('\\alpha', 'the coefficient of restitution')]
 
-    Raises ClaimError where the ledger has no meaning of one.
+    Raises ClaimError where the ledger has no meaning of a symbol.
     """
     found = dict[str, str]()
     for row in re.split(r"\\text\{[^{}]*\}", latex):
@@ -275,8 +275,8 @@ def _operators(tree: object) -> Iterator[str]:
 
 
 def names() -> list[tuple[str, str, str]]:
-    """The names of prints with their meanings and, for a name with several, the sections of each;
-    without those of the notation of statements.
+    """The names of prints with their meanings and, where there are several, the sections of each; a
+    name of the notation table is left out if it has one meaning.
     """
     rows = [row for row in meanings() if any(not one.endswith(PROSE) for one in row.sections)]
     count = Counter(row.name for row in rows)
@@ -299,12 +299,12 @@ def _bare(latex: str) -> str:
 
 
 def key(name: str) -> str:
-    """The name of a derivation within a label."""
+    """The name of a derivation in the characters of a label."""
     return re.sub(r"[^A-Za-z0-9]", "-", name)
 
 
 def holds(sharp: str) -> str:
-    """A sharp range as a sentence."""
+    """The words on the alphas of a sharp range."""
     if sharp == "nowhere":
         return r"for no $\jugrestitution$"
     if ": " not in sharp and "root" not in sharp:
@@ -317,7 +317,7 @@ def holds(sharp: str) -> str:
 
 
 def values(at: str) -> str:
-    """A counterexample: its values, and which root is meant."""
+    """A counterexample as LaTeX: its values, and the roots in them."""
     point, where, root = at.partition(" where ")
     shown = ", ".join(
         f"${with_macros(_value(one))}$" for one in point.split(", ") if " = " in one
@@ -334,7 +334,7 @@ def _value(text: str) -> str:
 
 
 def settled(entry: Entry) -> str:
-    """How the claim was settled, with the names of what was refuted."""
+    """The evidence for the verdict (`results.settled_by`) as LaTeX."""
     return plain(entry.settled_by)
 
 
@@ -346,8 +346,8 @@ class Steps:
         self.used: set[str] = set()
 
     def show(self, label: str, *parts: int) -> str:
-        """What a line shows, whole or some of its conjuncts; refuses a line that is not
-        certified.
+        """The goal of a line, or some of its conjuncts, as LaTeX; raises ClaimError for a line that
+        is not certified.
         """
         one = self.by_label[label]
         if one.outcome != "certified":
@@ -363,7 +363,7 @@ class Steps:
         )
 
     def given(self, label: str, place: int) -> str:
-        """What a line is given, by place."""
+        """The given of a line at this place, as LaTeX."""
         givens = [
             line.partition(" ")[2]
             for line in self.by_label[label].text.splitlines()
@@ -373,7 +373,7 @@ class Steps:
 
 
 def _chained(relations: Sequence[str]) -> str:
-    r"""Relations in a row, a < b and b < c as a < b < c.
+    r"""The relations in a row, where a < b and b < c become a < b < c.
 
     >>> _chained(["0 < x", r"x \le 1", "y = 2"])
     '0 < x \\le 1,\\quad y = 2'

@@ -1,5 +1,5 @@
-"""How the conclusion of a map rule rests on other rules, and on premises that the checker writes:
-down to the inequalities.
+"""The tree of a map rule: the rules that its conclusion rests on, and the premises that the checker
+writes, down to the inequalities.
 """
 
 from __future__ import annotations
@@ -18,9 +18,7 @@ STANDS, LOST = f"theorem: {PROVED}", f"theorem: NOT {PROVED}"
 
 
 def rules_of(store: Store, names: Iterable[str] | None = None) -> dict[str, checker.Statement]:
-    """The stored statements under map rules, by name: all, or those among these names and what they
-    name.
-    """
+    """The stored map rules by name: all, or those among `names` and the statements these name."""
     if not isinstance(store.texts, WrittenOut):
         return {}
     statements = store.texts.read(store.texts if names is None else names)
@@ -32,8 +30,8 @@ def rules_of(store: Store, names: Iterable[str] | None = None) -> dict[str, chec
 
 
 def with_all_below(name: str, rules: Mapping[str, checker.Statement]) -> list[str]:
-    """The rule and all rules that it rests on, each once, those that rest on others first; none
-    where one is not there.
+    """The rule and all rules that it rests on, each once, in order of discovery; none where one of
+    them is missing.
     """
     names = [name]
     for one in names:
@@ -51,10 +49,11 @@ def digest_of(texts: Iterable[str]) -> str:
 def theorem_line(
     store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None
 ) -> str:
-    """One line for the theorem: proved, resting on how many statements, and under which rules; or
-    where its proof is lost, or that what is stored under its name is not the theorem.
+    """The line about the theorem: that it is proved, with the number of statements that it rests
+    on, and their rules; or the statement that is not certified; or that the store has another
+    statement under its name.
 
-    Empty where the store does not hold it.
+    Empty where the store does not have it.
     """
     theorem = opened().theorem
     if theorem.name not in store.texts:
@@ -95,10 +94,9 @@ def theorem_line(
 
 
 def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premises: bool) -> None:
-    """Prints, for each conclusion that no other of the claim's rules rests on, what it rests on.
+    """Prints the trees of the claim's map rules, and of those it rests on, unless inside another.
 
-    Raises ClaimError where premises are asked for and the claim neither is a map rule nor rests on
-    one.
+    Raises ClaimError where premises are asked for, and the claim has no map rule and rests on none.
     """
     own = [name for name in store.texts if name.split("/")[0] == claim_id]
     rules = rules_of(store, [*own, *resting])

@@ -1,4 +1,4 @@
-"""Sentences and statements in words and LaTeX, and the intervals of sharp ranges."""
+"""Sentences and statements as words and LaTeX, and the intervals of sharp ranges."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from juggleproof.certificates import checker
 from juggleproof.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
 
 # -------------------------------------------------------------------------------------------------
-# Sentences of claims and derivations, in which formulas stand as in statements, parted into text
+# Sentences of claims and derivations, whose formulas are written as in statements, split into text
 # and LaTeX.
 #
-# A formula is known by its words: names of the notation, numerals beside signs, and what
-# joins them. The rest stays text.
+# A formula is recognized by its words: names of the notation, numerals beside signs, and joining
+# signs. The rest is text.
 
-# Names of sentences that no statement has: regions, maps, and quantities with marks that the
-# statement language lacks.
+# Names that occur in sentences but not in statements: regions, maps, and quantities with marks that
+# the statement language lacks.
 NAMED = {
     "B1^0": r"\mathcal{B}_1^0",
     "B1^+": r"\mathcal{B}_1^+",
@@ -109,7 +109,7 @@ WORD = re.compile(
 """,
     re.VERBOSE,
 )
-SIGN = re.compile(  # a letter or sign in what a correction changes, where `a` is the article
+SIGN = re.compile(  # a letter or sign in the description of a change; `a` is the article
     r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Zb-z]\b|[<>])"
 )
 JOINING = {
@@ -128,7 +128,7 @@ JOINING = {
 
 @cache
 def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
-    r"""The sentence as ("text", words) and ("math", LaTeX), in order.
+    r"""The sentence as pairs ("text", words) and ("math", LaTeX), in order.
 
     >>> text = "For 0 < alpha < 1/3 every orbit is attracted to R."
     >>> pieces(text)  # doctest: +NORMALIZE_WHITESPACE
@@ -148,8 +148,8 @@ def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
 
 
 def _formulas(sentence: str) -> list[tuple[int, int]]:
-    """The stretches that are formulas: the longest runs of names, numerals, signs and balanced
-    brackets that hold a name or a sign.
+    """The spans (start, end) of formulas: the longest runs of names, numerals, signs and balanced
+    brackets that contain a name or a sign.
     """
     words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
     spans, place = [], 0
@@ -196,7 +196,7 @@ def _begins(words: list[tuple[str, int, int]], place: int) -> bool:
 
 
 def _closes(words: list[tuple[str, int, int]], place: int) -> bool:
-    """Whether what the bracket holds is a formula, and not a number of an equation or a remark."""
+    """Whether the bracket contains a formula, and not the number of an equation or a remark."""
     inside = list[str]()
     for word, _, _ in words[place + 1 :]:
         if word == ")":
@@ -208,7 +208,7 @@ def _closes(words: list[tuple[str, int, int]], place: int) -> bool:
 
 
 def _run(words: list[tuple[str, int, int]], place: int) -> int:
-    """Where the formula that begins at this word ends."""
+    """The index after the last word of the formula that begins at this word."""
     depth, last, expects = 0, place, True
     while place < len(words):
         word = words[place][0]
@@ -257,7 +257,9 @@ def _is_factor(word: str, first: bool) -> bool:
 
 
 def _formula(text: str) -> str:
-    """The LaTeX of a stretch: of the statement language where it is one, else word by word."""
+    """The LaTeX of a formula: as in statements, if the statement language can read it, else word by
+    word.
+    """
     words = [found.group() for found in WORD.finditer(text)]
     if not any(word in NAMED or word in REGIONS for word in words):
         try:
@@ -304,10 +306,10 @@ def _numeral(word: str) -> str:
 # -------------------------------------------------------------------------------------------------
 # Sharp ranges of alpha, read from their text into intervals that can be drawn.
 
-# low, high, and whether each belongs to it; a single number is low = high
+# low, high, and whether each belongs to the interval; for a single number low = high
 Interval = tuple[Fraction, Fraction, bool, bool]
 
-NUMBERS_SHOWN = (2, 3)  # what is put for K or n, where the range depends on one
+NUMBERS_SHOWN = (2, 3)  # the values put for K or n, where the range depends on one
 _READING = re.compile(r"([A-Za-z][\w-]*): (.*)", re.DOTALL)
 _END = re.compile(r"(c\d+) = (-?\d+\.\d+)\.\.\., a root of .*", re.DOTALL)
 _POINT = re.compile(r"alpha = (.+)")
@@ -316,8 +318,8 @@ _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
 
 
 def read(text: str) -> list[tuple[str, list[Interval] | None]]:
-    """Each reading's intervals, with its label; one for each number put for K or n; None where the
-    range cannot be drawn.
+    """The intervals of each reading with its label, and for each number put for K or n; None where
+    the range cannot be drawn.
 
     >>> read("0 < alpha < 1/3")
     [('', [(Fraction(0, 1), Fraction(1, 3), False, False)])]
@@ -381,7 +383,7 @@ def _intervals(sharp: str, values: Mapping[str, Fraction]) -> list[Interval] | N
 
 
 def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
-    """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree;
+    """The value of an end, which may have whole numbers, names, + - * / and parentheses; raises
     LookupError for anything else.
     """
     return _walk(ast.parse(text, mode="eval").body, values)
@@ -412,7 +414,7 @@ def _walk(node: ast.expr, values: Mapping[str, Fraction]) -> Fraction:
 
 
 # -------------------------------------------------------------------------------------------------
-# The lines of a statement as words and formulas: what an auditor reads, set as mathematics.
+# The lines of a statement as words and formulas.
 
 WORDS = {
     "forall": "for all",
@@ -445,7 +447,7 @@ def _bare(text: str) -> str:
 
 
 def parts_of(text: str) -> list[str]:
-    """What commas outside of brackets part."""
+    """The parts of a text between commas outside of brackets."""
     parts, depth, start = list[str](), 0, 0
     for place, sign in enumerate(text):
         depth += (sign == "(") - (sign == ")")

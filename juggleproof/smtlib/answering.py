@@ -1,7 +1,7 @@
 """A problem as a statement, its answer, and the certificates that are kept beside its script.
 
-Unsat is answered by a certificate that the checker accepted, sat by an exact model that it
-accepted, else the answer is unknown.
+The answer is unsat with a certificate that the checker accepted, sat with an exact model that it
+accepted, and unknown otherwise.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ WORDS = {"certified": "unsat", "refuted": "sat"}
 
 @dataclass(frozen=True)
 class Question:
-    """A statement that is certified where a problem has no solution; where it has givens, also that
-    these contradict one another.
+    """A question whether a problem has a solution.  The first of `texts` states that it has none; a
+    second one, if the first has givens, states that these alone contradict one another.
 
-    `stored` holds certificates of an earlier run, by the text of the statement.
+    `stored` has certificates of an earlier run, by the text of the statement.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Answer:
-    """sat, unsat or unknown, the statement that was settled, and its certificate."""
+    """An answer: sat, unsat or unknown, with the statement that was settled and its certificate."""
 
     name: str
     word: str
@@ -63,7 +63,7 @@ class Answer:
 
     @property
     def reason(self) -> str:
-        """Why the answer is unknown; empty where it is not."""
+        """The reason why the answer is unknown; empty for other answers."""
         return str(self.certificate.get("unknown", ""))
 
     @property
@@ -72,7 +72,7 @@ class Answer:
 
     @property
     def model(self) -> tuple[tuple[str, str], ...]:
-        """The value of every variable of the statement, where there is a model."""
+        """The value of every variable of the statement; empty where the answer is not sat."""
         return tuple(sorted(self._counterexample[2].items())) if self.word == "sat" else ()
 
     @property
@@ -87,7 +87,7 @@ class Answer:
 def question(
     problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
 ) -> Question:
-    """The question whether a problem has a solution, about a statement of that name."""
+    """The question whether a problem has a solution, whose statements have this name."""
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
@@ -121,12 +121,12 @@ def settled(name: str, text: str, certificate: Certificate) -> str:
 
 
 def settled_as(statement: checker.Statement, certificate: Certificate) -> str:
-    """The same of a statement that is read."""
+    """sat or unsat where the checker accepts a parsed statement's certificate, else unknown."""
     return WORDS.get(checker.check_one(statement, certificate, {}, {})[0], "unknown")
 
 
 def _searched(asked: Question, text: str) -> Answer:
-    """The answer by one of the texts of a question; only the first says what is sat."""
+    """The answer by a search on one of the texts of a question; only the first can give sat."""
     try:
         statement = checker.read_statements(text)[asked.name]
     except checker.Rejected as reason:
@@ -148,13 +148,13 @@ def _searched(asked: Question, text: str) -> Answer:
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
-        # beyond floats, or beyond what Python writes
+        # too large for a float, or for Python to write as text
         unknown = {"unknown": "its numbers grow too long for the search"}
     return Answer(asked.name, "unknown", text, unknown)
 
 
 def beyond_reading(text: str, reason: checker.Rejected) -> str:
-    """Why the checker does not read a statement."""
+    """The reason why the checker cannot read a statement."""
     if reason.kind is not checker.Kind.TEXT:
         return f"beyond the checker's limits: {reason}"
     longest = max(len(line) for line in text.split("\n"))
@@ -165,7 +165,7 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
     """The model in the script's own symbols, in its order; a variable that no assertion mentions is
     0.
 
-    A Bool is the sign of the real that stands for it, where that is a number.
+    A Bool is true where the real that stands for it is > 0: "true", "false" or that condition.
     """
     values, model = dict(answered.model), []
     for variable in problem.variables:
@@ -183,8 +183,8 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Scripts: all of their problems, answered by any executor, their statements and certificates kept
-# beside each.
+# Scripts: all of their problems are answered, by any executor, and the statements and certificates
+# are kept beside each script.
 
 TITLE = (
     f"What the problems of {{}} come to: certified says unsat, {REFUTED} says sat;"
@@ -194,8 +194,8 @@ TITLE = (
 
 @dataclass(frozen=True)
 class Answered:
-    """One problem of a script with its answer; `rejected` is why the checker, reading the stored
-    file, rejects its certificate.
+    """One problem of a script with its answer; `rejected` is the reason for which the checker, on
+    reading the stored file, rejects its certificate, if it does.
     """
 
     path: Path
@@ -205,7 +205,7 @@ class Answered:
 
     @property
     def name(self) -> str:
-        """The script, and the name of the problem, or its number where there are several."""
+        """The script, with the name of the problem, or its number where there are several."""
         return self.answer.name.removesuffix("/check")
 
     @property
@@ -219,12 +219,12 @@ class Answered:
 
     @property
     def settled(self) -> bool:
-        """Whether it is answered, and as the script states."""
+        """Whether the answer is sat or unsat, not rejected, and not contrary to the script."""
         return self.answer.word != "unknown" and not self.contradicts and not self.rejected
 
 
 def id_of(name: str) -> str:
-    """A name of a script or problem as the names of statements allow it.
+    """The name of a script or problem in the characters that names of statements allow.
 
     >>> id_of("Motzkin's form")
     'Motzkin-s-form'
@@ -251,7 +251,7 @@ def names_of(script: str, problems: Sequence[Problem]) -> list[str]:
 
 
 def folder_of(path: Path, store: Path | None) -> Path:
-    """Where the certificates of a script are kept."""
+    """The folder for the certificates of a script."""
     return store or path.with_suffix(".certificates")
 
 
@@ -265,11 +265,11 @@ def answer_files(
     jobs: int = 1,
     progress: Callable[[Answer], None] = lambda answered: None,
 ) -> list[Answered]:
-    """Every problem of the scripts with its answer, in order, by an executor or by so many
+    """Every problem of the scripts with its answer, in order, by an executor or by `jobs`
     processes; statements and certificates are written, and the checker reads them again.
 
-    Raises ClaimError, one line, for what is no script of QF_NRA, or where two problems or two
-    scripts would share a name.
+    Raises ClaimError, one line, for a file that is not a script of QF_NRA, and where two problems
+    or two scripts would have the same name.
     """
     read = [(path, problems_of_file(path)) for path in paths]
     ids = [id_of(path.stem) for path in paths]
@@ -319,7 +319,7 @@ def _answers(
             answers.append(answer(one))
             progress(answers[-1])
         return answers
-    processes = import_module("juggleproof.statements.processes")  # dear to load
+    processes = import_module("juggleproof.statements.processes")  # slow to load
     pool: AbstractContextManager[Executor] = (
         processes.own_pool(jobs) if executor is None else nullcontext(executor)
     )
@@ -331,8 +331,8 @@ def _answers(
 
 
 def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
-    """Writes statements and certificates to the folder; what the checker rejects there, and
-    why.
+    """Writes statements and certificates to the folder; returns the names that the checker rejects
+    there, each with the reason.
     """
     scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
     blocks = [f"# {TITLE.format(scripts)}"]
@@ -352,6 +352,6 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     write_store(folder, "\n\n".join(blocks) + "\n", certificates)
     try:
         checked = checker.check_folder(str(folder))
-    except checker.Rejected as reason:  # all of it is too large
+    except checker.Rejected as reason:  # the whole folder is too large
         return {one.answer.name: str(reason) for one in answered}
     return {name: reason for name, outcome, reason in checked if outcome == "rejected"}

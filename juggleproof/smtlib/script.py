@@ -1,11 +1,11 @@
-"""Scripts of SMT-LIB: each `check-sat` becomes a problem, the assertions that are in force at it.
+"""Scripts of SMT-LIB: each `check-sat` becomes a problem with the assertions in force there.
 
 `push` and `pop` open and close a scope of declarations, definitions and assertions; `set-info`
-gives the next problem its `:name` and `:status`, and those that follow their `:source`.
+gives the next problem its `:name` and `:status`, and all later problems their `:source`.
 
 Formula: the assertions F1, .., Fn have no solution <=> for all reals: not (F1 and .. and Fn), which
 is the statement of the problem. Source: SMT-LIB 2.6, section 4.2.  The logic that a script names is
-not looked at: what is read are real arithmetic without quantifiers, and Bools.
+ignored: the reader takes real arithmetic without quantifiers, and Bools.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from juggleproof.statements.language import NAME, ClaimError, Formula, Term, rea
 from juggleproof.statements.language import RESERVED as OUR_RESERVED
 from juggleproof.statements.store import plain_file
 
-# they ask for what is shown, and change nothing
+# commands that only ask for output; they are ignored
 IDLE = frozenset(
     {
         "echo",
@@ -52,7 +52,7 @@ STATUSES = ("sat", "unsat", "unknown")
 
 
 def our_name(symbol: str, taken: Collection[str]) -> str:
-    """A name for a variable of the script that our language allows and that no other bears.
+    """A name for a variable of the script that our language allows and that is not taken.
 
     >>> our_name("x", []), our_name("x'", ["x_1"]), our_name("lambda", []), our_name("|", [])
     ('x', 'x_', 'lambda_', 'v')
@@ -72,8 +72,8 @@ def our_name(symbol: str, taken: Collection[str]) -> str:
 
 @dataclass(frozen=True)
 class Variable:
-    """A constant of the script: its symbol there, its name in our language, its sort; a Bool b is
-    the reals' b > 0.
+    """A constant of the script: its symbol there, its name in our language, its sort.  A Bool b
+    becomes the formula b > 0 for a real b.
     """
 
     symbol: str
@@ -83,13 +83,12 @@ class Variable:
 
 @dataclass(frozen=True)
 class Problem:
-    """What one `check-sat`, the `number`-th of its script, asks: whether all of the assertions can
-    hold at once.
+    """The problem of one `check-sat`, the `number`-th of its script: whether all of the assertions
+    can hold at once.
 
-    Each assertion stands with its line; `meanings` are those of the names that parts of assertions
-    have (`values.Parts`), perhaps with others; `status`, `name` and `source` are what the script
-    states of the problem, empty where it states nothing; `commands` declare, define and assert all
-    of it.
+    Each assertion has its line; `meanings` has the meanings of the names that parts of assertions
+    get (`values.Parts`), and perhaps of others; `status`, `name` and `source` are as the script
+    states them, or empty; `commands` are all commands that declare, define and assert it.
     """
 
     file: str
@@ -122,7 +121,9 @@ class Problem:
 
 @dataclass
 class Frame:
-    """What was declared, defined and asserted since the last push, and by which commands."""
+    """A scope of a script: declarations, definitions and assertions since a push, and their
+    commands.
+    """
 
     symbols: list[str] = field(default_factory=list)
     variables: list[Variable] = field(default_factory=list)
@@ -131,12 +132,12 @@ class Frame:
 
 
 class Session:
-    """A script being read: a stack of frames, and the problems met so far."""
+    """A session that reads a script: a stack of frames, and the problems so far."""
 
     def __init__(self, script: Script) -> None:
         self.script = script
-        self.scope: dict[str, Meaning] = {}  # everything that is declared and defined
-        self.names: set[str] = set()  # that the variables bear in our language
+        self.scope: dict[str, Meaning] = {}  # all declared and defined symbols
+        self.names: set[str] = set()  # the names of the variables in our language
         self.reader = Reader(script, lambda: self.names)
         self.frames, self.problems = [Frame()], list[Problem]()
         self.status, self.name, self.source, self.ended = "", "", "", False
@@ -144,7 +145,7 @@ class Session:
 
     @property
     def declared(self) -> Frame:
-        """Where declarations and definitions go."""
+        """The frame of new declarations and definitions."""
         return self.frames[0 if self.lasting else -1]
 
     def execute(self, command: Expression) -> None:
@@ -273,7 +274,7 @@ class Session:
         function = Function(
             tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, scope
         )
-        # read once with parameters that stand for anything, so that an error names the line of the
+        # the body is read once with arbitrary arguments, so that an error names the line of the
         # definition
         inner: dict[str, Meaning] = {
             name: plain(real("any")) if own == "Real" else real("any") > 0
@@ -405,7 +406,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
     >>> [one.assertions for one in read_problems(text, "f")]
     [((1, Formula('x*x < 0')),)]
 
-    Raises ClaimError, one line with file and line, for what is no such script, or holds no
+    Raises ClaimError, one line with file and line, where the text is no such script, or has no
     check-sat.
     """
     session = Session(Script(text, file))

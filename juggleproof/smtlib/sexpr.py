@@ -25,8 +25,8 @@ TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Word:
-    """A symbol, numeral, decimal, keyword or string; a symbol written |so| is the same as one
-    written so.  `str` writes it as SMT-LIB does.
+    """A symbol, numeral, decimal, keyword or string; the symbol |x| is equal to x.  `str` gives the
+    text in SMT-LIB.
     """
 
     text: str
@@ -42,7 +42,7 @@ class Word:
 
 @dataclass(frozen=True)
 class Node:
-    """A list in parentheses; `str` writes it on one line, where no symbol has two."""
+    """A list in parentheses; `str` gives its text, on one line unless a symbol has several."""
 
     items: tuple[Expression, ...]
     line: int
@@ -63,13 +63,13 @@ Expression = Union[Word, Node]
 
 
 class Script:
-    """The text of one file; every error names file and line."""
+    """A script with the name of its file; every error names file and line."""
 
     def __init__(self, text: str, file: str) -> None:
         self.text, self.file = text, file
 
     def fail(self, at: Expression | int, problem: str, mend: str) -> NoReturn:
-        """Raises ClaimError, one line: file, line, what is wrong and how to mend it."""
+        """Raises ClaimError, one line: file, line, problem and remedy."""
         line = at if isinstance(at, int) else at.line
         raise ClaimError(
             f"{self.file}:{line}: {' '.join(problem.split())}; {' '.join(mend.split())}"

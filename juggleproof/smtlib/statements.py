@@ -1,9 +1,9 @@
 """The statement of a problem: for all reals, not all of the assertions hold.
 
-Where a script divides, what keeps the divisor from 0 has to come first: the assertions without
-divisions are then givens, and a divisor that none of them licenses gets a `have` line, which the
-certificate proves.  A divisor that may vanish is multiplied out, with a name for the quotient:
-x/0 may be anything in SMT-LIB, but the same for the same x.
+Where a script divides, conditions that keep the divisor from 0 must come first: the assertions
+without divisions are then givens, and a divisor that none of them licenses gets a `have` line,
+which the certificate proves.  A divisor that may vanish is multiplied out, with a name for the
+quotient: in SMT-LIB, x/0 may have any value, but the same one for the same x.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Shape = TypeVar("Shape", bound=Expression)
 
 
 def statement_of(problem: Problem, name: str) -> Statement:
-    """The statement that no point meets the assertions.
+    """The statement that no point satisfies the assertions.
 
     >>> from .script import read_problems
     >>> text = "(declare-const x Real)(assert (not (=> (> x 0) (> (/ 1 x) 0))))(check-sat)"
@@ -97,8 +97,8 @@ def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statemen
 def with_meanings(
     problem: Problem, formulas: Sequence[Formula]
 ) -> tuple[tuple[Line, ...], list[Formula]]:
-    """The lines `let` of the names that occur in formulas, in order, and the formulas with what is
-    asserted of names that occur.
+    """The lines `let` of the names that occur in formulas, in order; and the formulas, together
+    with those that are asserted of such names.
     """
     whole = dict.fromkeys(formulas)
     left: list[Term | Formula] = list(formulas)
@@ -115,7 +115,7 @@ def with_meanings(
 
 
 def givens(statement: Statement) -> list[Formula]:
-    """What the statement assumes."""
+    """The formulas of the lines `given`."""
     return [
         formula
         for keyword, formula in statement.lines
@@ -124,7 +124,7 @@ def givens(statement: Statement) -> list[Formula]:
 
 
 def conjuncts(formula: Formula) -> Iterator[Formula]:
-    """The formulas that hold together where this one holds, as far as connectives tell.
+    """The formulas whose conjunction is equivalent to this one, by its connectives.
 
     >>> x, y = map(real, "xy")
     >>> print(*conjuncts(Formula("not", implies((x > 0) & (y > 0), x < y))), sep="; ")
@@ -151,7 +151,7 @@ def _negation(formula: Formula) -> Formula:
 
 
 def used(problem: Problem, formulas: Sequence[Formula], lets: Sequence[Line]) -> tuple[str, ...]:
-    """The variables of the script that occur, in its order, then other names but those of `let`."""
+    """The variables that occur, in the script's order, then other names except those of `let`."""
     given = dict(said for _, said in lets if isinstance(said, tuple))
     occurring = {name for one in (*formulas, *given.values()) for name in names_in(one)}
     occurring -= given.keys()
@@ -163,7 +163,7 @@ def used(problem: Problem, formulas: Sequence[Formula], lets: Sequence[Line]) ->
 
 
 def divisions(expression: Expression) -> Iterator[Term]:
-    """The quotients in a term or formula, inner ones first, but those by a number other than 0."""
+    """The quotients in a term or formula, inner ones first, except those by a nonzero number."""
     for part in expression.args:
         if isinstance(part, Expression):
             yield from divisions(part)
@@ -174,7 +174,7 @@ def divisions(expression: Expression) -> Iterator[Term]:
 
 
 def _licence(before: Statement, below: Term) -> list[Line] | None:
-    """The `have` line that keeps a divisor from 0, if it needs one; None where none is proved."""
+    """The `have` line that keeps a divisor from 0; [] if it needs none, None if none is proved."""
     try:
         unfolding = checker.Unfolding(_read(before), checker.Context())
         unfolding.context.reciprocal(checker.parse(str(below)))
@@ -184,14 +184,14 @@ def _licence(before: Statement, below: Term) -> list[Line] | None:
             return None
     for sign in (below > 0, below < 0, different(below, 0)):
         goal = Statement(before.name, before.forall, before.lines, sign)
-        with suppress(checker.Rejected):  # where the divisor divides by what may be 0 itself
+        with suppress(checker.Rejected):  # the divisor itself has a divisor that may be 0
             if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), 1) is not None:
                 return [("have", sign)]
     return None
 
 
 def _definition(named: Term, quotient: Term, quotients: Mapping[Term, Term]) -> list[Formula]:
-    """What holds of a quotient that has a name, those named before being given."""
+    """The formulas that hold for a named quotient, also with the quotients named before."""
     above, below = quotient.operands
     same = [
         implies(
@@ -205,7 +205,7 @@ def _definition(named: Term, quotient: Term, quotients: Mapping[Term, Term]) -> 
 
 
 def _replaced(expression: Shape, quotients: Mapping[Term, Term]) -> Shape:
-    """The expression with names for the quotients that have one."""
+    """The expression with the names of quotients in place of the quotients."""
     args = tuple(
         _replaced(part, quotients) if isinstance(part, Expression) else part
         for part in expression.args

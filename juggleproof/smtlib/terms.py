@@ -1,5 +1,5 @@
 """Terms of SMT-LIB in our language: core connectives, comparisons, rational arithmetic, let, and
-functions defined before.
+functions that are defined before.
 
 A term of sort Bool becomes a formula, one of sort Real a term in cases.  Terms are read without
 recursion, however deep they are nested.  Source: SMT-LIB 2.6, theories Core and
@@ -43,7 +43,7 @@ from juggleproof.statements.language import (
 
 LARGEST_POWER, LONGEST_NUMBER = 100, 1000
 NOT_POLYNOMIAL = frozenset({"sin", "cos", "tan", "arctan", "exp", "log", "ln", "sqrt", "pow"})
-Arities = Mapping[str, tuple[int, Union[int, None]]]  # the least and the most arguments
+Arities = Mapping[str, tuple[int, Union[int, None]]]  # least and greatest numbers of arguments
 SORTS = ("Real", "Bool")
 CONNECTIVES: Arities = {
     "not": (1, 1),
@@ -92,7 +92,7 @@ RESERVED = frozenset(
 @dataclass(frozen=True)
 class Function:
     """A function that is defined in the script: the names and sorts of its parameters, its sort,
-    its body, and what the names in it mean.
+    its body, and the meanings of the names in the body.
     """
 
     parameters: tuple[tuple[str, str], ...]
@@ -102,45 +102,45 @@ class Function:
 
 
 Compared = TypeVar("Compared", Formula, Real)
-Meaning = Union[Value, Function]  # of a name
-MOST_STEPS = 2_000_000  # terms that are read, those of functions each time they are applied
+Meaning = Union[Value, Function]  # the meaning of a name
+MOST_STEPS = 2_000_000  # terms that are read; the body of a function counts at each application
 
 
 @dataclass
 class Scope:
-    """What names mean: those of `let` and of parameters, and those around them."""
+    """The meanings of names: `own` has those of `let` and of parameters, `around` all others."""
 
     around: Mapping[str, Meaning]
     own: dict[str, Meaning]
 
     def get(self, name: str) -> Meaning | None:
-        """What the name means, if anything."""
+        """The meaning of the name, or None."""
         found = self.own.get(name)
         return self.around.get(name) if found is None else found
 
 
-# a term that is read asks for the values of its parts, and returns its own
+# the reading of a term yields its parts, is sent their values, and returns the term's value
 Reading = Generator[tuple[Expression, Scope], Value, Value]
 
 
 class Reader:
-    """Reads the terms of one script; `taken`: the names of its variables in our language."""
+    """A reader of the terms of one script; `taken` gives the names of its variables."""
 
     def __init__(self, script: Script, taken: Callable[[], Collection[str]]) -> None:
         self.script, self.parts, self.steps = script, Parts(taken), 0
-        # a function applied to the same values again has the same value
+        # values of functions, which are not read again for the same arguments
         self._known: dict[tuple[int, tuple[Value, ...]], tuple[Function, Value]] = {}
 
     def formula(self, node: Expression, scope: Mapping[str, Meaning]) -> Formula:
-        """A term of sort Bool."""
+        """The value of a term of sort Bool."""
         return self._bool(node, self.value(node, scope))
 
     def real(self, node: Expression, scope: Mapping[str, Meaning]) -> Real:
-        """A term of sort Real."""
+        """The value of a term of sort Real."""
         return self._real(node, self.value(node, scope))
 
     def value(self, node: Expression, scope: Mapping[str, Meaning]) -> Value:
-        """The value of a term, read with a stack of our own."""
+        """The value of a term, read with an explicit stack."""
         opened = [self._read(node, Scope(scope, {}))]
         step = partial(next, opened[0])
         while True:
@@ -264,7 +264,7 @@ class Reader:
         self._arity(node, "let", len(node.items) - 1, 2, 2)
         values: dict[str, Meaning] = {}
         for name, part in self.pairs(node.items[1], "let"):
-            # all at once: none of them sees another
+            # the bindings are simultaneous: none sees another
             values[name] = yield part, scope
         before = {name: scope.own.get(name) for name in values}
         scope.own.update(values)
@@ -277,7 +277,7 @@ class Reader:
         return value
 
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:
-        """A list of (name expression), each name once."""
+        """The pairs of a list ((name expression) ..), in which no name occurs twice."""
         bound: dict[str, Expression] = {}
         for pair in node.items if isinstance(node, Node) else [node]:
             if (
@@ -300,7 +300,7 @@ class Reader:
         return list(bound.items())
 
     def _made(self, node: Node, name: str, values: Sequence[Value]) -> Value:
-        """The value of what the theory knows, applied to values."""
+        """The value of a function of the theory at these values."""
         parts = list(zip(node.items[1:], values))
         if name == "ite":
             return self._ite(node, values)
@@ -427,7 +427,7 @@ def _xor(two: Sequence[Formula]) -> Formula:
 
 
 def difference(terms: Sequence[Term]) -> Term:
-    """The first term less all others; their sum is taken off where they are many."""
+    """The first term minus all others; minus their sum where there are many."""
     return reduce(sub, terms) if len(terms) <= 8 else terms[0] - balanced(add, terms[1:])
 
 
@@ -436,7 +436,7 @@ def _negative(one: Term) -> Term:
 
 
 def unknown_function(name: str) -> tuple[str, str]:
-    """What is wrong with a function that the theory does not know, and how to mend it."""
+    """The problem and the remedy for a function that the theory does not know."""
     if name in ("forall", "exists"):
         return f"{name}: quantifiers are not taken on", "free variables are sought"
     if name in NOT_POLYNOMIAL:
@@ -451,13 +451,13 @@ def number(value: Fraction) -> Term:
 
 
 def quotient(above: Term, below: Term) -> Term:
-    """A quotient; of two numbers, the number."""
+    """The quotient of two terms; a number if both are numbers."""
     if above.op == below.op == "num" and below.value != 0:
         return number(above.value / below.value)
     return above / below
 
 
 def brief(node: Expression) -> str:
-    """An expression, shortened to 60 signs."""
+    """The text of an expression, shortened to 60 characters."""
     text = str(node)
     return text if len(text) <= 60 else text[:57] + "..."

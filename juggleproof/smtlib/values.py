@@ -1,10 +1,10 @@
-"""Values of the terms of a script: formulas, and real terms in cases; parts that are too large, or
-nested too deep, to stand where they are used get a name.
+"""Values of the terms of a script: formulas, and real terms in cases.  Parts that are too large, or
+nested too deep, are replaced by names.
 
-A real term has a case for each way in which the conditions of its `ite` can come out.  The name of
-a polynomial that is short when written out is a definition (a line `let`); any other name is a
-variable of its own of which an equation is asserted, and that of a formula F a variable b with
-b > 0 <=> F.  So the assertions have a solution if and only if they have one without names.
+A real term has a case for each combination of truth values of its `ite` conditions.  A polynomial
+that is short when written out is named by a definition (a line `let`); any other term is named by a
+new variable with an equation as an assertion, and a formula F by a variable b with b > 0 <=> F.  So
+the assertions with names have a solution if and only if those without have one.
 
 Source, for formulas: Tseitin, On the complexity of derivation in propositional calculus (1968).
 """
@@ -41,15 +41,13 @@ Guards = tuple[tuple[Formula, bool], ...]
 
 @dataclass(frozen=True)
 class Real:
-    """A real term: in each case its value under the conditions of the case, of which exactly one
-    applies.
-    """
+    """A real term as cases (conditions, value), exactly one of which applies at each point."""
 
     cases: tuple[tuple[Guards, Term], ...]
 
     @property
     def plain(self) -> Term | None:
-        """The term, where there are no cases to distinguish."""
+        """The term, if there is only one case, without conditions; else None."""
         return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
 
 
@@ -57,12 +55,12 @@ Value = Union[Formula, Real]
 
 
 def plain(value: Term | int) -> Real:
-    """A term without cases."""
+    """The real term with this value as its only case."""
     return Real((((), term(value)),))
 
 
 def merged(parts: Sequence[Guards]) -> Guards | None:
-    """All conditions together; None where one of them is wanted both true and false."""
+    """The conjunction of all conditions; None where one of them is to be both true and false."""
     joined: dict[Formula, bool] = {}
     for condition, truth in (pair for part in parts for pair in part):
         if joined.setdefault(condition, truth) is not truth:
@@ -71,7 +69,7 @@ def merged(parts: Sequence[Guards]) -> Guards | None:
 
 
 def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
-    """The cases that several values can be in together, with the value of each."""
+    """The joint cases of several values: the conditions, and the value of each under them."""
     if all(value.plain is not None for value in values):
         return [((), tuple(value.cases[0][1] for value in values))]
     joined: list[tuple[Guards, tuple[Term, ...]]] = [((), ())]
@@ -85,8 +83,8 @@ def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
 
 
 def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) -> Formula:
-    """The formula about the values: in one of the cases, its conditions and what `make` makes
-    hold.
+    """The formula that in one of the joint cases, its conditions and the result of `make` on its
+    values hold.
 
     >>> from juggleproof.statements.language import reals
     >>> x, y = reals("x y")
@@ -100,12 +98,12 @@ def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) 
 
 
 def holding(guard: tuple[Formula, bool]) -> Formula:
-    """A condition, or its negation."""
+    """The condition of a pair (condition, truth value), negated where the truth value is False."""
     return guard[0] if guard[1] else Formula("not", guard[0])
 
 
 def choice(condition: Formula, first: Real, second: Real) -> Real:
-    """The first value where the condition holds, else the second."""
+    """The real term that is the first value where the condition holds, else the second."""
     pairs = [
         (merged((((condition, truth),), guards)), value)
         for truth, one in ((True, first), (False, second))
@@ -118,14 +116,14 @@ def choice(condition: Formula, first: Real, second: Real) -> Real:
 # Sizes of terms and formulas, and of the polynomials that terms are.
 
 MOST_DEGREE = 1000
-MANY = 10**9  # beyond this, sizes are not told apart
+MANY = 10**9  # larger sizes are replaced by this
 
 
 @dataclass(frozen=True)
 class Size:
-    """How many symbols are written, and how deep they are nested; of a term, also a bound on the
-    degree, the number of terms and the bits of its polynomial, the degree with all names written
-    out (`whole`), and whether it divides by what is no number.
+    """The size of a term or formula: the number of its symbols and their nesting depth; for a term,
+    also bounds on the degree, the number of terms and the bits of its polynomial, the degree with
+    all names written out (`whole`), and whether it has a divisor that is not a number.
     """
 
     symbols: int
@@ -138,7 +136,7 @@ class Size:
 
     @property
     def fits(self) -> bool:
-        """Whether the term or formula may stand as it is, if its parts may."""
+        """Whether the term or formula is small enough to stand without names, if its parts are."""
         return (
             self.depth <= DEEPEST
             and self.degree <= 100
@@ -148,7 +146,7 @@ class Size:
 
     @property
     def is_part(self) -> bool:
-        """Whether a term is worth a name, where something larger does not fit."""
+        """Whether a term is large enough to get a name where a term around it does not fit."""
         return (
             self.symbols > 300
             or self.depth > DEEPEST // 3
@@ -164,38 +162,38 @@ class Size:
 
 
 DEEPEST = 60  # Python's parser, by which the checker reads, takes 200 nested parentheses
-# of terms, and of formulas: what is asserted as a whole may be long
+# by operation of a formula, "" for terms; a conjunction may be an assertion as a whole
 MOST_SYMBOLS = defaultdict(lambda: 1000, {"": 4000, "and": 20_000})
 LARGE_FORMULA, LONG = 250, 100
 
 
 class TooLarge(Exception):
-    """A term is larger than we take on; the message says how."""
+    """The error for a term that is too large; the message says in which way."""
 
 
 class Sizes:
-    """The sizes of terms and formulas; parts that are shared are looked at once."""
+    """A cache of the sizes of terms and formulas, in which shared parts are visited once."""
 
     def __init__(self) -> None:
         self.known: dict[int, tuple[Term | Formula, Size]] = {}
-        self.defined: dict[str, tuple[Size, frozenset[str]]] = {}  # with the variables in it
+        self.defined: dict[str, tuple[Size, frozenset[str]]] = {}  # sizes and variables of names
 
     def define(self, name: str, meaning: Term) -> None:
-        """A name that stands for a polynomial."""
+        """Adds a name that stands for a polynomial."""
         self.defined[name] = self.of(meaning), self.variables(meaning)
 
     def declare(self, name: str, meanings: Sequence[Term]) -> None:
-        """A variable that has one of these values."""
+        """Adds a variable that has one of these values."""
         whole = max(self.of(one).whole for one in meanings)
         self.defined[name] = Size(1, 1, 1, whole=whole), frozenset((name,))
 
     def variables(self, one: Term) -> frozenset[str]:
-        """The variables of the polynomial, names written out."""
+        """The variables of the polynomial with names written out."""
         own = (self.defined[k][1] if k in self.defined else {k} for k in names_in(one))
         return frozenset().union(*own)
 
     def of(self, one: Term | Formula) -> Size:
-        """The size."""
+        """The size of a term or formula."""
         if id(one) not in self.known:
             parts = [self.of(part) for part in one.args if isinstance(part, (Term, Formula))]
             size = self._term(one, parts) if isinstance(one, Term) else self._formula(one, parts)
@@ -241,7 +239,7 @@ class Sizes:
 
 
 def most_terms(variables: int, degree: int) -> int:
-    """How many terms a polynomial of this degree can have, up to MANY."""
+    """The greatest number of terms of a polynomial of this degree, at most MANY."""
     return MANY if min(variables, degree) > 30 else min(MANY, comb(variables + degree, degree))
 
 
@@ -252,8 +250,8 @@ Joined = TypeVar("Joined", Term, Formula)
 
 
 class Parts:
-    """The names of the parts of a script's terms, in order, with what each means: a term that it
-    stands for, or a formula that is asserted of it.
+    """The names of the parts of a script's terms, in order, with the meaning of each: a term that
+    it stands for, or a formula that is asserted of it.
     """
 
     def __init__(self, taken: Callable[[], Collection[str]]) -> None:
@@ -263,7 +261,7 @@ class Parts:
         self._count = 0
 
     def named(self, value: Value) -> Value:
-        """The value by its name, which it gets where it has none."""
+        """The name of the value; a new one if it has none."""
         if value not in self._named:
             self._named[value] = self._new(value)
         return self._named[value]
@@ -288,7 +286,9 @@ class Parts:
         return plain(own)
 
     def joined(self, make: Callable[[Sequence[Joined]], Joined], parts: Sequence[Joined]) -> Joined:
-        """What is made of the parts; of names, as far as it is too large or too deep."""
+        """The result of `make` on the parts; where it is too large, large parts are replaced by
+        names.
+        """
         whole = make(parts)
         size = self.sizes.of(whole)
         most = MOST_SYMBOLS[whole.op if isinstance(whole, Formula) else ""]
@@ -309,7 +309,7 @@ class Parts:
         return part
 
     def few(self, values: Sequence[Real]) -> list[Real]:
-        """The values, some by name so that they have few cases together."""
+        """The values, some replaced by names so that they have at most `MOST_CASES` joint cases."""
         few = list(values)
         while prod(len(one.cases) for one in few) > MOST_CASES:
             k = max(range(len(few)), key=lambda k: len(few[k].cases))
@@ -318,21 +318,21 @@ class Parts:
         return few
 
     def chosen(self, condition: Formula, first: Real, second: Real) -> Value:
-        """The first value where the condition holds, else the second."""
+        """The value that is the first where the condition holds, else the second."""
         if len(first.cases) + len(second.cases) > 2 and self.sizes.of(condition).symbols > LONG:
-            named = self.named(condition)  # it stands in every case
+            named = self.named(condition)  # every case has the condition
             condition = named if isinstance(named, Formula) else condition
         cases = choice(condition, first, second)
         return cases if len(cases.cases) <= MOST_CASES else self.named(cases)
 
     def combined(self, values: Sequence[Real], make: Callable[[Sequence[Term]], Term]) -> Real:
-        """The term made of the values, in every case that they can be in together."""
+        """The real term that has the result of `make` in every joint case of the values."""
         cases = together(self.few(values))
         return Real(tuple((guards, self.joined(make, terms)) for guards, terms in cases))
 
 
 def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:
-    """The parts joined by an associative operation, so that no text grows deep."""
+    """The parts joined by an associative operation as a balanced tree, which is not deep."""
     if len(parts) <= 8:
         return reduce(join, parts)
     middle = len(parts) // 2

@@ -24,8 +24,8 @@ FORMULAS = ("domain", "space", "on", "stage", "have")
 
 
 def with_cases(rule: MapRule) -> MapRule:
-    """The rule as the checker takes it: a line `piece`, `rank` or `value` for each case of the abs,
-    max and min in it, a disjunction of the cases in a formula.
+    """The rule without abs, max and min, which the checker does not know: a line `piece`, `rank` or
+    `value` becomes one line for each case, and a formula becomes the disjunction of its cases.
 
     >>> rule = MapRule("walk/ends", (("map", "walk/map"), ("domain", "a > 0.5"),
     ...                              ("rank", "abs(x)/a"), ("stage", "max(x, -x) <= 1")))
@@ -39,11 +39,11 @@ def with_cases(rule: MapRule) -> MapRule:
     """
     rows: list[tuple[str, str]] = []
     if any([*map(type, row)] != [str, str] for row in rule.rows):
-        return rule  # whose reader says what is wanted
+        return rule  # `read_rule` reports the row that is not a pair of texts
     for keyword, text in rule.rows:
         try:
             rows += [(keyword, one) for one in _lines(keyword, text)]
-        except (checker.Rejected, RecursionError):  # a text of which the checker says why
+        except (checker.Rejected, RecursionError):  # the checker says later why it rejects the text
             rows.append((keyword, text))
         except ClaimError as fault:
             line = short(f"{keyword} {text}")
@@ -52,7 +52,7 @@ def with_cases(rule: MapRule) -> MapRule:
 
 
 def _lines(keyword: str, text: str) -> list[str]:
-    """What stands on the lines of this keyword in place of one."""
+    """The texts of the lines that replace one line of this keyword."""
     if keyword in checker.NAMED:
         return [text]
     text = exact(text)
@@ -101,7 +101,7 @@ def short(text: str) -> str:
 
 
 def conjunction(*parts: str) -> str:
-    """All of these formulas, without those that always hold or stand twice."""
+    """The conjunction of the formulas, without repetitions and without those that always hold."""
     kept = list(dict.fromkeys(part for part in parts if part and part != ANYWHERE))
     one = [f"({part})" if " or " in part else part for part in kept]
     return " and ".join(one) or ANYWHERE
@@ -132,7 +132,7 @@ def _inmost(node: ast.expr) -> ast.Call | None:
 
 
 def _cases(call: ast.Call) -> list[tuple[str, str]]:
-    """(condition, what the call is there), of which one holds at each state."""
+    """The cases (condition, value of the call); exactly one condition holds at each state."""
     arguments = [checker_text(argument) for argument in call.args]
     if not arguments or ast.unparse(call.func) == "abs" and len(arguments) > 1:
         raise ClaimError(f"{short(checker_text(call))}: abs takes one term, max and min more")

@@ -1,9 +1,9 @@
-"""Definitions of the statement file: what is written out in a claim stands there by its name.
+"""Definitions of the statement file: there, a name stands for a term that a claim writes out.
 
 A claim is built, searched for and voted on as it is written out.  Only the file that an auditor
 reads is shorter: `shortened` puts NAME(a, b) in place of every body of a definition, and the
-checker, which writes definitions out when it reads, gives the same text again (`read_line`).  So a
-definition that is missed makes a line longer, and one that does not fit would be seen at once.
+checker, which writes definitions out when it reads, gives the same text again (`Reader`).  So a
+definition that `shortened` misses makes a line longer, and a wrong one would be seen at once.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from juggleproof.statements.formulas import (
     term,
 )
 
-MOST_WORK = 10**9  # of writing out a file: a bound against definitions that double
+MOST_WORK = 10**9  # units for writing out a file; definitions that double in size exceed it
 Body = Union[Term, Formula, tuple[Term, ...]]
 
 # -------------------------------------------------------------------------------------------------
@@ -46,10 +46,10 @@ RELATIONS: Mapping[type, str] = {
 
 
 def term_of(node: ast.expr) -> Term:
-    """The term that a tree of `checker.parse` is; its text is the text that was read.
+    """The term of a tree from `checker.parse`; its text is the text that was parsed.
 
-    A sign before a product is that of the product, as terms are written.  Raises ClaimError for
-    what is not a term.
+    A sign before a product belongs to the whole product, as in the text of terms.  Raises
+    ClaimError for a tree that is not a term.
 
     >>> str(term_of(checker.parse("-(x + 1)/2*y^2")))
     '-(x + 1)/2*y^2'
@@ -71,7 +71,7 @@ def term_of(node: ast.expr) -> Term:
 
 
 def formula_of(node: ast.expr) -> Formula:
-    """The formula that a tree of `checker.parse` is; raises ClaimError for what is not a formula.
+    """The formula of a tree from `checker.parse`; raises ClaimError for any other tree.
 
     >>> str(formula_of(checker.parse("not x < 1 and implies(x = 2, y != 0)")))
     'not x < 1 and implies(x = 2, y != 0)'
@@ -85,7 +85,7 @@ def formula_of(node: ast.expr) -> Formula:
     if isinstance(node, ast.BoolOp):
         op = "and" if isinstance(node.op, ast.And) else "or"
         parts: list[Formula] = []
-        for part in map(formula_of, node.values):  # a definition within is joined to what is around
+        for part in map(formula_of, node.values):  # nested conjunctions are flattened
             parts += part.parts if part.op == op else (part,)
         return Formula(op, *parts)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
@@ -101,8 +101,8 @@ def formula_of(node: ast.expr) -> Formula:
 
 @dataclass(frozen=True)
 class Definition:
-    """A name for a term, a formula, or a tuple of terms, of its parameters and of variables that
-    the statement has (`over`); what it `says` stands above it as a comment.
+    """A name for a term, a formula or a tuple of terms, in its parameters and in variables of the
+    statement (`over`); `says` is the comment above it.
 
     >>> x, y, g = map(real, "xyg")
     >>> Definition("E", ("x", "y"), g * x + y**2 / 2).text()
@@ -116,7 +116,7 @@ class Definition:
 
     @property
     def parts(self) -> tuple[Term | Formula, ...]:
-        """The terms of a tuple; else the body alone."""
+        """The terms of the body, if it is a tuple, or the body alone."""
         return self.body if isinstance(self.body, tuple) else (self.body,)
 
     @cached_property
@@ -134,8 +134,8 @@ class Definition:
 
 
 def _matches(pattern: object, thing: object, values: dict[str, Term], free: frozenset[str]) -> bool:
-    """Whether the thing is the pattern with terms in place of the free names, which `values`
-    collects.
+    """Whether the thing is the pattern with terms put for its free names; `values` collects these
+    terms by name.
     """
     if isinstance(pattern, Term) and pattern.op == "var" and pattern.name in free:
         if not isinstance(thing, Term) or values.get(pattern.name, thing) != thing:
@@ -152,8 +152,8 @@ def _matches(pattern: object, thing: object, values: dict[str, Term], free: froz
 
 
 def _call(one: Definition, values: Mapping[str, Term], rest: Sequence[Definition]) -> str:
-    """The definition applied to shortened arguments; components of a tuple, in order and all with
-    the same arguments, are the tuple.
+    """The definition applied to shortened arguments; arguments that are the components of a defined
+    tuple are written as that tuple.
     """
     if not one.parameters:
         return one.name
@@ -172,8 +172,8 @@ def shortened(thing: Term, definitions: Sequence[Definition]) -> Term: ...
 @overload
 def shortened(thing: Formula, definitions: Sequence[Definition]) -> Formula: ...
 def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expression:
-    """The same term or formula with definitions by name, from the outside in; the last that fits,
-    which may hold earlier ones.
+    """The same term or formula with definitions by name, replaced from the outside in; the last
+    definition that fits is taken, since it may contain earlier ones.
 
     >>> x, y, g = map(real, "xyg")
     >>> E = Definition("E", ("x", "y"), g * x + y**2 / 2)
@@ -198,7 +198,7 @@ def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expressio
 
 
 def instance(thing: Term, definitions: Sequence[Definition]) -> Term:
-    """The term by the first definition whose body it is; any other term as it is."""
+    """The first definition whose body matches the term, applied; else the term itself."""
     alike = (one for one in definitions if isinstance(one.body, Term) and one.body.op == thing.op)
     wholes = (_instance(one, thing, definitions) for one in alike)
     return next((one for one in wholes if isinstance(one, Term)), thing)
@@ -216,7 +216,9 @@ def _instance(
 def _part_of_conjunction(
     one: Definition, thing: Expression, definitions: Sequence[Definition]
 ) -> Formula | None:
-    """A conjunction of which some neighbours are the body; None where none are."""
+    """The conjunction in which adjacent parts that match the body are replaced by the name; None
+    where no parts match.
+    """
     body, free = one.parts[0].args, frozenset(one.parameters)
     width = len(body)
     for at in range(len(thing.args) - width + 1):
@@ -232,8 +234,8 @@ def _part_of_conjunction(
 # Lines of the statement file
 
 WIDTH = 97  # of a comment, without its "# "
-FORMULAS = ("range", "given", "have", "with", "show")  # keywords of lines that are shortened: these
-TERMS = ("let",)  # and NAME = TERM
+FORMULAS = ("range", "given", "have", "with", "show")  # keywords of shortened lines with a formula
+TERMS = ("let",)  # keywords of shortened lines NAME = TERM
 
 
 def short_line(line: str, definitions: Sequence[Definition]) -> str:
@@ -264,7 +266,7 @@ def defining_lines(definitions: Sequence[Definition]) -> list[str]:
 
 
 class Reader:
-    """Writes lines out as the checker does: its own code reads the definitions and puts them in.
+    """A reader that writes definitions out with the checker's own code.
 
     >>> reader = Reader(["define E(x, y) over g := g*x + y^2/2"])
     >>> reader.long_line("given E(x - 1, 2*y) > 0")

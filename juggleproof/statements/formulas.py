@@ -25,7 +25,7 @@ class ClaimError(ValueError):
 
 
 class Expression:
-    """An operation and what it is applied to: a term or a formula, which never changes.
+    """An operation and its arguments: an immutable term or formula.
 
     `args` of a term: the name of a variable ("var"), the value of a number ("num"), the text of a
     definition applied ("call"), (base, exponent) for "^", else terms.  Of a formula: the two sides
@@ -106,7 +106,7 @@ class Term(Expression):
         return tuple(part for part in self.args if isinstance(part, Term))
 
     def made_by(self, *origins: Hashable) -> Term:
-        """The same term, made by these as well.
+        """The same term with these origins added.
 
         >>> real("x").made_by("f").origins, real("x").made_by("f") == real("x")
         (('f',), True)
@@ -114,7 +114,7 @@ class Term(Expression):
         joined = tuple(dict.fromkeys((*self.origins, *origins)))
         return self if joined == self.origins else Term(self.op, *self.args, origins=joined)
 
-    # a hash of another process would not do
+    # the cached hash is left out: hashes of strings differ between processes
     def __reduce__(self) -> tuple[type[Term], tuple[Argument, ...], tuple[None, dict[str, object]]]:
         return Term, (self.op, *self.args), (None, {"origins": self.origins})
 
@@ -178,8 +178,8 @@ class Term(Expression):
 
 
 def _is_operand(value: object) -> bool:
-    """Whether the term answers for the operation: numbers, also those that it refuses; other
-    classes may know better.
+    """Whether `Term` handles the other operand, by computing or by refusing it; the operators of
+    other classes are tried instead.
     """
     return isinstance(value, (Term, int, Fraction, float, complex, str)) or value is None
 
@@ -220,7 +220,7 @@ _LEVEL = {"+": 1, "-": 1, "*": 2, "/": 2, "neg": 2, "^": 4, "var": 5, "num": 5, 
 
 def _write(expr: Term, level: int) -> str:
     own = _LEVEL[expr.op]
-    if expr.op in ("var", "call"):  # a call is its text: it occurs only where it is written
+    if expr.op in ("var", "call"):  # calls are made for writing only: the argument is their text
         return str(expr.args[0])
     if expr.op == "num":
         value = expr.value
@@ -239,14 +239,14 @@ def _write(expr: Term, level: int) -> str:
 
 
 def _is_negative(expr: Term) -> bool:
-    """Whether a sign comes first: that of a factor is written, and read, as that of the product."""
+    """Whether the text begins with a minus sign; that of a first factor belongs to the product."""
     while expr.op in ("*", "/"):
         expr = expr.operands[0]
     return expr.op == "neg" or expr.op == "num" and expr.value < 0
 
 
 def _opposite(expr: Term) -> Term:
-    """A term without the sign that comes first."""
+    """The term without the minus sign at its beginning."""
     if expr.op == "neg":
         return expr.operands[0]
     if expr.op == "num":
@@ -256,8 +256,8 @@ def _opposite(expr: Term) -> Term:
 
 
 class Formula(Expression):
-    """A relation between terms, or a boolean combination of such; `str` gives the text that the
-    checker reads.
+    """A relation between terms, or a boolean combination of relations; `str` gives the text that
+    the checker reads.
 
     >>> x, w = reals("x w")
     >>> str((x >= 0) & ~(x < w))
@@ -331,12 +331,12 @@ def different(left: Number, right: Number) -> Formula:
 
 
 def conjunction(parts: Iterable[Formula]) -> Formula:
-    """All of the parts hold; true when there are none."""
+    """The formula that all parts hold; true when there are none."""
     return _join("and", parts, "true")
 
 
 def disjunction(parts: Iterable[Formula]) -> Formula:
-    """One of the parts holds at least; false when there are none."""
+    """The formula that at least one part holds; false when there are none."""
     return _join("or", parts, "false")
 
 
@@ -370,13 +370,13 @@ def substitute(thing: Term, values: Mapping[str, Number]) -> Term: ...
 @overload
 def substitute(thing: Formula, values: Mapping[str, Number]) -> Formula: ...
 def substitute(thing: Expression, values: Mapping[str, Number]) -> Expression:
-    """The same term or formula with values in place of the named variables, all at once.
+    """The same term or formula with values put for the named variables simultaneously.
 
     >>> x, w = reals("x w")
     >>> str(substitute(x < w, {"x": w + 1}))
     'w + 1 < w'
 
-    Raises ClaimError for what is neither a term nor a formula, and for a float.
+    Raises ClaimError for a float, and where `thing` is neither a term nor a formula.
     """
     _refuse_others(thing)
     done: dict[int, Expression] = {}  # parts that are shared are visited once
@@ -390,7 +390,7 @@ def substitute(thing: Expression, values: Mapping[str, Number]) -> Expression:
                     changed(each) if isinstance(each, Expression) else each for each in part.args
                 )
                 new = type(part)(part.op, *args)
-            if isinstance(part, Term) and isinstance(new, Term):  # still what a derivation made
+            if isinstance(part, Term) and isinstance(new, Term):  # the origins stay
                 new = new.made_by(*part.origins)
             done[id(part)] = new
         return done[id(part)]
@@ -400,7 +400,7 @@ def substitute(thing: Expression, values: Mapping[str, Number]) -> Expression:
 
 def names_in(thing: Expression) -> set[str]:
     """The names of the variables that occur in a term or formula; raises ClaimError for any other
-    thing.
+    object.
     """
     _refuse_others(thing)
     return set(_names_of(thing))

@@ -49,12 +49,12 @@ Line = tuple[str, Union[Formula, tuple[str, Term]]]
 
 @dataclass(frozen=True)
 class Roles:
-    """What the variables of statements stand for, which their text does not say.
+    """The roles of variables, which the text of statements does not say: parameters and scales.
 
-    `domains` has the parameters, each with what is assumed of it alone; sharp ranges are sought
-    there, over the first parameter unless others are asked for. `scales` are positive variables
-    that a change of units makes 1; None where homogeneity shows which they are. Searches take both
-    as hints; the checker sees neither.
+    `domains` gives each parameter the assumptions on it alone; sharp ranges are sought there, over
+    the first parameter unless others are asked for. `scales` are positive variables that a change
+    of units makes 1; where it is None, homogeneity decides. Searches take both as hints; the
+    checker sees neither.
     """
 
     domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
@@ -66,7 +66,7 @@ class Roles:
         return next(iter(self.domains), "")
 
     def is_scale(self, name: str) -> bool:
-        """Whether the variable is known to be a scale."""
+        """Whether `scales` names the variable."""
         return self.scales is not None and name in self.scales
 
 
@@ -75,8 +75,8 @@ NO_ROLES = Roles()
 
 @dataclass(frozen=True)
 class Statement:
-    """For all `forall`: the lines (range, given, have, let, root) imply `show`, or that some
-    `exists` meet `within` and `show`.
+    """A statement: for all values of `forall`, the lines (range, given, have, let, root) imply
+    `show`, or that some values of `exists` meet `within` and `show`.
 
     >>> from juggleproof.statements.language import reals
     >>> x, y = reals("x y")
@@ -110,7 +110,7 @@ class Statement:
         return replace(self, name=name)
 
     def undeclared(self) -> set[str]:
-        """Names that occur and are declared nowhere."""
+        """The names that occur but are not declared."""
         declared, loose = {*self.forall, *self.exists}, set()
         for _, content in (*self.lines, *self.within, ("show", self.show)):
             if isinstance(content, tuple):
@@ -124,10 +124,10 @@ class Statement:
 
 @dataclass(frozen=True)
 class SharpRange:
-    """For all `over` in the domain: all the statements named hold <=> the condition holds.
+    """A sharp range: for all `over` in the domain, the statements `of` hold <=> `condition` holds.
 
-    `numbers` names algebraic end points: (name, polynomial, low, high), exactly one root in
-    between.
+    `numbers` names algebraic end points: (name, polynomial, low, high), where the polynomial has
+    exactly one root between low and high.
     """
 
     name: str
@@ -154,8 +154,8 @@ class SharpRange:
 
 @dataclass(frozen=True)
 class Iterates:
-    """For every integer K >= 0, the K-th iterate of the map state -> images is the map state ->
-    powers.
+    """A recurrence: for every integer K >= 0, the K-th iterate of the map state -> images is the
+    map state -> powers.
     """
 
     name: str
@@ -184,12 +184,11 @@ class Iterates:
 
 @dataclass(frozen=True)
 class MapRule:
-    """What holds of every orbit of a map, by a rule of the checker that writes its own premises:
-    the lines as (keyword, text), the terms and formulas that the texts are written from, and file
-    and line of the call that made it.
+    """A statement on all orbits of a map, whose premises the checker generates by one of its rules.
 
-    A line ("lemma", "PREMISE: FORMULA") is for the search alone, which proves the formula first,
-    and uses it in the proof of the premise; the checker sees neither.
+    `rows` are its lines (keyword, text), `made_of` the terms and formulas in them, `place` the file
+    and line of the call that made it.  A row ("lemma", "PREMISE: FORMULA") is for the search alone,
+    which proves the formula first, and uses it in the proof of the premise.
 
     >>> over = (("over", "a"), ("domain", "a > 0"))
     >>> map = (("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))
@@ -209,7 +208,7 @@ class MapRule:
 
     def __post_init__(self) -> None:
         if self.place is None:
-            caller = sys._getframe(2)  # above this function and the __init__ of the dataclass
+            caller = sys._getframe(2)  # the caller of the dataclass's __init__
             object.__setattr__(self, "place", (caller.f_code.co_filename, caller.f_lineno))
 
     def text(self) -> str:
@@ -264,9 +263,8 @@ def _line(line: Line) -> str:
 
 
 def origins_in(*things: object) -> Iterator[Hashable]:
-    """The derivations that made the terms in these terms, formulas, statements and sequences of
-    such, from the outside in and from left to right; one that made several terms stands several
-    times.
+    """The origins of all terms in these terms, formulas, statements and sequences, from the outside
+    in and from left to right; the origin of several terms is repeated.
 
     >>> x, w = reals("x w")
     >>> list(origins_in([x < w.made_by("f"), x**2]))
@@ -288,14 +286,14 @@ def origins_in(*things: object) -> Iterator[Hashable]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The interval that conditions on one variable alone make.
+# The interval that is given by conditions on one variable.
 
 End = tuple[str, str]  # a rational, and < or <=
 
 
 def bounds_of(condition: str, name: str) -> tuple[End | None, End | None] | None:
-    """The lower and the upper end of the interval that the conditions on one variable alone make;
-    None in place of an end that there is not, and in place of both where a condition is not linear,
+    """The lower and the upper end of the interval that is given by the conditions on this variable
+    alone.  None stands for a missing end, and for the whole result where a condition is not linear,
     or is a disjunction.
 
     >>> bounds_of("3*a >= 1 and a < 1 and g > 0", "a")

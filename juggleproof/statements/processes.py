@@ -1,4 +1,4 @@
-"""The same work on many items: here, over processes of our own, or by an executor that is given."""
+"""The same work on many items: in this process, in a pool of processes, or by an executor."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 alone = (
     threading.Lock()
-)  # the checker counts its work in one place: threads of one process take turns
+)  # the checker's count of work is global in a process, so threads take turns
 
 
 def spread(
@@ -27,10 +27,10 @@ def spread(
     executor: Executor | None,
     done: Callable[[int, Result], None],
 ) -> list[Result]:
-    """The results of the work on every item, in order; here where there is no executor.  `done`
-    is called with each as it is ready.
+    """The results of the work on every item, in order; without an executor the work is done in this
+    process.  `done` is called with the index and the result of each item as it is ready.
 
-    Raises what the work on the first item in order raised, when the others are finished.
+    If the work of an executor fails on some items, the exception of the first is raised at the end.
     """
     results: dict[int, Result] = {}
     problems: dict[int, Exception] = {}
@@ -57,13 +57,13 @@ def spread(
 
 
 def one_at_a_time(work: Callable[[Item], Result], item: Item) -> Result:
-    """The work on an item, while no other thread of this process does any."""
+    """The result of the work on an item; threads of this process take turns."""
     with alone:
         return work(item)
 
 
 def stop(pool: ProcessPoolExecutor) -> None:
-    """Ends the processes of a pool of our own at once."""
+    """Kills the processes of a pool."""
     for process in list((pool._processes or {}).values()):
         process.kill()
     pool.shutdown(wait=False, cancel_futures=True)
@@ -71,7 +71,7 @@ def stop(pool: ProcessPoolExecutor) -> None:
 
 @contextmanager
 def own_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """So many processes of our own; they end at once where the work on them is broken off."""
+    """A pool of `jobs` processes, which are killed where the work is interrupted."""
     with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
         try:
             yield pool
@@ -83,8 +83,9 @@ def own_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def as_child() -> None:
-    """A process of our own leaves interruptions to the one that started it, and ends with it,
-    however that one ends: its killing cannot be heard, so its absence is looked for.
+    """Makes a worker ignore interruptions, which its parent handles, and end with its parent.
+
+    A killed parent sends no signal, so a thread asks every second whether it is still there.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = parent_process()

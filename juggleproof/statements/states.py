@@ -1,4 +1,4 @@
-"""States of a search: what is assumed on one branch, and the branches below it."""
+"""States of a search: the assumptions on one branch, and the branches below it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Known = Mapping[str, checker.Statement]
 
 
 class State:
-    """What is assumed on one branch of a search: facts (polynomial, relation) that all hold, and
-    disjunctions still open.
+    """The assumptions on one branch of a search: facts (polynomial, relation), which all hold, and
+    disjunctions, which are still to be split.
 
-    Its context has the variables of another one by their keys, the licences of what is assumed, and
-    a meter of its own: so no branch spends what is another's.
+    Its context has the variables of another context, the licences that the assumptions give, and a
+    meter of its own, so that no branch spends the work of another.
 
     >>> context = checker.Context()
     >>> context.declare("x")
@@ -46,13 +46,13 @@ class State:
 
     @property
     def formulas(self) -> list[checker.Formula]:
-        """All that is assumed: what is false, the facts and the disjunctions, in this order."""
+        """The assumptions: False where the state is closed, then the facts and the disjunctions."""
         facts: list[checker.Formula] = [("atom", poly, relation) for poly, relation in self.facts]
         choices: list[checker.Formula] = [("or", list(one)) for one in self.choices]
         return [*[False] * self.closed, *facts, *choices]
 
     def assume(self, formula: checker.Formula) -> State:
-        """The same state, in which one more formula holds."""
+        """This state itself, after one more formula is assumed."""
         for part in checker.conjuncts(formula):
             if isinstance(part, bool):
                 self.closed = self.closed or not part
@@ -66,8 +66,8 @@ class State:
     def branch(
         self, formula: checker.Formula = True, variables: checker.Context | None = None
     ) -> State:
-        """A state of its own that assumes one more formula; `variables`: a context with more of
-        them.
+        """A new state that assumes one more formula; `variables` is a context with more variables,
+        if there are more.
         """
         return State(variables or self.context, self).assume(formula)
 
@@ -83,7 +83,7 @@ class State:
     def adjoin(self, name: str, text: str, low: str, high: str) -> None:
         """Adds a variable between low and high at which the polynomial is 0.
 
-        Raises Rejected where the name is taken, or a term is none.
+        Raises Rejected where the name is taken, or a text is not a term.
         """
         context = self.context
         ends = [context.value(checker.parse(end)) for end in (low, high)]
@@ -94,7 +94,7 @@ class State:
         self.assume(context.atom(context.value(checker.parse(text)), "=", context.number(0)))
 
     def is_closed_by(self, node: Node, known: Mapping[str, checker.Statement]) -> bool:
-        """Whether the checker accepts the node for what is assumed here."""
+        """Whether the checker accepts that the node closes this state."""
         return closes(self.context, self.formulas, node, known)
 
     def is_served_by(
@@ -106,17 +106,17 @@ class State:
         base: Collection[str] = (),
         sharp: Sequence[ast.expr] | None = None,
     ) -> bool:
-        """Whether the checker accepts the values for what is assumed here, as a "point", a
-        "witness" or a "counterexample"; base: the variables of the statement that keep the value
-        they have here.
+        """Whether the checker accepts the values in this state, as a "point", a "witness" or a
+        "counterexample"; `base` has the variables of the statement that keep the value they have in
+        this state.
         """
         assumed = self.context, self.formulas
         return finds(*assumed, values, known, purpose, statement, base, sharp)
 
 
 def variables_in(context: checker.Context, poly: checker.Poly) -> list[str]:
-    """The variables that occur, in their order: as the checker's own, which looks at each place
-    that a variable may have.
+    """The variables that occur in the polynomial, in order: the same as the checker's function
+    finds, at less cost.
     """
     together = reduce(or_, poly.terms, 0)
     mask = (1 << checker.BITS) - 1
@@ -154,7 +154,7 @@ def finds(
     sharp: Sequence[ast.expr] | None = None,
 ) -> bool:
     """Whether values serve their purpose in the state that assumes the formulas over the variables
-    of a context; base: the variables of the statement that are also the state's.
+    of a context; `base` has the variables of the statement that are also variables of the state.
     """
     state = _assuming(context, formulas)
     own = {name: state.context.values[name] for name in base}
@@ -168,7 +168,7 @@ def proves(
     known: Known,
     sharp: Sequence[ast.expr] | None = None,
 ) -> bool:
-    """Whether the proof, of a whole statement or inside a sharp range, is one."""
+    """Whether the checker accepts the proof of a whole statement, or inside a sharp range."""
     return not checker.verdict(checker.prove, statement, proof, known, sharp)[1]
 
 

@@ -1,5 +1,5 @@
-"""The store: the statement file and the certificate file, a line for each statement, in canonical
-bytes, written aside and renamed.
+"""The store: the statement file, and the certificate file with a line for each statement.  Both
+have canonical bytes; each is written to a temporary file, which is then renamed.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def canonical(data: object) -> bytes:
 
 
 def plain_file(path: Path) -> Path:
-    """The path of a file that a user names, or that lies in a folder of the user's: every such file
-    is asked about here before it is opened, since a pipe or a device might never end.
+    """The path, unless it is a pipe, a device or a folder: reading one might never end, so every
+    path of a user is tested here before it is opened.
 
     Raises ClaimError, one line, where something else than a file is there; a file may be missing.
 
@@ -57,8 +57,8 @@ def plain_file(path: Path) -> Path:
 
 
 def write_file(path: Path, content: bytes) -> bool:
-    """Writes the file unless it has this content already; never leaves half of it.  Returns whether
-    anything was written.
+    """Writes the file unless it has this content already; never leaves a part of the content.
+    Returns whether anything was written.
 
     Raises ClaimError, one line that names the path, where the folder cannot be written, or where
     something else than a file has the name.
@@ -97,8 +97,8 @@ UNPRINTABLE = re.compile(r"[^ -~]")
 
 
 class WrittenOut(Mapping[str, str]):
-    r"""The statements of a statement file by name, each with its definitions written out when it is
-    asked for; of a file that the checker takes, the very ones that it reads.
+    r"""The statements of a statement file by name, as the checker reads them: each has its
+    definitions written out when it is first asked for.
 
     >>> file = "define d(x) := x - 1\n\n# of d\nstatement a/b\nforall x\nshow d(x) < x"
     >>> WrittenOut(file)["a/b"]
@@ -133,7 +133,7 @@ class WrittenOut(Mapping[str, str]):
         return len(self.shortened)
 
     def named_by(self, name: str) -> list[str]:
-        """The statements that the lines of this one name."""
+        """The statements whose names occur in the lines of this one."""
         lines = (line.partition(" ") for line in self.shortened[name])
         return [
             one
@@ -143,8 +143,8 @@ class WrittenOut(Mapping[str, str]):
         ]
 
     def read(self, names: Iterable[str]) -> dict[str, checker.Statement]:
-        r"""These statements and all that they name, as the checker reads them, in the file's order.
-        The others are not read.
+        r"""These statements and all that they name, parsed by the checker, in the file's order; no
+        others are parsed.
 
         >>> [*WrittenOut("statement a/b\nshow 0 < 1\n\nstatement a/c\nshow 0 < 2").read(["a/c"])]
         ['a/c']
@@ -159,14 +159,12 @@ class WrittenOut(Mapping[str, str]):
         return checker.read_statements("\n\n".join(["\n".join(self._defined), *blocks]))
 
 
-# Stores of one process that read the same file share what is written out of it, and what it holds.
+# Stores of one process that read the same file share its statements and its certificates.
 written_out = lru_cache(maxsize=4)(WrittenOut)
 
 
 class Lines:
-    """The lines of a file of certificates by the names that they begin with; a line is read when
-    its certificate is asked for.
-    """
+    """The certificates of a file by name; a line is parsed when its certificate is asked for."""
 
     def __init__(self, text: str, read: Mapping[str, Certificate | None] | None = None) -> None:
         found = [NAMED_LINE.match(line) for line in text.split("\n")[:-1]]
@@ -175,7 +173,7 @@ class Lines:
         self._read: dict[str, Certificate | None] = {**(read or {})}
         if len(names) == len(found) and all(map(operator.lt, names, names[1:])):
             self._lines = {one[1]: one.string for one in found if one}
-        else:  # not as it is written: the checker says what counts
+        else:  # not in the form that is written here: the checker reads the whole file
             self._read.update(checker.read_certificates(text)[0])
 
     def __getitem__(self, name: str) -> Certificate | None:
@@ -206,7 +204,7 @@ class Store:
 
     def certificate(self, name: str, text: str) -> Certificate | None:
         """The stored certificate of a statement, if the stored statement has this very text; else
-        None.  It is what the file holds, with lists for tuples, and not checked.
+        None.  It is unchecked, and has lists in place of tuples.
         """
         return self.certificate_named(name) if self.texts.get(name) == text else None
 
@@ -226,7 +224,7 @@ class Store:
         return self._lines
 
     def only(self, claims: Collection[str]) -> Store:
-        """What the store has of some claims, read from their files: plain data."""
+        """The part of the store that belongs to some claims, read from the files, as plain data."""
         part = object.__new__(Store)
         part.folder = self.folder
         part.texts = {name: self.texts[name] for name in self.texts if name.split("/")[0] in claims}
@@ -240,10 +238,11 @@ def statement_file(
     definitions: Sequence[Definition],
     held: Mapping[str, str],
 ) -> str:
-    r"""The text of a statement file: the title and what stands above the statements of each claim
-    as comments, the definitions, and the statements, shortened by them.
+    r"""The text of a statement file: the title and the heading of each claim as comments, the
+    definitions, and the statements, shortened by the definitions.
 
-    Statements that are as they are `held` by a file with the same definitions are taken from it.
+    `held` is a file that is there; if it has the same definitions, statements that it has with the
+    same text are copied from it.
 
     >>> print(statement_file("All.", [("One.", ["statement a/b\nshow 0 < 1"])], [], {}))
     # All.

@@ -1,5 +1,5 @@
-"""Votes on a statement by routes other than the certificate, and the stop when one of them
-contradicts what was checked.
+"""Votes on a statement by routes other than the certificate, and the error that is raised when one
+of them contradicts the checker.
 """
 
 from __future__ import annotations

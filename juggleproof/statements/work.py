@@ -1,4 +1,4 @@
-"""Counted work, and statements unfolded once: what all searches share."""
+"""Counted work, and a cache of unfolded statements, which all searches share."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Exhausted(Exception):
 
 
 class Budget:
-    """A number of units of work, a few microseconds each; what a part spends, the whole spends too.
+    """A number of units of work, a few microseconds each; a part's spending counts for the whole.
 
     >>> whole = Budget(100)
     >>> part = whole.part(30)
@@ -33,8 +33,8 @@ class Budget:
         self.left, self.whole = units, whole
 
     def spend(self, amount: int) -> None:
-        """Takes `amount` units, for work ahead; raises Exhausted, and takes none, where fewer are
-        left: what is too large leaves the budget to what is smaller.
+        """Takes `amount` units, for work ahead.  Where fewer are left, raises Exhausted and takes
+        none, so that smaller work can still be done.
         """
         if amount > self.left:
             raise Exhausted
@@ -43,8 +43,8 @@ class Budget:
         self.left -= amount
 
     def charge(self, amount: int) -> None:
-        """Takes `amount` units, or what is left, for work that was done; raises Exhausted where
-        that is less.
+        """Takes `amount` units, for work that was done.  Where fewer are left, takes these and
+        raises Exhausted.
         """
         least, budget = min(amount, self.left), self.whole
         while budget is not None:
@@ -59,16 +59,16 @@ class Budget:
 
 
 # -------------------------------------------------------------------------------------------------
-# Statements unfolded once: the searches for points, proofs and witnesses share what the checker
-# makes of a text.
+# Unfolded statements, kept: the searches for points, proofs and witnesses share the checker's
+# unfolding of a text.
 
 MOST = 32
-# by ids; the statement and the trees are kept with it, so that their ids stay theirs
+# by ids of a statement and trees; an unfolding keeps these objects, so no other can get their ids
 _kept: dict[tuple[int, ...], Unfolded] = {}
 
 
 class Unfolded(checker.Unfolding):
-    """An unfolding that goes on from one before it where both statements begin with the same lines,
+    """An unfolding that reuses the one before it where both statements begin with the same lines,
     as premises of one map rule do.
     """
 
@@ -79,7 +79,7 @@ class Unfolded(checker.Unfolding):
         before: Unfolded | None = None,
     ) -> None:
         self.statement, self.sharp = statement, [*(sharp or [])]
-        # what was unfolded after each line; the first ones are those of the other
+        # the unfolding after each line; the first of these come from the unfolding before
         self.after: list[dict[str, Any]] = (
             [] if before is None else before.after[: self._shared(before)]
         )
@@ -87,7 +87,7 @@ class Unfolded(checker.Unfolding):
         super().__init__(statement, checker.Context(), sharp)
 
     def _shared(self, before: Unfolded) -> int:
-        """How many lines at the beginning are those of the other statement."""
+        """The number of lines at the beginning that both statements share."""
         one, other = self.statement, before.statement
         if before.sharp != self.sharp or one.get("integer") != other.get("integer"):
             return 0
@@ -95,14 +95,14 @@ class Unfolded(checker.Unfolding):
         return len([*takewhile(lambda pair: same(*pair), pairs)])
 
     def line(self, *said: Any) -> None:
-        """What one line adds; those that the other one has are taken over at the last of them."""
+        """Unfolds one line; the shared lines are copied together, at the last of them."""
         self.lines_to_skip -= 1
         if self.lines_to_skip < 0:
             super().line(*said)
             self.after.append(_copied(self.__dict__))
         elif not self.lines_to_skip:
             last = self.after[-1]
-            last["context"].work.refill(checker.MAX_WORK)  # what others have spent is not its own
+            last["context"].work.refill(checker.MAX_WORK)  # each unfolding has the full work
             self.__dict__.update(_copied(last))
 
 
@@ -110,12 +110,12 @@ ADDED = ("premises", "obligations", "goals", "variables", "universal")
 
 
 def _copied(parts: Mapping[str, Any]) -> dict[str, Any]:
-    """What lines have added to an unfolding, apart from what later ones add."""
+    """A copy of what lines have added to an unfolding; later lines do not change it."""
     return {"context": checker.Context(parts["context"]), **{n: copy(parts[n]) for n in ADDED}}
 
 
 def same(one: object, other: object) -> bool:
-    """Whether two lines, or two trees, say the same."""
+    """Whether two lines, or two trees, are equal."""
     if one is other:
         return True
     if isinstance(one, ast.AST):
@@ -136,8 +136,9 @@ def read(text: str, name: str) -> checker.Statement:
 def unfolded(
     statement: checker.Statement, sharp: Sequence[ast.expr] | None = None
 ) -> checker.Unfolding:
-    """The statement's variables, premises, obligations and goals in a context of its own; not to be
-    changed.  `sharp` has the domain of a sharp range, and its condition where that is assumed.
+    """The statement's variables, premises, obligations and goals in a context of its own, which
+    callers must not change.  `sharp` has the domain of a sharp range, and its condition where that
+    is assumed.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0"
     >>> unfolding = unfolded(checker.read_statements(text)["a/b"])

@@ -1,6 +1,6 @@
 """`juggleproof simulate juggler`.  In reading order:
 
-command   what is asked for, and done
+command   the options, and what is done for them
 tables    the tables that it prints
 pictures  the pictures that it draws
 """

@@ -44,11 +44,11 @@ LISTS: dict[str, tuple[str, ...]] = {
     "word": ("alpha",),
     "times": ("alpha", *STARTS),
     "picture": ("alpha", *STARTS, "output"),
-}  # and what each takes
+}  # the lists, each with the options that it takes
 
 
 class JugglerOptions(argparse.Namespace):
-    """What `juggleproof simulate juggler` takes."""
+    """The options of `juggleproof simulate juggler`."""
 
     alpha: str | None
     r: str
@@ -82,7 +82,7 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def juggler(options: JugglerOptions) -> int:
-    """The orbits of the paper's map, or one of the lists of the juggler; the exit code.  Raises
+    """Prints the orbits of the paper's map, or one of `LISTS`; returns the exit code.  Raises
     ClaimError for options that do not go together, and for a missing one.
     """
     _refuse_what_does_not_go_together(options)
@@ -108,8 +108,8 @@ def juggler(options: JugglerOptions) -> int:
 
 
 def _refuse_what_does_not_go_together(options: JugglerOptions) -> None:
-    """Raises ClaimError for two lists at once, a picture being one, and for options that a list
-    would leave out in silence.
+    """Raises ClaimError for two of `LISTS` at once, and for options that have no effect on the one
+    that is chosen.
     """
     lists = [name for name in LISTS if getattr(options, name) not in (None, False)]
     if not lists:
@@ -125,7 +125,7 @@ def _refuse_what_does_not_go_together(options: JugglerOptions) -> None:
 
 
 def starts(options: JugglerOptions, alpha: Fraction) -> Starts:
-    """The starting states that were asked for; raises ClaimError where they are none, or of two
+    """The starting states of the options; raises ClaimError where the options give none, or two
     kinds.
     """
     given = [name for name in STARTS if getattr(options, name) is not None]
@@ -242,7 +242,7 @@ def _follow(options: JugglerOptions, setting: Scene) -> int:
 
 
 def _writer(options: JugglerOptions) -> Writer | None:
-    """How the file is made, its name and place being checked before the run."""
+    """The function that writes the output file, whose path is checked before the run."""
     units = _checked_units(options)
     path = options.output
     if path is None:
@@ -272,7 +272,7 @@ def _refuse_unwritable(path: Path, suffixes: Sequence[str]) -> None:
 # -------------------------------------------------------------------------------------------------
 # Pictures.
 
-# the starts and the alpha of a picture for which none are given
+# the default starts and alpha of a picture
 PICTURES: dict[str, dict[str, str | int]] = {
     "orbit": {},
     "basin": {"grid": "x=0:8:400,w=-6:6:400"},
@@ -280,7 +280,7 @@ PICTURES: dict[str, dict[str, str | int]] = {
 }
 MOST_ALPHAS = 2000  # columns of a picture
 _OR = "orbit, basin or bifurcation"
-# what only tables have, with the value that an option has which is not given
+# the options that only tables take, with their values when they are not given
 OF_TABLES = {
     "arithmetic": "exact",
     "precision": None,
@@ -291,7 +291,7 @@ OF_TABLES = {
 
 
 def _picture(options: JugglerOptions, wanted: str) -> int:
-    """Draws a picture; raises ClaimError for options that it would leave out in silence."""
+    """Draws a picture; raises ClaimError for options that have no effect on it."""
     if wanted not in PICTURES:
         raise ClaimError(f"--picture {wanted[:40]!r}: choose from {_OR}")
     others = OF_TABLES if wanted == "orbit" else {**OF_TABLES, "steps": None}

@@ -1,4 +1,4 @@
-"""The pictures of `juggleproof simulate juggler --picture`, and what is printed with them."""
+"""The pictures of `juggleproof simulate juggler --picture`, and the lines printed with them."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from juggleproof.scenes.juggler.starts import Scene
 
 
 def orbit(setting: Scene, periods: int, units: str, path: Path) -> int:
-    """Ball and table against time."""
+    """Draws ball and table against time."""
     return _written(picture.orbit(setting, periods, units), path)
 
 
 def basin(setting: Scene, units: str, path: Path) -> int:
-    """The basins of the periodic orbits, over a grid."""
+    """Draws the basins of the periodic orbits over a grid."""
     picture.grid_of(setting)
     found = _followed([setting.alpha], setting)
     counts = found.counts()
@@ -36,7 +36,7 @@ def basin(setting: Scene, units: str, path: Path) -> int:
 
 
 def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Path) -> int:
-    """What the orbits of the starts tend to at each alpha, at least two."""
+    """Draws the limits of the orbits of the starts at each alpha; there are at least two alphas."""
     found = _followed(alphas, setting)
     print(
         f"{len(alphas)} alpha, from {brief(alphas[0])} to {brief(alphas[-1])}: {picture.how(found)}"

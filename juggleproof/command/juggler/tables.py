@@ -1,4 +1,4 @@
-"""What `juggleproof simulate juggler` prints."""
+"""The tables that `juggleproof simulate juggler` prints."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def rounded(value: Value) -> str:
 
 
 def _number(value: Value) -> str:
-    """A number; an exact one as the fraction that it is, or rounded behind a ~ where it is long."""
+    """The text of a number: an exact one as a fraction, or rounded behind a ~ where it is long."""
     if not isinstance(value, Fraction):
         return rounded(value)
     bits = max(value.numerator.bit_length(), value.denominator.bit_length())
@@ -99,8 +99,8 @@ def rounded_error(error: Error | None) -> str:
 
 
 def orbits(run: Orbits, units: str) -> None:
-    """The table: every state that was kept, or where each orbit stands; the first rows, and the
-    first that were not decided.
+    """Prints the table of all kept states, or of the last state of each orbit: its first rows, and
+    the first undecided orbits.
     """
     setting = run.scene
     print(
@@ -161,8 +161,8 @@ def _print_ends(orbits: Orbits) -> None:
 
 
 def times(setting: Scene, low: Number, high: Number, count: int) -> int:
-    """Heights of ball and table at times, in the units of r and g; raises SceneError for several
-    starts.
+    """Prints the heights of ball and table at times, in the units of r and g; raises SceneError for
+    several starts.
     """
     if setting.starts.count > 1:
         raise SceneError(f"times of {setting.starts.count} starts; give one start")
@@ -178,7 +178,7 @@ def times(setting: Scene, low: Number, high: Number, count: int) -> int:
 
 
 def words(alpha: Fraction, longest: int, flight: int | None) -> int:
-    """All periodic orbits of up to so many impacts."""
+    """Prints all periodic orbits with at most `longest` impacts."""
     cycles = search_words(alpha, longest, flight)
     most = longest_flight(alpha) if flight is None else min(flight, longest_flight(alpha))
     print(
@@ -212,8 +212,8 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
 
 
 def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
-    """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it
-    attracts.
+    """Prints the orbit of a word, at this alpha or as formulas in alpha, and the alphas for which
+    it exists and attracts.
     """
     exists, attracts = exists_for(wanted), attracts_for(wanted)
     at = orbit_of(wanted, alpha) if alpha is not None else None
@@ -251,13 +251,13 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
 
 
 def _formula(expression: Expr) -> str:
-    """A rational function of alpha."""
+    """The text of a rational function of alpha."""
     text = str(factor(expression)).replace("**", "^")
     return text if len(text) <= LONG_TEXT else "a long formula; --alpha gives the numbers"
 
 
 def hard_cases() -> int:
-    """The hard cases: what floats say, what is true, and what the bounded arithmetics say."""
+    """Prints the hard cases: states by floats, true states, and states by bounded arithmetics."""
     print(
         "float64: plain floats, period by period; exact: the truth; fast: float64 with a bound"
         " of its error; enclosed: balls"

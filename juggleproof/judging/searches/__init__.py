@@ -1,8 +1,8 @@
-"""What is searched for claims: certificates, votes, sharp ranges; nothing here has to be believed.
+"""The searches for claims: certificates, votes, sharp ranges; the checker believes none of them.
 
-- `unproved_premises`: why a premise of a rule for orbits has no proof;
+- `unproved_premises`: the reason why a premise of a map rule has no proof;
 - `range_search`: the search for a sharp range, and the text of a certified one;
-- `claim_search`: certificates and votes of the statements of one claim.
+- `claim_search`: certificates and votes for the statements of one claim.
 
 A name loads its file when first used (PEP 562), so that a judgement by stored certificates loads no
 search.

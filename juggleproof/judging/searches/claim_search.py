@@ -1,4 +1,4 @@
-"""What is searched for one claim: certificates of its statements, and their votes."""
+"""The searches for one claim: certificates of its statements, and votes on them."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ TRIAL = 10  # a look for a contradiction or for simple values gets this part of 
 class ClaimSearch:
     """The searches for the statements of one claim; the checker believes nothing that they find.
 
-    `known` has the certified statements that proofs may use, `outcomes` those of all statements;
-    `premises` are those of the rules that were searched, `unproved` the texts of the premises for
-    which no proof was found.  A trial settles what may correct the claim.
+    `known` has the certified statements that proofs may use, `outcomes` the outcomes of all settled
+    statements, `premises` the premises of the rules that were searched, `unproved` the texts of
+    those without a proof.  A trial settles a candidate for the correction of the claim.
     """
 
     budget: int
@@ -89,8 +89,8 @@ class ClaimSearch:
         return certificate
 
     def _in_simple_values(self, statement: Statement, certificate: Certificate) -> Certificate:
-        """The counterexample of a refutation in simple rationals, where a search with the parameter
-        at a simple value finds one that the checker accepts; else the refutation as it is.
+        """A refutation in simple rationals, if a search with the parameter at a simple value finds
+        one that the checker accepts; else the certificate unchanged.
         """
         found, parameter = certificate.get("refuted"), self.roles.parameter
         if not isinstance(found, Counterexample) or is_simple(found):
@@ -119,11 +119,11 @@ class ClaimSearch:
         confirm: bool,
         where: str,
     ) -> Certificate:
-        """A proof of each premise of a map rule, or why some have none; with `confirm` the checker
-        confirms each before the search goes on.
+        """A proof of each premise of a map rule, or the reasons why some have none; with `confirm`
+        the checker confirms each before the search goes on.
 
-        Raises ClaimError where the premises cannot be written, and for a lemma that is for none of
-        them, or cannot be read.
+        Raises ClaimError where the premises cannot be generated, and for a lemma that belongs to no
+        premise, or cannot be read.
         """
         stated = {**self.outcomes, **self.known}
         premises = premises_of(rule, self.known, stated)
@@ -161,7 +161,7 @@ class ClaimSearch:
         return {"unknown": between.join([count, *reasons.values()])}
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
-        """Whether a quick search at sample points meets a counterexample; it proves nothing."""
+        """Whether a quick search at sample points finds a counterexample; it proves nothing."""
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
@@ -179,7 +179,7 @@ class ClaimSearch:
         return values is not None
 
     def certificate_of_inclusion(self, parsed: checker.Statement) -> Certificate:
-        """The certificate that a quick search finds, or none."""
+        """The certificate that a quick search finds; `unknown` where it finds none."""
         try:
             return search_certificate(parsed, {}, Budget(QUICK_BUDGET))
         except Exhausted:

@@ -45,10 +45,10 @@ def search_sharp_range(
     """The sharp range of the statements and its certificate; None where the search does not find
     one.
 
-    It is sought in the domains of the parameters that it is over.  A whole number that the
-    hypotheses tie to the first one, as floor and ceiling do, joins it, and they bound the domain.
-    Over several real parameters first the values of the first one are sought for which the
-    statements hold with all values of the others; then pairs.
+    It is sought in the domains of the parameters `over`.  If the hypotheses determine a whole
+    number by the first parameter, as floor and ceiling do, the range is first sought over both.
+    Then it is sought over the first parameter alone, with all values of the others; and then over
+    all parameters.
     """
     if not _replaces(over, statements, roles):
         return None
@@ -86,11 +86,12 @@ def search_sharp_range(
 def text_of_range(
     text: str, statements: Sequence[Statement], over: Sequence[str], roles: Roles, budget: int
 ) -> str | None:
-    """A certified sharp range of the statements as a person reads it, from its own lines; None
-    where it is over other parameters, on another domain than the whole one, or where a range line
-    names what it is not over: that line would be left out.
+    """The text for a reader of a certified sharp range of the statements, made from its own lines;
+    None where it is over other parameters, on a domain other than the whole one, or where a range
+    line names a variable that it is not over, since the range would ignore that line.
 
-    The whole domain is that of the parameters, with what ties a whole number to the first one.
+    The whole domain is that of the parameters, with the hypothesis that determines a whole number
+    by the first parameter, if there is one.
     """
     sharp = sharp_range_of(text)
     parsed = [read(statement.text(), statement.name) for statement in statements]
@@ -139,8 +140,8 @@ def sharp_range_of(text: str) -> SharpRange:
 
 
 def _replaces(over: Collection[str], statements: Sequence[Statement], roles: Roles) -> bool:
-    """Whether a sharp range over these can stand in place of all range lines of the statements:
-    each line names only those of them that have a domain.
+    """Whether a sharp range over these parameters can replace all range lines of the statements:
+    each line names only those parameters that have a domain.
     """
     replaced = {name for name in over if name in roles.domains}
     return all(
@@ -165,8 +166,8 @@ def _tied(
 
 
 def region_text(statement: SharpRange, whole: Collection[str] = ()) -> str:
-    """A range over several parameters as a person reads it: solved for the first, or its condition,
-    or that it is everything or nothing.
+    """The text of a range over several parameters: solved for the first one, or else its condition;
+    the domain if it is all of it, `nowhere` if it is empty.
 
     >>> from juggleproof.statements.language import reals
     >>> a, size = reals("a eps")
@@ -184,8 +185,8 @@ def region_text(statement: SharpRange, whole: Collection[str] = ()) -> str:
 
 
 def paired_text(statement: SharpRange, number: str) -> str:
-    """A range over a parameter and a whole number that is tied to it; what ties them is added
-    where the condition does not imply it.
+    """The text of a range over a parameter and a whole number that it determines; the domain is
+    added where the condition does not imply it.
     """
     text = region_text(statement, [number])
     if text == "nowhere":
@@ -203,8 +204,8 @@ def line_text(
     numbers: Sequence[tuple[str, Term, Number, Number]] = (),
     ends: tuple[End | None, End | None] = (None, None),
 ) -> str:
-    """The set as a person reads it: intervals, up to the ends of the domain, and for each
-    irrational end its 12 decimals and its equation, under its name in `numbers`.
+    """The text of a set of reals: its intervals, with the ends of the domain where an interval has
+    none, and for each irrational end its name in `numbers`, its decimals and its equation.
 
     >>> from fractions import Fraction
     >>> line_text(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
@@ -267,15 +268,15 @@ def polynomial(coefficients: Sequence[int], name: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# The interval that a domain of one parameter is.
+# A domain of one parameter as an interval.
 
-# of an irrational end: bits of its enclosure, and how near its stand-in lies
+# bits of the enclosure of an irrational end, and its distance from the rational that replaces it
 BITS, NEAR = 32, Fraction(1, 10**6)
 
 
 def ends_inside(domain: str, parameter: str) -> tuple[End | None, End | None] | None:
-    """The ends of the interval that a domain of one parameter is, with rational numbers inside in
-    place of irrational ones; None where it is none, or is tiny.
+    """The ends of a domain of one parameter, if it is an interval, with rational numbers just
+    inside in place of irrational ends; None where it is not an interval, or is tiny.
     """
     line = line_on(checker.parse(domain), parameter, checker.parse("0 = 0"))
     intervals = line.simplified().intervals(True) if line else []
@@ -290,7 +291,7 @@ def ends_inside(domain: str, parameter: str) -> tuple[End | None, End | None] | 
 
 
 def _inside(end: AlgebraicNumber, closed: bool, near: Fraction) -> End:
-    """The end, or where it is irrational the simplest number that is so near to it."""
+    """The end; for an irrational one, the simplest rational within `near` of it, further inside."""
     if end.is_rational:
         return str(end.as_fraction()), "<=" if closed else "<"
     low, high = end.enclosure(BITS)

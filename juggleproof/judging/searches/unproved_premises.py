@@ -1,4 +1,4 @@
-"""Why a premise of a rule for orbits has no proof: values at which it is false, or what Z3 says."""
+"""The reason why a premise of a map rule has no proof: values where it is false, or Z3's answer."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from juggleproof.statements.vote import Vote
 from juggleproof.votes.z3 import Model
 
 LONGEST, LONGEST_NUMBER = 80, 24  # characters of a formula, and of a number, in a line
-BITS, PLACES = 64, 6  # of an irrational value: after the point of its ends, and decimals shown
-MORE = 10  # times the budget that is proposed
+BITS, PLACES = 64, 6  # bits of the enclosure of an irrational value, and its decimals in a line
+MORE = 10  # the factor by which a larger budget is proposed
 
 
 def why(
@@ -27,8 +27,8 @@ def why(
     budget: int,
     cut: bool = True,
 ) -> str:
-    """A line on a premise for which no proof was found within the budget, from Z3's answer; `cut`:
-    whether it was the budget that ended the search.
+    """A line on a premise for which no proof was found within the budget, from Z3's answer; `cut`
+    says whether the budget ended the search.
     """
     vote, model = answer
     about = f"{name}, {meaning(kind, name)}:"
@@ -57,8 +57,8 @@ def _value(value: Fraction | AlgebraicNumber) -> str:
 
 
 def _numbers(premise: checker.Statement, model: Model) -> str:
-    """What is false at the values, with the numbers that its two sides come to; nothing where that
-    is 0 = 1, or where the ends of irrational values do not tell.
+    """The relation that is false at the values, with the numbers on its two sides; empty where that
+    is 0 = 1, or where the enclosures of irrational values do not decide it.
     """
     point = {
         name: (value, value) if isinstance(value, Fraction) else value.enclosure(BITS)
@@ -80,13 +80,13 @@ def _numbers(premise: checker.Statement, model: Model) -> str:
                 name, (under,) = line
                 defined = ast.Compare(under, [ast.GtE()], [ast.Constant(0)])
                 return f"under the root {name}, {_false_part(defined, point)}"
-    except ZeroDivisionError:  # between ends that are not close enough
+    except ZeroDivisionError:  # the enclosures are not narrow enough
         return ""
     return ""
 
 
 def _false_part(node: ast.expr, point: Mapping[str, Ends]) -> str:
-    """The first false part of a conjunction, all parts of a disjunction that is false."""
+    """The first false part of a conjunction, or all parts of a false disjunction."""
     if not is_surely(False, node, point):
         return ""
     if isinstance(node, ast.BoolOp):
