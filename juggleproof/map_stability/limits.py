@@ -103,8 +103,8 @@ BOX_SHARES = (1e-6, 1 - 1e-6, 0.5, -1.0)  # of the side of a box, for states; -1
 GROWTH_SHARES = (-1, -0.5, -0.1, 0.1, 0.5, 1)  # of a radius, at which growth is looked at
 THINNED = 4  # every fourth state is used in the first program of a weighted sum
 SETTLE, STRAY = 400, 1e-3  # steps before an orbit is looked at; distance that is no convergence
-FAR_END, NEAR_END = 64.0, 1e-3  # times the distance of samples; share of the way
-END_HALVINGS = 30  # halvings that find it
+FAR_END, NEAR_END = 64.0, 1e-3  # reach of a search for an end, in steps; share of the way left
+END_HALVINGS = 30  # halvings of that search
 FREE_VALUES = ("0", "1/2", "1", "-1/2", "-1", "2", "-2", "1/4", "-1/4")  # of variables
 
 # -------------------------------------------------------------------------------------------------

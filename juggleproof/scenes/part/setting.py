@@ -29,7 +29,7 @@ LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
 LONGEST = 1e5  # seconds of a run
 COARSEST = 0.01  # of half the short side: the largest tolerance
 ROUNDING = 0.05  # of the tolerance: the most by which a gap may be rounded
-HOP = 4.0  # by which a hop is to surpass what is lost in rounding
+HOP = 4.0  # the factor by which a hop has to exceed what is lost in rounding
 LEAST_LOSS = 1e-6  # of energy in an impact: below, it counts as lossless
 FASTEST, FASTEST_TURN = 1e3, 1e5  # m/s and rad/s of a start
 RANGES = {
@@ -88,13 +88,13 @@ class Scene:
     drive: Harmonics | None = None
 
     def polygon(self) -> Polygon:
-        """The block's corners, of a rectangle from the lower left one on."""
+        """The block as a polygon; the corners of a rectangle begin at the lower left."""
         a, b = self.a, self.b
         return self.shape or Polygon(((-a, -b), (a, -b), (a, b), (-a, b)))
 
     def lying(self) -> tuple[int, ...]:
-        """The edges on which a block counts as lying: those above which its centre is lowest when
-        at rest, of a rectangle the long ones.
+        """The edges on which a block counts as lying: of those on which it can rest, those above
+        which its centre is lowest; for a rectangle the long ones.
 
         >>> scene(e=0.7, mu=0.08).lying()
         (1, 3)
@@ -144,14 +144,14 @@ class Scene:
 
     def shaken(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(A, W) along the table and away from it, such that A W^k bounds the derivatives of its
-        place from the second to the fourth; the amplitude and the frequency of a sine.
+        place from the second to the fourth; for a single sine, its amplitude and frequency.
         """
         if self.drive is not None:
             return self.drive.bounds()
         return (self.A_x, 2 * math.pi * self.f_x), (self.A_y, 2 * math.pi * self.f_y)
 
     def highest(self) -> float:
-        """How far from 0 the table's height is at most, in metres."""
+        """The greatest distance of the table's height from 0, in metres."""
         return self.A_y if self.drive is None else self.drive.highest()
 
     def least_rest_speed(self) -> float:
@@ -170,8 +170,8 @@ class Scene:
         return max(HOP * fall * body.MOMENT, math.sqrt(HOP * fall * rounded / lost))
 
     def step(self) -> float:
-        """The length of a step of Runge and Kutta, in seconds, by its error term: fifth derivatives
-        of table and fall, times h^5/120, make the tolerance.
+        """The length h of a step of Runge and Kutta, in seconds, by its error term: the fifth
+        derivatives of table and fall, times h^5/120, equal the tolerance.
         """
         (along, fast), (high, quick) = self.shaken()
         size = max(max(map(abs, corner)) for corner in self.polygon().corners)
