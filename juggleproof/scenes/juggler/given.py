@@ -1,5 +1,5 @@
-"""The map and its flights as arithmetic, compiled from the derived expressions; and numbers as they
-are given, taken exactly or refused.
+"""The map and its flights as arithmetic, compiled from the derived expressions; and given numbers,
+which are taken exactly or refused.
 """
 
 from __future__ import annotations
@@ -101,8 +101,8 @@ def _is_negative(expression: Expr) -> bool:
 
 
 def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -> Compiled:
-    """A function of these names with the values of the expressions, its source being its docstring;
-    DerivationError where an expression is not rational or has other symbols.
+    """A function of these names with the values of the expressions; its docstring is its source.
+    Raises DerivationError if an expression is not rational or has other symbols.
 
     >>> compiled("impact", "alpha x w", *normal_f1()).__doc__
     'lambda alpha, x, w: ((alpha*(w - x)), (2 - (alpha*w)))'
@@ -212,8 +212,8 @@ def _closed_form() -> tuple[Expr, Expr]:
 # -------------------------------------------------------------------------------------------------
 # Given numbers.
 #
-# Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
-# value and what is allowed.
+# Given numbers are taken exactly and within their ranges, or refused in one line with the value and
+# what is allowed.
 
 Number: TypeAlias = int | float | str | Fraction  # a float means the binary number that it is
 BITS = (
@@ -225,7 +225,7 @@ _FINITE = "is no finite number; give an integer, a fraction or a finite float"
 
 
 def rational(value: Number, name: str) -> Fraction:
-    """The number exactly; SceneError for what is none.
+    """The exact value of a number; raises SceneError for what is no number.
 
     >>> rational("1/3", "x"), rational(0.5, "x")
     (Fraction(1, 3), Fraction(1, 2))
@@ -299,7 +299,7 @@ def brief(value: object) -> str:
 
 def nearest(value: Fraction) -> tuple[float, float]:
     """A float next to the number, and a bound on their difference, itself rounded up; infinities
-    for what is beyond the floats.
+    for a number beyond the floats.
 
     >>> nearest(Fraction(1, 2)), 0 < nearest(Fraction(1, 3))[1] < 2**-54
     ((0.5, 0.0), True)

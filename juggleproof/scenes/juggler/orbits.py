@@ -163,7 +163,7 @@ class Orbits:
 
     @property
     def followed(self) -> int:
-        """How many orbits have been begun at least; the others have no row."""
+        """How many orbits have at least been begun; the others have no row."""
         return self.ensemble.done if self.ensemble is not None else len(self.tracks)
 
     def run(self, report: Report | None = None) -> Orbits:
@@ -346,8 +346,8 @@ def prepare(
     radius: Number = bounded.RADIUS,
     most_bits: int | None = None,
 ) -> Orbits:
-    """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what
-    cannot be.
+    """The orbits that `orbit` follows, before anything is followed; raises SceneError, one line,
+    for what cannot be followed.
     """
     if not isinstance(scene, Scene):
         raise SceneError(f"scene = {brief(scene)} is no scene; give scene(alpha, starts)")
