@@ -65,7 +65,7 @@ def can_be_a_corner(problem: Problem, point: Point) -> bool:
 
 def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
     """The bytes of the certificate that the checker accepts, read back from what would be stored;
-    ArithmeticError where it rejects it.
+    raises ArithmeticError where it rejects it.
     """
     (statement,) = checker.read_statements(problem.of_box(low, high)).values()
     excess, size = problem.excess(high), len(problem.names)

@@ -133,7 +133,7 @@ def denial(statement: str) -> str:
 
 def truth_at_ends(closed_form: sympy.Expr, sign: int) -> Fraction:
     """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there;
-    DerivationError where it may not be.
+    raises DerivationError where it may not be.
     """
     rises = sign_for_lossy_impacts(closed_form.diff(alpha)) * sign > 0
     return fraction(closed_form.subs(alpha, rational(ALPHAS[1 if rises else 0])))

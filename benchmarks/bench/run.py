@@ -208,7 +208,7 @@ class Wish:
 
 
 def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, quick: bool) -> Wish:
-    """What the options say; ClaimError, one line, for what cannot be measured.
+    """What the options say; raises ClaimError, one line, for what cannot be measured.
 
     >>> wish(["orbit"], None, None, True).names, wish(None, "1e-2,1/7", "3", False).widths
     (('orbit',), (Fraction(1, 7), Fraction(1, 100)))

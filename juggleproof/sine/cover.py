@@ -182,7 +182,7 @@ def shared(
     executor: Executor | None,
     done: Callable[[int, Result], None] = lambda place, result: None,
 ) -> list[Result]:
-    """The results of the work on the items, by the executor; ClaimError where that fails."""
+    """The results of the work on the items, by the executor; raises ClaimError where that fails."""
     try:
         return spread(work, items, executor, done)
     except ClaimError:

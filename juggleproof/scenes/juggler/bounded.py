@@ -133,7 +133,8 @@ class Bounded:
 
 
 def _bounded(value: Bounded | int | Floats) -> Bounded:
-    """A whole number below 2^53, or whole floats, as exact; OverflowError for a greater one."""
+    """A whole number below 2^53, or whole floats, as exact; raises OverflowError for a greater one.
+    """
     if isinstance(value, Bounded):
         return value
     if isinstance(value, int) and abs(value) >= 2**53:
@@ -358,7 +359,7 @@ def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
 
 
 def refuse_flushing() -> None:
-    """SceneError on a processor whose floats have no gradual underflow."""
+    """Raises SceneError on a processor whose floats have no gradual underflow."""
     if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
         raise SceneError(
             "this processor is set to flush small floats to 0, under which no bound holds"
@@ -372,8 +373,8 @@ def follow_fast(
     report: Callable[[int, int], None] | None = None,
     chunk: int = CHUNK,
 ) -> None:
-    """Follows all orbits of the scene, chunk by chunk, in place; SceneError on a processor whose
-    floats have no gradual underflow.
+    """Follows all orbits of the scene, chunk by chunk, in place; raises SceneError on a processor
+    whose floats have no gradual underflow.
     """
     refuse_flushing()
     count = scene.starts.count

@@ -288,7 +288,7 @@ def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
 
 def flight_length(x: Fraction, w: Fraction) -> int:
     """How many periods without an impact follow: the least K >= 0 with K^2 + K (w + 1) + w - x > 0;
-    SceneError where the closed form does not give it.
+    raises SceneError where the closed form does not give it.
 
     >>> flight_length(Fraction(1), Fraction(1))
     1

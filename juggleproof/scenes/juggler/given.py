@@ -49,7 +49,7 @@ p_e, q_e, power = symbols("e_x e_w power")  # the fixed point, and (-alpha)^n
 
 def plain(expression: Expr, first: Symbol) -> str:
     """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients,
-    no powers, at most one division; DerivationError for any other expression.
+    no powers, at most one division; raises DerivationError for any other expression.
 
     >>> plain(normal_f1()[0], alpha), plain(normal_flight_power()[0], K), plain(normal_energy(), w)
     ('(alpha*(w - x))', '((K*(1 - K - w)) + x)', '((4*x) + (w*(w - 2)) + 1)/2')
@@ -152,8 +152,8 @@ class Formulas:
 
 @cache
 def formulas() -> Formulas:
-    """The formulas, derived and compiled once; DerivationError where they are not of the shape that
-    the arithmetics rely on.
+    """The formulas, derived and compiled once; raises DerivationError where they are not of the
+    shape that the arithmetics rely on.
 
     >>> from fractions import Fraction
     >>> f = formulas()
@@ -247,7 +247,7 @@ def rational(value: Number, name: str) -> Fraction:
 
 
 def height(value: Number, name: str = "x") -> Fraction:
-    """A height, which is at least 0; SceneError for others."""
+    """A height, which is at least 0; raises SceneError for others."""
     number = rational(value, name)
     if number < 0:
         raise SceneError(f"{name} = {brief(number)} is below the table; a state has {name} >= 0")
@@ -255,7 +255,7 @@ def height(value: Number, name: str = "x") -> Fraction:
 
 
 def positive(value: Number, name: str) -> Fraction:
-    """The launch speed r or gravity g, which are greater than 0; SceneError for others."""
+    """The launch speed r or gravity g, which are greater than 0; raises SceneError for others."""
     number = rational(value, name)
     if number <= 0:
         raise SceneError(
@@ -265,7 +265,7 @@ def positive(value: Number, name: str) -> Fraction:
 
 
 def restitution(alpha: Number) -> Fraction:
-    """The restitution, strictly between 0 and 1; SceneError for others."""
+    """The restitution, strictly between 0 and 1; raises SceneError for others."""
     number = rational(alpha, "alpha")
     if not 0 < number < 1:
         raise SceneError(
@@ -275,7 +275,7 @@ def restitution(alpha: Number) -> Fraction:
 
 
 def counted(value: int, name: str, least: int, most: int) -> int:
-    """A whole number within its bounds; SceneError for others."""
+    """A whole number within its bounds; raises SceneError for others."""
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, np.integer))

@@ -159,7 +159,7 @@ class Limits:
 
 
 def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = None) -> Limits:
-    """What the orbits of all starts tend to at all alpha; SceneError for too many.
+    """What the orbits of all starts tend to at all alpha; raises SceneError for too many.
 
     >>> from juggleproof.scenes.juggler import listed
     >>> found = limits([Fraction(1, 4), Fraction(1, 2)], listed([(0, 1), ("4/9", "8/3")]))

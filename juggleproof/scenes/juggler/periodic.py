@@ -225,7 +225,7 @@ class Orbit:
 
 
 def valid_word(word: Sequence[int]) -> Word:
-    """The word: flights of at least one period each; SceneError for others."""
+    """The word: flights of at least one period each; raises SceneError for others."""
     if isinstance(word, str) or not isinstance(word, Sequence):
         raise SceneError(f"{brief(word)} is no word; give the lengths of flights, such as (1, 2)")
     if not 1 <= len(word) <= LONGEST_WORD:

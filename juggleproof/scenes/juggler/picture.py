@@ -152,8 +152,8 @@ def grid_of(scene: Scene) -> Grid:
 
 
 def basin(scene: Scene, found: Limits, units: str) -> bytes:
-    """The states of a grid, coloured by what their orbits tend to, as SVG; SceneError for states
-    that are no grid of at least two by two.
+    """The states of a grid, coloured by what their orbits tend to, as SVG; raises SceneError for
+    states that are no grid of at least two by two.
     """
     return _on_white(lambda: _basin(scene, grid_of(scene), found, units), "basin")
 
@@ -259,7 +259,7 @@ SHARES = 60.0  # the height of the panel below, in points
 
 def bifurcation(scene: Scene, found: Limits, units: str) -> bytes:
     """Closing speeds at the impacts of the orbits that any start tends to, against alpha, and below
-    the share of the starts, as SVG; SceneError for fewer than two alpha.
+    the share of the starts, as SVG; raises SceneError for fewer than two alpha.
     """
     if len(found.alphas) < 2:
         raise SceneError("one alpha makes no picture; give two at least")

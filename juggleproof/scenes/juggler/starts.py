@@ -246,7 +246,7 @@ class Goal:
 
 
 def goal(steps: int, impacts: bool = False, until_trap: bool = False) -> Goal:
-    """The goal; SceneError for a number of steps below 0."""
+    """The goal; raises SceneError for a number of steps below 0."""
     return Goal(
         counted(steps, "steps", 0, MOST_STEPS), "impacts" if impacts else "periods", until_trap
     )
@@ -264,7 +264,7 @@ MOST = 10**8  # starts of one scene
 
 
 def point(x: Number, w: Number) -> Listed:
-    """One state; SceneError for x < 0 and for what is no number.
+    """One state; raises SceneError for x < 0 and for what is no number.
 
     >>> point(0, "3/2").exact(0)
     (Fraction(0, 1), Fraction(3, 2))
@@ -273,7 +273,7 @@ def point(x: Number, w: Number) -> Listed:
 
 
 def listed(states: Sequence[tuple[Number, Number]]) -> Listed:
-    """States (x, w) one by one, at least one; SceneError for others."""
+    """States (x, w) one by one, at least one; raises SceneError for others."""
     if not isinstance(states, (Sequence, np.ndarray)) or len(states) == 0:
         raise SceneError("no states are given; give one at least, as a list of pairs (x, w)")
     for pair in states:
@@ -329,7 +329,8 @@ def _refuse_other_parts(given: object, count: int, name: str) -> None:
 
 
 def grid(x: Axis, w: Axis) -> Grid:
-    """A grid of heights (from, to, how many) and closing speeds (likewise); SceneError for others.
+    """A grid of heights (from, to, how many) and closing speeds (likewise); raises SceneError for
+    others.
 
     >>> grid((0, 1, 3), (-1, 1, 2)).exact(3)
     (Fraction(1, 2), Fraction(1, 1))
@@ -359,7 +360,7 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
     """So many states, uniform over a box of heights and closing speeds, whose ends are the floats
-    next to those given; SceneError for a box or a number out of range.
+    next to those given; raises SceneError for a box or a number out of range.
     """
     counted(count, "the number of states", 1, MOST)
     counted(seed, "seed", 0, 2**64 - 1)
@@ -397,8 +398,8 @@ def physical_box(beta: Side, v: Side, r: Number, g: Number) -> tuple[Side, Side]
 
 
 def arrays(x: Floats, w: Floats) -> Array:
-    """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; SceneError for
-    others.
+    """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; raises
+    SceneError for others.
     """
     try:
         xs, ws = np.asarray(x), np.asarray(w)

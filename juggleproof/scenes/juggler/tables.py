@@ -32,7 +32,7 @@ LONG_BITS, DIGITS = 4000, 40  # longer exact numbers are written as balls of thi
 
 
 def checked_units(units: str) -> str:
-    """The name of the units; SceneError where there are none of that name."""
+    """The name of the units; raises SceneError where there are none of that name."""
     if units not in UNITS:
         raise SceneError(f"units = {brief(units)!r} is not one of {', '.join(UNITS)}")
     return units

@@ -273,7 +273,9 @@ def frames(
 
 
 def sampled(job: FrameJob) -> Array:
-    """A chunk of blocks at its times; SceneError where a counted bound on the work is reached."""
+    """A chunk of blocks at its times; raises SceneError where a counted bound on the work is
+    reached.
+    """
     states = job.states.copy()
     seen = np.zeros((len(states), len(job.times), body.STATE))
     notes = fresh_notes(len(states))

@@ -181,7 +181,7 @@ class Task(NamedTuple):
 
 
 def point(task: Task) -> Point:
-    """Table I under one reading.  SceneError where a block is stuck."""
+    """Table I under one reading.  Raises SceneError where a block is stuck."""
     starts = list(
         zip(jittered(task.ensembles, task.seed), jittered_phases(task.ensembles, task.seed))
     )
@@ -365,7 +365,7 @@ def _results(one: Point) -> dict[str, object]:
 
 
 def read(text: str) -> tuple[Stage, ...]:
-    """The stages of a record; ValueError, KeyError or TypeError for any other text."""
+    """The stages of a record; raises ValueError, KeyError or TypeError for any other text."""
     return tuple(
         Stage(**{**kept, "points": tuple(map(_point, kept["points"]))}) for kept in json.loads(text)
     )
@@ -382,7 +382,7 @@ def _point(kept: dict[str, object]) -> Point:
 @cache
 def recorded() -> tuple[Stage, ...]:
     """The search that is stored beside this file; the reading of the scene comes from it.
-    SceneError where it cannot be read.
+    Raises SceneError where it cannot be read.
 
     >>> chosen(recorded()) in as_good(recorded())
     True

@@ -138,7 +138,7 @@ class Starts:
 
 
 def between(low: float, high: float) -> Starts:
-    """Angles that are even over an interval, in degrees; SceneError for one without width."""
+    """Angles that are even over an interval, in degrees; raises SceneError if it has no width."""
     if not -360 <= low < high <= 360:
         raise SceneError(
             f"angles from {low:g} to {high:g}: give ends that grow, within -360 .. 360"
@@ -147,7 +147,9 @@ def between(low: float, high: float) -> Starts:
 
 
 def listed(angles: Sequence[float]) -> Starts:
-    """Angles of a list, in degrees, each as probable as the others; SceneError for an empty one."""
+    """Angles of a list, in degrees, each as probable as the others; raises SceneError for an empty
+    one.
+    """
     if not angles or not all(-360 <= one <= 360 for one in angles):
         raise SceneError("angles: give at least one, within -360 .. 360 degrees")
     return Starts(tuple(map(float, angles)), False)
@@ -273,7 +275,7 @@ class Parameter:
     scale: float
 
     def set_in(self, setting: Scene, value: float) -> Scene:
-        """Return the scene with another value, given in the unit; SceneError for one out of
+        """Return the scene with another value, given in the unit; raises SceneError for one out of
         range.
         """
         return changed(setting, **{self.field: self.scale * value})

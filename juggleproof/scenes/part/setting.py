@@ -198,8 +198,8 @@ def scene(
     shape: Polygon | Sequence[Sequence[float]] | None = None,
     drive: Harmonics | None = None,
 ) -> Scene:
-    """A scene; SceneError, one line, for numbers that make none.  `shape`: the corners of a convex
-    polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
+    """A scene; raises SceneError, one line, for numbers that make none.  `shape`: the corners of a
+    convex polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
 
     >>> scene(e=0.7, mu=0.08).b
     0.02
@@ -262,8 +262,8 @@ def scene(
 
 
 def _refuse_block(made: Scene) -> None:
-    """SceneError for friction with which the block can jam, and for a tolerance that is coarse
-    beside it.
+    """Raises SceneError for friction with which the block can jam, and for a tolerance that is
+    coarse beside it.
     """
     block = geometry(made.polygon())
     if made.mu >= block.jams:
@@ -281,7 +281,7 @@ def _refuse_block(made: Scene) -> None:
 
 
 def changed(setting: Scene, **numbers: float) -> Scene:
-    """The same scene but for some of its numbers; SceneError for numbers that make none.
+    """The same scene but for some of its numbers; raises SceneError for numbers that make none.
 
     >>> changed(scene(e=0.7, mu=0.08), e=0.5).e
     0.5
@@ -337,7 +337,7 @@ def moving(
     t: float = 0.0,
 ) -> Array:
     """One state, shape (1, 10), of the centre of mass in the resting frame, in m, rad, m/s, rad/s
-    and s; SceneError for numbers out of range, and where the block and the table overlap.
+    and s; raises SceneError for numbers out of range, and where the block and the table overlap.
     """
     given = {"t": t, "X": X, "Y": Y, "theta": theta, "V_X": V_X, "V_Y": V_Y, "omega": omega}
     numbers = [_finite(value, name) for name, value in given.items()]
@@ -392,8 +392,8 @@ def faces_below(setting: Scene, theta: Array) -> NDArray[np.int64]:
 
 
 def refuse_turned(setting: Scene, theta: Array) -> None:
-    """SceneError where an angle is so large that its rounding moves corners by more than a part of
-    the tolerance.
+    """Raises SceneError where an angle is so large that its rounding moves corners by more than a
+    part of the tolerance.
     """
     rounded = float(np.abs(theta).max()) * geometry(setting.polygon()).reach * EPSILON
     if rounded > ROUNDING * setting.tolerance:
@@ -404,8 +404,8 @@ def refuse_turned(setting: Scene, theta: Array) -> None:
 
 
 def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
-    """SceneError for a time that is out of range, or so late that its rounding moves the table by
-    more than a part of the tolerance.
+    """Raises SceneError for a time that is out of range, or so late that its rounding moves the
+    table by more than a part of the tolerance.
     """
     if not 0 <= until <= LONGEST:
         raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")
