@@ -6,8 +6,8 @@ Caprasse, Lotka-Volterra, Butcher, magnetism, heart dipole, Schwefel: Munoz and 
 Formalization of Bernstein polynomials and applications to global optimization, J. Automated
 Reasoning 51 (2013), after Verschelde's list of polynomial systems; Rosenbrock, Powell, Colville
 (Wood): More, Garbow and Hillstrom, Testing unconstrained optimization software, ACM TOMS 7 (1981).
-Each problem is a polynomial, a box, and the published value of its minimum; the run fails where
-that is not the one that is certified.
+Each problem is a polynomial, a box, and the published value of its minimum; the run fails if the
+certified minimum is another.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 
 
 def seconds_of_checking(enclosure: Enclosure) -> float:
-    """CPU seconds of both checks, the statements being read; raises ArithmeticError where the
+    """CPU seconds of both checks, with the reading of the statements; raises ArithmeticError if the
     checker does not certify both.
     """
     statements = checker.read_statements(enclosure.statements)
@@ -119,8 +119,8 @@ def cold(polynomial: str, side: str, width: str) -> float:
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
-    """One problem: medians of so many runs.  Raises ArithmeticError where the published minimum is
-    not within 10^-4 of the enclosure.
+    """The row of one problem, with medians of some runs.  Raises ArithmeticError if the published
+    minimum is not within 10^-4 of the enclosure.
     """
     polynomial, side, published = PROBLEMS[name]
     warm = []

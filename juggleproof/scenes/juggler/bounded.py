@@ -133,8 +133,7 @@ class Bounded:
 
 
 def _bounded(value: Bounded | int | Floats) -> Bounded:
-    """A whole number below 2^53, or whole floats, as exact; raises OverflowError for a greater one.
-    """
+    """A whole number below 2^53, or whole floats, as exact; raises OverflowError above that."""
     if isinstance(value, Bounded):
         return value
     if isinstance(value, int) and abs(value) >= 2**53:

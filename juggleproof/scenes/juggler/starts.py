@@ -359,7 +359,7 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
 
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
-    """So many states, uniform over a box of heights and closing speeds, whose ends are the floats
+    """This many states, uniform over a box of heights and closing speeds, whose ends are the floats
     next to those given; raises SceneError for a box or a number out of range.
     """
     counted(count, "the number of states", 1, MOST)
@@ -424,8 +424,8 @@ def arrays(x: Floats, w: Floats) -> Array:
 
 
 def boundary(alpha: Number, count: int) -> OnBoundary:
-    """So many exact states, from 2 to 10^6, on the boundary of R (23): half of them on its energy
-    level, half on the side x = 0 (the odd one on the level).
+    """Exact states on the boundary of R (23), from 2 to 10^6 of them: half on its energy level,
+    half on the side x = 0; if the number is odd, one more on the level.
 
     On the level w runs over rationals within it, and x = (E - (1 - w)^2/2)/2 is rational too.
 
