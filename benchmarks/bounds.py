@@ -6,8 +6,8 @@ Caprasse, Lotka-Volterra, Butcher, magnetism, heart dipole, Schwefel: Munoz and 
 Formalization of Bernstein polynomials and applications to global optimization, J. Automated
 Reasoning 51 (2013), after Verschelde's list of polynomial systems; Rosenbrock, Powell, Colville
 (Wood): More, Garbow and Hillstrom, Testing unconstrained optimization software, ACM TOMS 7 (1981).
-Each problem is a polynomial, a box, and the published value of its minimum; the run fails if the
-certified minimum is another.
+Each problem is a polynomial, a box, and the published value of its minimum; the run fails where
+that is not the one that is certified.
 """
 
 from __future__ import annotations

@@ -168,7 +168,7 @@ def differences(random: Random, solvable: bool) -> str:
     steps = [random.randint(-9, 9) for _ in names[1:]]
     steps.append(-sum(steps) + (0 if solvable else 1))
     facts = [atom(names[(k + 1) % count] - names[k], ">=", step) for k, step in enumerate(steps)]
-    for _ in range(count // 2):  # further ones, all of which hold at the solution
+    for _ in range(count // 2):  # further ones, which all hold at the solution
         k, m = random.sample(range(count), 2)
         rise = sum(steps[:m]) - sum(steps[:k])
         facts.append(atom(names[m] - names[k], ">=", rise - random.randint(0, 3)))

@@ -60,7 +60,7 @@ class Stop(Exception):
 
 
 class Sample(NamedTuple, Generic[N]):
-    """A state of an orbit: after so many periods and impacts."""
+    """A state of an orbit, with the numbers of periods and impacts before it."""
 
     periods: int
     impacts: int
