@@ -2,7 +2,7 @@
 it but `juggleproof bench`.
 
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
-    processes  programs in processes of their own, ended in time
+    processes  programs in processes of their own, which are ended in time
     figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts
     classes    random SMT-LIB problems by classes: Z3, cvc5 and ours

@@ -98,7 +98,7 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 
 
 def seconds_of_checking(enclosure: Enclosure) -> float:
-    """CPU seconds of both checks, the statements being read; raises ArithmeticError where the
+    """CPU seconds of both checks, with the reading of the statements; raises ArithmeticError if the
     checker does not certify both.
     """
     statements = checker.read_statements(enclosure.statements)
@@ -119,8 +119,8 @@ def cold(polynomial: str, side: str, width: str) -> float:
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
-    """One problem: medians of so many runs.  Raises ArithmeticError where the published minimum is
-    not within 10^-4 of the enclosure.
+    """The row of one problem, with medians of some runs.  Raises ArithmeticError if the published
+    minimum is not within 10^-4 of the enclosure.
     """
     polynomial, side, published = PROBLEMS[name]
     warm = []

@@ -1,11 +1,11 @@
-"""Whole commands, each in a process of its own: how much CPU time they take, as a multiple of what
-`import sympy` takes in the same run, and peak memory, beside the aims.
+"""Whole commands, each in a process of its own: their CPU time, as a multiple of the time of
+`import sympy` in the same run, and their peak memory, beside the aims.
 
     python -m juggleproof.benchmarks.commands [--runs 3] [--only TEXT]
     python -m juggleproof.benchmarks.commands --check      # fails above twice an aim
     python -m juggleproof.benchmarks.commands --accept     # writes the table into the page
 
-What an earlier command has kept is used where the table says `again`, and nowhere else.
+Results that an earlier command has kept are used where the table says `again`, and nowhere else.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TABLE = Generated(DOCS / "benchmarks.md", "commands")
 THEOREM = "--only theorem-roots --only theorem"
 UNIT = ("-c", "import sympy")  # takes 0.4 CPU seconds on a quiet machine
-TOO_MUCH = 2  # times the aim, from which on `--check` fails
+TOO_MUCH = 2  # times the aim, above which `--check` fails
 OWN = """from juggleproof import always, claim, reals
 x, y = reals("x y")
 @claim("squares")
@@ -48,7 +48,7 @@ class Timed(NamedTuple):
     command: str
     aim: float | None = None
     needs: str = ""  # a program
-    again: bool = False  # after it has run once, with what it has kept
+    again: bool = False  # measured after a first run, with the results that this has kept
 
 
 COMMANDS = (
@@ -94,9 +94,9 @@ COMMANDS = (
 
 def measure(arguments: Sequence[str], kept: str = "off") -> tuple[float, float]:
     """CPU seconds of a command with all its processes, and peak megabytes of the largest; `kept` is
-    the folder of what commands keep.
+    the folder in which commands keep results.
 
-    Raises RuntimeError where it cannot be carried out.
+    Raises RuntimeError if the command cannot be carried out.
     """
     environment = {**os.environ, "JUGGLEPROOF_CACHE": kept}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -115,15 +115,15 @@ def measure(arguments: Sequence[str], kept: str = "off") -> tuple[float, float]:
 
 
 def arguments_of(command: str, folder: str) -> list[str]:
-    """What is run for a command, in this environment."""
+    """The program and arguments that are run for a command, in this environment."""
     ours = [sys.executable, "-m", "juggleproof.command.main"]
     head, *rest = shlex.split(command.replace("DIR", folder))
     return [*({"juggleproof": ours, "python": [sys.executable]}.get(head, [head])), *rest]
 
 
 def measure_in_folder(one: Timed) -> tuple[float, float]:
-    """CPU seconds and peak megabytes of a command in an empty folder, by the second run where it is
-    to be run again.
+    """CPU seconds and peak megabytes of a command in an empty folder; of the second run if it is to
+    be run again.
     """
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as kept:
         Path(folder, "own.py").write_text(OWN, encoding="utf-8")
@@ -136,7 +136,7 @@ def measure_in_folder(one: Timed) -> tuple[float, float]:
 def table(runs: int, only: str = "", check: bool = False) -> tuple[str, list[str]]:
     """The commands, or those that contain a text, with the least multiple of `import sympy` that
     they take in some runs, as plain columns; and a line for each that takes over twice its aim.
-    Where they are checked, those without an aim are left out, and no run follows one that passes.
+    If `check`, commands without an aim are left out, and no run follows one that passes.
     """
     rows, over = [("x sympy", "aim", "MB", "command")], list[str]()
     for one in COMMANDS:
@@ -163,8 +163,8 @@ def table(runs: int, only: str = "", check: bool = False) -> tuple[str, list[str
 
 
 def main() -> int:
-    """Prints the table, or writes it into the page; returns 1 where commands are checked and one
-    takes over twice its aim.
+    """Prints the table, or writes it into the page; returns 1 if commands are checked and one takes
+    over twice its aim.
     """
     parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.commands")
     parser.add_argument("--runs", type=int, default=3)

@@ -1,5 +1,5 @@
-"""What a feeder may be driven with: for intervals of restitution, the drives, and the amplitudes at
-some frequencies, for which stored certificates prove that every motion comes to the bounce.
+"""The drives that a feeder may have: for intervals of restitution, the drives, and the amplitudes
+at some frequencies, for which stored certificates prove that every motion comes to the bounce.
 
     python -m juggleproof.benchmarks.feeder
     python -m juggleproof.benchmarks.feeder --accept     # writes the table into the page
@@ -28,12 +28,12 @@ ALPHAS = (
 ).split()
 HERTZ = 25, 50
 STEP = Fraction(1, 1000)  # of Gamma, and of an amplitude in mm
-COARSE = 20  # steps of Gamma from one that is tried first to the next
+COARSE = 20  # steps between the values of Gamma that are tried first
 
 
 def drives(alpha: Interval, proved: Sequence[Attraction]) -> Interval | None:
     """The ends, multiples of STEP, of an interval of Gamma that boxes cover for all of these
-    restitutions, and that is as long as it can be: the lowest; None where there is none.
+    restitutions: the lowest one, as long as it can be; None if there is none.
     """
 
     def covered(low: int, high: int) -> bool:
@@ -50,7 +50,7 @@ def drives(alpha: Interval, proved: Sequence[Attraction]) -> Interval | None:
 
 
 def amplitudes(gamma: Interval, hertz: int) -> Interval:
-    """Between which amplitudes in mm Gamma = 4 pi^2 f^2 A/9.80665 m/s^2 surely lies in the
+    """The amplitudes A in mm between which Gamma = 4 pi^2 f^2 A/9.80665 m/s^2 surely lies in the
     interval, rounded inward to multiples of STEP.
 
     >>> low, high = amplitudes((Fraction(3), Fraction(3)), 25)

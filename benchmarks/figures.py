@@ -13,7 +13,7 @@ ABSENT = "no plots: matplotlib is absent (pip install matplotlib)"
 
 
 def can_plot() -> bool:
-    """Whether matplotlib is there."""
+    """Whether matplotlib is installed."""
     return find_spec("matplotlib") is not None
 
 

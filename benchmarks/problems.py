@@ -5,8 +5,8 @@ by Z3 and cvc5, and counted in docs/your-own.md.
     python -m juggleproof.benchmarks.problems --accept      # writes the counts into the page
     python -m juggleproof.benchmarks.problems --votes 10    # also asks Z3 and cvc5, 10 CPU s each
 
-Exit 1 where a problem is open or not as stated, the page differs, or a solver contradicts an
-answer.
+The exit code is 1 if a problem is open or not as stated, the page differs, or a solver contradicts
+an answer.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""CPU seconds, and work in processes of its own, which end when they have used as many as they may.
+"""CPU seconds, and work in processes of its own, which end when they have used up their seconds.
 
-A machine that others use as well delays what runs on it, so nothing here is measured by the clock
-on the wall; it only ends what stands still.
+A machine that others use as well delays programs, so nothing here is measured by the clock on the
+wall; the clock only ends programs that stand still.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection
 from typing import Generic, NamedTuple, TypeVar
 
 GRACE = 2.0  # seconds that a process has to end its own children
-STALLED = 60  # seconds of the clock for each CPU second that is allowed: it stands still
+STALLED = 60  # seconds of the clock for each CPU second allowed, after which a program stands still
 UNCOUNTED = 600  # CPU seconds for what is written before the work begins
 
 Item = TypeVar("Item")
@@ -27,8 +27,8 @@ Answer = TypeVar("Answer")
 def cpu_seconds() -> float:
     """CPU seconds, of user and system, of this process and of those that it has waited for.
 
-    Not by `time.process_time`, which counts in ticks of some milliseconds as soon as CPU seconds
-    are limited.
+    This does not use `time.process_time`, which counts in ticks of some milliseconds as soon as CPU
+    seconds are limited.
     """
     return _used(resource.RUSAGE_SELF) + children_seconds()
 
@@ -46,7 +46,7 @@ def _used(who: int) -> float:
 
 
 def allow(seconds: float) -> None:
-    """Lets this process, with those that it waits for, use so many CPU seconds from now on, up to
+    """Lets this process, with those that it waits for, use this many CPU seconds from now on, up to
     one more; then the system sends it SIGXCPU.
     """
     _, hard = resource.getrlimit(resource.RLIMIT_CPU)
@@ -54,13 +54,13 @@ def allow(seconds: float) -> None:
 
 
 def left() -> float:
-    """The CPU seconds that this process, with those that it waits for, may use still."""
+    """The CPU seconds that this process, with those that it waits for, may still use."""
     soft, _ = resource.getrlimit(resource.RLIMIT_CPU)
     return inf if soft == resource.RLIM_INFINITY else soft - cpu_seconds()
 
 
 def output_of(command: Sequence[str], text: str, seconds: float = inf) -> str | None:
-    """What the program writes when it reads the text; None where it has used its CPU seconds or all
+    """The output of the program when it reads the text; None if it uses up its CPU seconds or all
     that are left, or stands still.
     """
     seconds = min(seconds, left(), UNCOUNTED)
@@ -85,12 +85,12 @@ def output_of(command: Sequence[str], text: str, seconds: float = inf) -> str | 
 
 
 # -------------------------------------------------------------------------------------------------
-# One warm process for many pieces of work; where one uses up its seconds, another process goes on
-# with the next.
+# One warm process for many pieces of work; if one piece uses up its seconds, another process goes
+# on with the next.
 
 
 class Timed(NamedTuple, Generic[Answer]):
-    """The answer to one piece of work, None where it used up its CPU seconds, and those it took."""
+    """The answer to one piece of work, None if it used up its CPU seconds; and those it took."""
 
     answer: Answer | None
     seconds: float
@@ -103,8 +103,8 @@ def each(
 ) -> Iterator[Timed[Answer]]:
     """The answers to all items in order.
 
-    `start` is called in the warm process and loads what it needs; it returns what makes of an item
-    the work that is timed.  Raises ChildProcessError where the work raises.
+    `start` is called in the warm process and loads what it needs; it returns the function that
+    turns an item into the work that is timed.  Raises ChildProcessError if the work raises.
     """
     fork, done = get_context("fork"), 0
     while done < len(items):
@@ -113,7 +113,7 @@ def each(
         process = fork.Process(target=_work, args=(start, items[done:], seconds, sender))
         process.start()
         sender.close()
-        last = began = 0.0  # of its CPU seconds: when its last answer ended, when this one began
+        last = began = 0.0  # in its CPU seconds: the end of its last answer, the beginning of this
         try:
             while done < len(items) and receiver.poll(STALLED * seconds):
                 kind, at, answer = receiver.recv()
@@ -158,8 +158,8 @@ def _work(
 
 
 def kill_with_children(process: subprocess.Popen[str] | subprocess.Popen[bytes]) -> None:
-    """Kills a process that leads a session, and those that it started in that session; nothing
-    where it has ended.
+    """Kills a process that leads a session, and those that it started in that session; does nothing
+    if it has ended.
     """
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
@@ -167,8 +167,8 @@ def kill_with_children(process: subprocess.Popen[str] | subprocess.Popen[bytes])
 
 
 def end_with_children(process: subprocess.Popen[str] | subprocess.Popen[bytes]) -> None:
-    """Asks a process to end, which gives it time to end what it started; kills it where it does
-    not.
+    """Asks a process to end, which gives it time to end the processes that it started; kills it if
+    it does not end.
     """
     if process.poll() is None:
         process.terminate()

@@ -39,14 +39,14 @@ COMMANDS = (  # with the most CPU seconds and megabytes that they may take
     ("juggleproof certify sine --alpha 0.05 --gamma 3.10 --jobs 1 --store DIR", "1", ""),
     ("python -I -S certificates/sine", "2", "50"),
 )
-RUNS = 5  # of each command: other work on the machine only adds
+RUNS = 5  # of each command: other work on the machine only adds seconds, so the least counts
 Row = tuple[str, str, str, str, str]
 HEAD: Row = ("", "search s", "check s", "cells", "bytes")
 Curve = Callable[[float], float]
 
 
 def measured(label: str, alpha: Interval, g: Interval) -> tuple[Row, float | None]:
-    """A row of a table, and CPU seconds of search and check; None where nothing was found."""
+    """A row of a table, and CPU seconds of search and check; None if nothing was found."""
     begin = time.process_time()
     found = find_certificate(alpha, g, *GRIDS[0])
     searched = time.process_time() - begin
@@ -62,7 +62,7 @@ def measured(label: str, alpha: Interval, g: Interval) -> tuple[Row, float | Non
 
 
 def by_width() -> Iterator[tuple[float, Row, float | None]]:
-    """(half width, row, seconds) of boxes round the middle."""
+    """Yields (half width, row, seconds) of boxes round the middle."""
     for width in WIDTHS:
         half = Fraction(width, 1000)
         alpha, g = ((one - half, one + half) for one in MIDDLE)
@@ -70,7 +70,7 @@ def by_width() -> Iterator[tuple[float, Row, float | None]]:
 
 
 def by_distance(name: str, curve: Curve, side: int) -> Iterator[tuple[float, Row, float | None]]:
-    """(distance, row, seconds) of pairs beside a curve, at the alpha of the middle."""
+    """Yields (distance, row, seconds) of pairs beside a curve, at the alpha of the middle."""
     alpha = MIDDLE[0]
     for thousandths in DISTANCES:
         gamma = curve(float(alpha)) + side * thousandths / 1000
@@ -80,7 +80,7 @@ def by_distance(name: str, curve: Curve, side: int) -> Iterator[tuple[float, Row
 
 
 def by_processes(most: int) -> Iterator[tuple[str, ...]]:
-    """Rows: seconds on the clock, boxes and certified area of a rectangle from nothing."""
+    """Yields rows: seconds on the clock, boxes and certified area of a rectangle from nothing."""
     statement = read_statement(AREA)
     for jobs in range(1, most + 1):
         begin = time.monotonic()
@@ -93,10 +93,11 @@ def by_processes(most: int) -> Iterator[tuple[str, ...]]:
 
 
 def by_command() -> Iterator[Row]:
-    """Rows: the least CPU seconds of some runs of commands, each from nothing and in a process of
-    its own, and megabytes, with the aims.
+    """Yields rows: the least CPU seconds of some runs of commands, each from nothing and in a
+    process of its own, and megabytes, with the aims.
 
-    No command seems to take fewer megabytes than this process before: so they come first.
+    A command is never counted with fewer megabytes than this process had before it: so commands
+    are measured first.
     """
     for command, seconds, megabytes in COMMANDS:
         runs = []

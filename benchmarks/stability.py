@@ -1,10 +1,10 @@
 """The maps in examples, settled by `juggleproof stability`, beside a quadratic Lyapunov function by
-a semidefinite program: what is proved, CPU seconds and bytes.
+a semidefinite program: the outcomes, CPU seconds and bytes.
 
     python -m juggleproof.benchmarks.stability [--only TEXT]
     python -m juggleproof.benchmarks.stability --accept    # writes the table into docs/stability.md
 
-Exit 1 where an outcome is not what the page says of it.
+The exit code is 1 if an outcome is not that in the page.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ PEERS: dict[str, Callable[[], bool]] = {  # each fills a column, which is empty 
 }
 HEADS = ("map", "parameters", "outcome", "CPU s", "bytes", "check", "coqc", "SDP")
 SAMPLES = 20  # of the parameters, for the semidefinite program
-MARGIN = 1e-6  # by which it asks for less than P
+MARGIN = 1e-6  # by which A'PA has to be less than P
 
 
 class Settled(NamedTuple):
-    """What the command says of an example, and the CPU seconds and bytes that it took; None where
-    there is no theorem, or no coqc.
+    """The outcome of the command on an example, the CPU seconds and bytes that it took, and the CPU
+    seconds of the bare checker and of coqc; None if there is no theorem, or no coqc.
     """
 
     outcome: str
@@ -57,9 +57,9 @@ def examples() -> list[Path]:
 
 
 def ran(*arguments: str | Path, cwd: Path | None = None) -> tuple[float, str]:
-    """CPU seconds of a program, and what it prints.
+    """CPU seconds of a program, and the text that it prints.
 
-    Raises RuntimeError where it ends with an exit code that is no answer.
+    Raises RuntimeError if it ends with an exit code that is no answer.
     """
     began = cpu_seconds()
     done = subprocess.run(arguments, cwd=cwd, capture_output=True, text=True, check=False)
@@ -69,7 +69,7 @@ def ran(*arguments: str | Path, cwd: Path | None = None) -> tuple[float, str]:
 
 
 def outcome_of(printed: str) -> str:
-    """Verdict and sentence, of what `juggleproof stability` prints.
+    """Verdict and sentence, from the text that `juggleproof stability` prints.
 
     >>> outcome_of("proved   tent: 0 is stable and attracts every state")
     'proved: 0 is stable and attracts every state'
@@ -79,7 +79,7 @@ def outcome_of(printed: str) -> str:
 
 
 def settled(path: Path) -> Settled:
-    """The example settled, its certificates read by the bare checker, its theorems compiled."""
+    """Settles the example, checks its certificates by the bare checker, compiles its theorems."""
     ours = (sys.executable, "-m", "juggleproof.command.main")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -103,7 +103,7 @@ def settled(path: Path) -> Settled:
 def is_stable_by_program(matrices: Floats) -> bool:
     """Whether Clarabel, through CVXPY, has a P > 0 with A'PA < P for all matrices A (count, n, n).
 
-    Floats, which nobody checks.
+    The answer is in floats, and nobody checks it.
     """
     import cvxpy
 
@@ -120,7 +120,7 @@ def is_stable_by_program(matrices: Floats) -> bool:
 
 def quadratic(system: Map) -> str:
     """At how many samples of the parameters a common quadratic Lyapunov function of all pieces is
-    found, such as `20/20`; nothing where a piece is not affine.
+    found, such as `20/20`; an empty text if a piece is not affine.
     """
     if not system.is_affine:
         return ""
@@ -161,7 +161,7 @@ def line(cells: Sequence[str]) -> str:
 
 
 def outcomes(table: str) -> dict[str, str]:
-    """What a table says of each map.
+    """The outcome that a table has for each map.
 
     >>> outcomes(TABLE.text())["switched"]
     'proved: (0, 0) is stable and attracts every state'

@@ -1,5 +1,6 @@
-"""Which share of the wedge the stored certificates cover: of the area, in alpha and Gamma, between
-the curve of a second orbit and that of period doubling, from alpha = 0.02 to where these meet.
+"""The share of the wedge that the stored certificates cover.  The wedge is the area, in alpha and
+Gamma, between the curve of a second orbit and that of period doubling, from alpha = 0.02 to where
+these meet.
 
     python -m juggleproof.benchmarks.wedge
     python -m juggleproof.benchmarks.wedge --accept     # writes the table into the page
@@ -26,7 +27,7 @@ ENDS = tuple(map(Fraction, ("0.02", "0.05", "0.1", "0.15", "0.18")))  # they mee
 
 
 class Area(NamedTuple):
-    """Of alpha and Gamma: between the curves, and in certified boxes."""
+    """Areas in alpha and Gamma: between the curves, and in certified boxes."""
 
     wedge: float
     certified: float
@@ -45,7 +46,7 @@ def area(low: Fraction, high: Fraction, boxes: Sequence[Box]) -> Area:
 
 
 def united(intervals: Sequence[tuple[Fraction, Fraction]]) -> list[tuple[Fraction, Fraction]]:
-    """Intervals without common points, of the same union.
+    """Intervals without common points that have the same union.
 
     >>> united([(2, 4), (0, 1), (3, 5), (1, 1)])
     [(0, 1), (2, 5)]

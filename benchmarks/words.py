@@ -1,12 +1,12 @@
-"""Words of flights that no impact has, for the claims that all orbits tend to some e_K: a search at
-a few exact restitutions, which proves nothing of the others.
+"""Words of flights that follow no impact, for the claims that all orbits tend to some e_K: a search
+at a few exact restitutions, which proves nothing of the others.
 
     python -m juggleproof.benchmarks.words
 
-Impacts with the same next flights are a convex polygon. A word is taken for impossible where its
-polygon is empty, or has no area, at all the restitutions tried; of these words as few are kept, the
-long ones dropped first, as leave no way round the runs of equal flights but flights that are
-repeated for ever.
+The impacts with the same next flights form a convex polygon.  A word is taken for impossible if its
+polygon is empty, or has no area, at all the restitutions tried.  Of these words, long ones are
+dropped first, as long as every sequence of flights without a word that is kept, and without a run
+of equal flights, at last repeats the same flights for ever.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ def flown(periods: int, alpha: fmpq, impact: Point) -> Point:
 
 
 def sides(periods: int, alpha: fmpq) -> Iterator[Side]:
-    """Where the next flight lasts so many periods: the state after it has 0 <= x <= w."""
+    """The sides of the set where the next flight lasts this many periods: after it 0 <= x <= w."""
     yield -alpha, alpha * periods, fmpq(-periods * (periods - 1))
     yield alpha, -alpha * (periods + 1), fmpq(periods * (periods + 1))
 
 
 def cut(polygon: Sequence[Point], side: Side) -> list[Point]:
-    """The part of a convex polygon on a side; no points where it has no area.
+    """The part of a convex polygon on a side; no points if it has no area.
 
     >>> square = [(fmpq(a), fmpq(b)) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
     >>> cut(square, (fmpq(-1), fmpq(0), fmpq(1, 2)))
@@ -67,7 +67,7 @@ def cut(polygon: Sequence[Point], side: Side) -> list[Point]:
 
 
 def followed(alpha: fmpq, most: int) -> Iterator[set[Word]]:
-    """The words of 1, 2 and more flights, of at most `most` periods each, that impacts follow."""
+    """Yields the words of 1, 2 and more flights, of at most `most` periods each, after impacts."""
     triangle = [(fmpq(0), fmpq(0)), (fmpq(0), fmpq(FASTEST)), (fmpq(FASTEST), fmpq(FASTEST))]
     level: dict[Word, list[Point]] = {(): triangle}
     while True:
@@ -84,7 +84,9 @@ def followed(alpha: fmpq, most: int) -> Iterator[set[Word]]:
 
 
 def impossible(levels: Sequence[Collection[Word]], most: int) -> list[Word]:
-    """The words that are followed nowhere, both of whose parts without an end are."""
+    """The shortest impossible words: no impact has such a word of next flights, but some have the
+    word without its first flight, and some the word without its last.
+    """
     return [
         (*word, periods)
         for shorter, level in zip(levels, levels[1:])
@@ -95,7 +97,9 @@ def impossible(levels: Sequence[Collection[Word]], most: int) -> list[Word]:
 
 
 def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word | None:
-    """Flights of so many periods, so often that no others follow; None where longer words tell."""
+    """The shortest run of flights of this many periods after which no other flight comes; None if
+    the words are too short to tell.
+    """
     for count in range(1, len(levels) - 1):
         others = ((periods,) * count + (last,) for last in range(1, most + 1) if last != periods)
         if not any(word in levels[count + 1] for word in others):
@@ -104,8 +108,8 @@ def run_of(periods: int, levels: Sequence[Collection[Word]], most: int) -> Word 
 
 
 def is_enough(words: Collection[Word], repeated: Collection[Word], most: int) -> bool:
-    """Whether all flights that go on without one of these words, of at most `most` periods each,
-    are at last a repeated word again and again; by the checker.
+    """Whether, by the checker, every endless sequence of flights of at most `most` periods each
+    that holds none of these words repeats at last one of the repeated words for ever.
 
     >>> is_enough([(1, 1), (2,)], [], 2), is_enough([(1, 1), (2, 2)], [], 2)
     (True, False)
@@ -122,11 +126,11 @@ def is_enough(words: Collection[Word], repeated: Collection[Word], most: int) ->
 def find_words(
     alphas: Sequence[Fraction], most: int, repeated: Collection[Word]
 ) -> tuple[list[Word], list[Word]]:
-    """For each length up to `most` the run of flights after which all others are equal; and words
-    that no impact follows, so that one of all these is in all flights that do not repeat one of
-    some words for ever.
+    """For each length up to `most`, the run of equal flights after which no other comes; and
+    impossible words.  Every sequence of flights that does not repeat one of the repeated words for
+    ever holds one of these runs or words.
 
-    Raises ValueError where words of `LONGEST` flights are too short for that.
+    Raises ValueError if words of `LONGEST` flights are too short for that.
     """
     levels: list[Collection[Word]] = [{()}]
     for level in islice(zip(*(followed(exact(alpha), most) for alpha in alphas)), LONGEST):
@@ -146,7 +150,9 @@ def find_words(
 
 
 def restitutions(least: Fraction, most: Fraction) -> list[Fraction]:
-    """Where the search looks: in a range and next to its ends, or on both sides of one."""
+    """The restitutions at which the search looks: in a range and next to its ends, or on both sides
+    of a single one.
+    """
     if least == most:
         return [least - NEXT_TO, most + NEXT_TO]
     step = (most - least) / TRIED
@@ -155,8 +161,8 @@ def restitutions(least: Fraction, most: Fraction) -> list[Fraction]:
 
 
 def last_of(chosen: Restitutions) -> Fraction:
-    """The end of a range, or next to where the repeated flights bring back no point below the
-    table.
+    """The end of a range, or the last restitution before it, by steps of NEXT_TO, at which the
+    repeated flights bring back a point below the table.
     """
     alpha = chosen.most
     if chosen.repeated:

@@ -1,7 +1,7 @@
 """`juggleproof bench`: the paper's bounds and orbits by every method in one run, error against
 seconds.  In reading order:
 
-    answers    what a method is asked, and what it answers
+    answers    questions to methods, and their answers
     questions  the questions about energy, from the derived expressions
     orbits     orbits and ensembles as work
     blocks     blocks that fall on the vibrating table as work
@@ -11,6 +11,6 @@ seconds.  In reading order:
     qepcad     how QEPCAD B is asked
     methods    our method, and the table of all methods
     child      one method on one piece of work, in a process of its own
-    table      what was measured, as text and as a plot
+    table      the measurements, as text and as a plot
     run        the whole benchmark
 """

@@ -1,4 +1,4 @@
-"""What a method is asked: a supremum on a box, an orbit, an ensemble; what it answers; and a point
+"""Questions to methods: a supremum on a box, an orbit, an ensemble; their answers; and a point
 where the supremum is nearly attained.
 """
 
@@ -24,10 +24,9 @@ class Problem:
     boundary, over < 0.
 
     So over/under <= m everywhere if and only if m under - over >= 0 on the closed box.  `sign` is
-    -1 where the question is for the infimum of
-    -over/under.  `statement` says the same of the set itself as the paper has it, in the checker's
-    language, with {bound} for the bound of the question as it is asked; `smt` asks in SMT-LIB for
-    what exceeds it.
+    -1 if the question is for the infimum of -over/under.  `statement` says the same of the paper's
+    set itself, in the checker's language, with {bound} for the bound of the question as it is
+    asked; `smt` asks in SMT-LIB for a point of the set that exceeds it.
     """
 
     name: str
@@ -49,19 +48,19 @@ class Problem:
         return {exponents: c for exponents, c in total.items() if c}
 
     def at(self, point: Sequence[Fraction]) -> Fraction | None:
-        """over/under at a point; None where under is 0."""
+        """over/under at a point; None if under is 0."""
         under = value_at(self.under, point)
         return value_at(self.over, point) / under if under else None
 
     def of_set(self, bound: Fraction) -> str:
-        """The statement that nothing in the set exceeds the bound (or is below its negative, where
-        the question is for the infimum).
+        """The statement that nothing in the set exceeds the bound (or is below its negative, if the
+        question is for the infimum).
         """
         return self.statement.format(bound=self.sign * bound)
 
     def asked(self, bound: Fraction) -> str:
-        """Whether something in the set exceeds the bound (is below its negative), in SMT-LIB
-        without a check.
+        """The question whether something in the set exceeds the bound (is below its negative), in
+        SMT-LIB without a check.
         """
         value = self.sign * bound
         size = f"(/ {abs(value.numerator)}.0 {value.denominator}.0)"
@@ -71,8 +70,8 @@ class Problem:
         """The statement that over/under is at most `high` at every point of the box where it is at
         least `low`, in the checker's language.
 
-        A certificate of it holds a point where what is given is true.  So the supremum is at least
-        `low`, and at most `high`.
+        Its certificate holds a point at which over/under is at least `low`.  So the supremum is at
+        least `low`, and at most `high`.
         """
         (a, b), (c, d) = low.as_integer_ratio(), high.as_integer_ratio()
         return self.boxed.format(low=a, below=b, high=c, above=d)
@@ -104,8 +103,8 @@ class Problem:
 
 
 def _shortest(terms: Terms, names: Sequence[str]) -> str:
-    """The polynomial nested by its variables in the order in which the text is shortest, where they
-    are few.
+    """The polynomial nested by its variables; if they are few, in the order that makes the text
+    shortest.
     """
     orders = permutations(range(len(names))) if len(names) < 5 else [tuple(range(len(names)))]
     texts = [
@@ -121,7 +120,7 @@ def _shortest(terms: Terms, names: Sequence[str]) -> str:
 
 def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str]) -> str:
     """The polynomial nested by its variables: short, and enclosed by intervals more tightly than a
-    sum of monomials; nothing for 0.
+    sum of monomials; an empty text for 0.
 
     >>> F = Fraction
     >>> horner({(0, 1): F(2), (2, 0): F(1), (2, 1): F(-3)}, ["x", "y"], str)
@@ -152,14 +151,14 @@ class Start:
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Random states for one alpha, all followed for as many periods."""
+    """Random states for one alpha, all followed for the same number of periods."""
 
     alpha: Fraction = Fraction(3, 10)
 
 
 @dataclass(frozen=True)
 class Drops:
-    """Blocks that fall on the vibrating table, so many copies of each of the known ones."""
+    """Blocks that fall on the vibrating table, `copies` of each of the known ones."""
 
     copies: int = 500
 
@@ -167,7 +166,7 @@ class Drops:
 Work = Problem | Start | Ensemble | Drops
 
 # -------------------------------------------------------------------------------------------------
-# Answers, and what was measured of them.
+# Answers, and measurements of them.
 
 
 class GaveUp(Exception):
@@ -185,7 +184,7 @@ class Answer:
     note: str = ""
 
     def error(self, truth: Fraction) -> Fraction:
-        """The width of the enclosure; the distance to the truth where there is none."""
+        """The width of the enclosure; the distance to the truth if there is none."""
         return abs(truth - self.low) if self.high is None else self.high - self.low
 
     def wrong(self, truth: Fraction) -> bool:
@@ -195,8 +194,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Strayed:
-    """The distance of a state from the exact one, and the bound that the method gives of it, None
-    where it gives none.
+    """The distance of a state from the exact one, and the method's bound of it, None if it gives
+    none.
     """
 
     distance: Fraction
@@ -205,7 +204,7 @@ class Strayed:
     beyond: bool = False  # whether the distance exceeds the bound
 
     def error(self, truth: Fraction) -> Fraction:
-        """The bound where there is one."""
+        """The bound, or the distance if there is no bound."""
         return self.distance if self.bound is None else self.bound
 
     def wrong(self, truth: Fraction) -> bool:
@@ -226,7 +225,7 @@ class Measured:
 
     @property
     def seconds(self) -> float | None:
-        """Warm, or cold where there was no time for more."""
+        """The warm seconds, or the cold ones if there was no time for more."""
         return self.cold if self.warm is None else self.warm
 
 
@@ -238,7 +237,7 @@ class Measured:
 
 Point = tuple[Fraction, ...]
 Floats = list[float]
-SHARE = 8  # methods ask of the point 1/SHARE of the width, and bound by the rest
+SHARE = 8  # methods ask for a point to within 1/SHARE of the width, and bound by the rest
 AXES = 3  # at a time: 27 places
 STEPS, AHEAD = 200, 8
 DAMPING, LEAST, MOST, FACTOR = 1e-3, 1e-18, 1e9, 8  # Levenberg's
@@ -249,7 +248,7 @@ CLOSE = 1e-9  # values farther apart than this differ for certain
 def best_point(problem: Problem, slack: Fraction) -> tuple[Point, Fraction]:
     """A point of the box and the value there, which no point tried exceeds by more than `slack`.
 
-    Raises ArithmeticError where the fraction has no value at any of them.
+    Raises ArithmeticError if the fraction has no value at any of them.
     """
     quotient = _Quotient(problem)
     value, place = quotient.greatest_near(float(slack))
@@ -321,13 +320,13 @@ class _Quotient:
                 break
             x, value = moved, after
             if before and gained * min(gained / before, 1.0) <= slack / AHEAD:
-                break  # gains go down at least so fast
+                break  # gains go down at least this fast
             before = gained
         return value, x
 
     def start(self) -> tuple[float, Floats]:
-        """(value, place), the best of all ends and middles of few axes at a time, from the middle
-        of the box until nothing is gained.
+        """(value, place): the search begins at the middle of the box, and takes the best of all
+        ends and middles of few axes at a time, until nothing is gained.
         """
         ends = list(
             zip(self.low, [(low + high) / 2 for low, high in zip(self.low, self.high)], self.high)
@@ -348,7 +347,7 @@ class _Quotient:
         return best, place
 
     def at(self, x: Sequence[float]) -> float:
-        """The value at a place; -infinity where under is not positive."""
+        """The value at a place; -infinity if under is not positive."""
         over = under = 0.0
         for exponents, c, d in self.monomials:
             part = 1.0
@@ -360,9 +359,7 @@ class _Quotient:
         return over / under if under > 0 else -inf
 
     def excess(self, x: Floats, value: float) -> tuple[Floats, list[Floats], float]:
-        """Gradient and Hessian of value * under - over at a place, and what rounding may change in
-        it.
-        """
+        """Gradient and Hessian of value * under - over at a place, and a bound of its rounding."""
         axes = range(len(x))
         powers = [[v**e for e in range(self.most + 1)] for v in x]
         slope, bend, noise = [0.0 for _ in axes], [[0.0 for _ in axes] for _ in axes], 0.0
@@ -398,8 +395,8 @@ def _product(factors: Floats, total: float) -> float:
 
 
 def solved(matrix: list[Floats], right: Floats) -> Floats | None:
-    """The solution of a symmetric system by Cholesky's method without roots; None where the matrix
-    is not positive definite.
+    """The solution of a symmetric system by Cholesky's method without roots; None if the matrix is
+    not positive definite.
 
     >>> solved([[4.0, 2.0], [2.0, 3.0]], [8.0, 8.0])
     [1.0, 2.0]

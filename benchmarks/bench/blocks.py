@@ -16,8 +16,8 @@ from juggleproof.scenes.part import body, run, scene
 THIRD_ROW = scene(e=0.7, mu=0.08, f_x=30.0, A_x=1e-3)  # of table I: 30 Hz, 1 mm
 UNTIL = 0.2  # seconds
 KNOWN = (
-    # Y, theta and omega of a start at rest otherwise, 1 mm above the table; X and theta at UNTIL,
-    # as tests/scenes/part/reference.py gives them to 35 digits
+    # Y, theta and omega of a start that is otherwise at rest, 1 mm above the table; X and theta at
+    # UNTIL, as tests/scenes/part/reference.py gives them to 35 digits
     (0.023061931849125517, 0.3, 0.0, -0.003101475204388124, 0.017600327998065483),
     (0.023061931849125517, 0.3, 20.0, 0.00025592713805318345, 1.7743708745265574),
     (0.023345906623849486, 0.5, 0.0, 0.0026708993436094495, -0.19195112214818577),
@@ -32,8 +32,8 @@ KNOWN = (
 
 
 def followed(work: Drops, size: Fraction) -> Strayed:
-    """So many copies of each known block at a tolerance of `size` metres; the answer is the median
-    distance from where they are, the note tells the impacts.
+    """Follows copies of each known block at a tolerance of `size` metres; the answer is the median
+    distance from the known places, the note gives the number of impacts.
     """
     states = np.zeros((len(KNOWN), body.STATE))
     states[:, [body.Y, body.THETA, body.OMEGA]] = [one[:3] for one in KNOWN]

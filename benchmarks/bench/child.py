@@ -1,9 +1,9 @@
 """One method on one piece of work, in a process of its own:
 `python -m juggleproof.benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
-Writes what was measured, pickled, in CPU seconds.  `cold` is the first answer, with everything that
-the method has to load, but for what is kept from run to run; `warm` the least of what follows, if
-time is left.
+Writes the measurement, pickled, in CPU seconds.  `cold` is the time of the first answer, with
+everything that the method has to load, except what is kept from run to run; `warm` is the least
+time of the answers that follow, if time is left.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from juggleproof.benchmarks.bench.answers import GaveUp, Measured
 from juggleproof.benchmarks.bench.methods import BLOCKS, ENSEMBLE, METHODS, ORBITS
 from juggleproof.benchmarks.processes import GRACE, allow, cpu_seconds
 
-# more than so many repeats only while they take less than so many seconds: answers of a millisecond
+# more than REPEATS repeats only while they take less than LONG seconds: answers of a millisecond
 # vary most
 REPEATS, LONG = 3, 0.1
 
 
 class Over(BaseException):
-    """The seconds are over, or the parent wants an end: raised wherever the method is, so that it
-    ends its own programs.
+    """The seconds are over, or the parent ends the run: this is raised wherever the method is, so
+    that it ends its own programs.
     """
 
 
@@ -34,7 +34,7 @@ def _over(*_: object) -> None:
 
 
 def measured() -> Measured:
-    """The answer with its seconds, or why there is none."""
+    """The answer with its seconds, or the reason why there is none."""
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE | BLOCKS)[name]
     signal.signal(signal.SIGTERM, _over)

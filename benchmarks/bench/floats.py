@@ -1,5 +1,5 @@
-"""Floating point without proof: random samples, and an optimiser of SciPy; their error is measured,
-not known to them.
+"""Floating point without proof: random samples, and an optimiser of SciPy; their error is measured
+here, since they give none.
 """
 
 from __future__ import annotations

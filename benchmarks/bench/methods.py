@@ -1,7 +1,7 @@
-"""Our method, and the table of all methods: what each is worth, its code, and what it needs.
+"""Our method, and the table of all methods: the worth of each, its code, and what it needs.
 
-Loading this file loads no library that a method may lack or that takes long: a method loads its
-own with its first answer.
+Loading this file loads no library that may be missing or takes long to load: a method loads its own
+with its first answer.
 """
 
 from __future__ import annotations
@@ -32,18 +32,17 @@ from juggleproof.certificates import checker
 from juggleproof.search.boxes.small import search_tree
 
 # -------------------------------------------------------------------------------------------------
-# Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the time
-# of both counts.
+# Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the times
+# of both count.
 
 FEW, MANY = 8, 20000  # boxes: for width 0, which needs few or fails, and for the width asked for
 
 
 def bernstein(problem: Problem, width: Fraction) -> Answer:
-    """Certifies that the value at a rational point is attained, and that nothing exceeds it by more
-    than the width, or at all where that succeeds.
+    """Certifies that the value at a rational point is attained, and that nothing exceeds it; or, if
+    that fails, that nothing exceeds it by more than the width.
 
-    Raises GaveUp where the boxes run out, ArithmeticError where the checker rejects the
-    certificate.
+    Raises GaveUp if the boxes run out, ArithmeticError if the checker rejects the certificate.
     """
     point, low = best_point(problem, width / SHARE)
     wider = low + width * (SHARE - 1) / SHARE
@@ -56,8 +55,8 @@ def bernstein(problem: Problem, width: Fraction) -> Answer:
 
 
 def can_be_a_corner(problem: Problem, point: Point) -> bool:
-    """Whether few halvings lead to boxes with the point at a corner: only there is a Bernstein
-    coefficient the value at the point.
+    """Whether few halvings lead to boxes with the point at a corner: only at a corner is a
+    Bernstein coefficient the value of the polynomial.
     """
     places = [(x - low) / (high - low) for x, (low, high) in zip(point, problem.box)]
     return all(2**FEW % place.denominator == 0 for place in places)
@@ -65,12 +64,12 @@ def can_be_a_corner(problem: Problem, point: Point) -> bool:
 
 def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
     """The bytes of the certificate that the checker accepts, read back from what would be stored;
-    ArithmeticError where it rejects it.
+    raises ArithmeticError where it rejects it.
     """
     (statement,) = checker.read_statements(problem.of_box(low, high)).values()
     excess, size = problem.excess(high), len(problem.names)
     bounds = [[2 * k, 2 * k + 1] for k in range(size) if any(e[k] for e in excess)]
-    # a denominator that is constant is no fact
+    # a constant denominator is no fact
     node = ["boxes", 2 * size + (1 if any(map(any, problem.under)) else 0) + 1, bounds, tree]
     witness = [
         statement.name,
@@ -106,7 +105,7 @@ Result = Answer | Strayed | Callable[[], Strayed]  # a distance that is computed
 
 
 class Needs(NamedTuple):
-    """What a method needs: what to install where it is absent, and whether it is there."""
+    """The needs of a method: a package to install if it is absent, and whether it is there."""
 
     package: str = ""
     present: Callable[[], bool] = lambda: True
@@ -114,8 +113,8 @@ class Needs(NamedTuple):
 
 @dataclass(frozen=True)
 class Method:
-    """A way to answer: `solve` gives the answer to a piece of work at a width (or for so much
-    work), `peer` says whether it is a certified peer of the aim; `prepare` makes what is kept from
+    """A way to answer: `solve` gives the answer to a piece of work at a width (or for an amount of
+    work), `peer` says whether it is a certified peer in the aim; `prepare` makes what is kept from
     run to run, before anything is measured.
     """
 
@@ -143,8 +142,8 @@ def later(place: str) -> Callable[[Work, Fraction], Result]:
 
 
 def library(name: str, module: str) -> Needs:
-    """A library of PyPI and the name under which it is imported; its presence is seen without
-    loading it.
+    """The need of a library of PyPI, by the name under which it is imported; its presence is found
+    without loading it.
     """
     shown = f"pip install {name}"
     return Needs(f"{NAMES.get(name, name)} ({shown})", lambda: find_spec(module) is not None)

@@ -1,12 +1,12 @@
-"""Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
-but nothing is left that one could check.
+"""Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps.  It is
+rigorous, but leaves nothing that one could check.
 
 A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value
 form; a variable in which it is monotone is put to its end; else the axis is halved along which
 slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
 (2009).
 
-Each kind of number loads its library when it is first made: a first answer counts what it loads.
+Each kind of number loads its library when it is first made: the time of a first answer has this.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Ball = Union["arb", "ivmpf"]  # a number that encloses
 BITS = 128
-Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end
+Side = tuple[Fraction, Fraction]  # both ends are equal if the variable is put to an end
 
 
 class Intervals(Protocol):
@@ -124,8 +124,8 @@ class Enclosed:
 
 
 def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> int | None:
-    """How many boxes show that the polynomial is >= 0 on the box; None where it is not, or where a
-    point was met that is undecided.
+    """The number of boxes that show that the polynomial is >= 0 on the box; None if it is not, or
+    if it is undecided at a point.
     """
     excess, boxes, stack = Enclosed(terms, len(box), numbers), 0, [box]
     while stack:

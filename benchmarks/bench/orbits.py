@@ -1,5 +1,5 @@
-"""Orbits and ensembles of the juggler as work to be measured: the state after so many periods in
-each arithmetic of the scene, and in float64 alone.
+"""Orbits and ensembles of the juggler as work to be measured: the state after a number of periods
+in each arithmetic of the scene, and in float64 alone.
 
 The distance from the exact state is computed untimed: a method on an orbit answers by a function
 that computes it.
@@ -71,7 +71,7 @@ def _away(start: Start, steps: int, x: fmpq, w: fmpq, bound: fmpq | None) -> Str
 
 
 def exact(start: Start, size: Fraction) -> Later:
-    """Exact rationals: what the others are measured against."""
+    """Exact rationals, against which the others are measured."""
     here: Sample[fmpq] = _followed(start, "exact", int(size)).tracks[0].here
     return lambda: Strayed(
         Fraction(0), Fraction(0), f"{max(here.x.height_bits(), here.w.height_bits())} bits"
@@ -110,9 +110,7 @@ def mp(start: Start, size: Fraction) -> Later:
 
 
 def floats(start: Start, size: Fraction) -> Later:
-    """float64 period by period, as one writes it down: every branch is what rounding makes of
-    it.
-    """
+    """float64 period by period, as one writes it down: rounding may change any branch."""
     map_of, alpha, x, w = formulas(), float(start.alpha), float(start.x), float(start.w)
     for _ in range(int(size)):
         x, w = map_of.impact(alpha, x, w) if map_of.margin(x, w) > 0 else map_of.flight(x, w, 1)
@@ -124,8 +122,8 @@ def _of_float(value: Value) -> fmpq:
 
 
 def ensemble(work: Ensemble, size: Fraction) -> Strayed:
-    """So many states in float64 with their bounds; the answer is the largest bound, the note counts
-    what is undecided.
+    """Random states in float64 with their bounds; the answer is the largest bound, the note counts
+    undecided states.
     """
     scene = juggler.scene(work.alpha, juggler.random(int(size), seed=SEED))
     orbits = juggler.orbit(scene, "fast", STATE_STEPS)

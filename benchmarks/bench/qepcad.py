@@ -1,5 +1,5 @@
-"""QEPCAD B on a statement: each of its questions is a prenex formula, that there is a point at
-which the givens and the denial of the goal hold.
+"""QEPCAD B on a statement: each of its questions is a prenex formula, which says that there is a
+point at which the givens and the negation of the goal hold.
 
 The answer FALSE to every question means that the statement holds.  Source of the format: QEPCAD B
 1.74, `qepcad -h` and its help file.
@@ -24,7 +24,7 @@ from juggleproof.votes.questions import (
 
 CELLS = (2_000_000, 100_000_000)  # of memory for lists; setting up the second takes 1 s
 TOO_FEW = "Too few cells"
-RELATIONS = {"!=": "/="}  # that are written otherwise
+RELATIONS = {"!=": "/="}  # those that are written differently
 
 
 def prenex(question: Question) -> str:
@@ -49,7 +49,7 @@ def prenex(question: Question) -> str:
 
 
 def _formula(formula: Formula, short: Mapping[str, str]) -> str:
-    """Return a formula, its variables by their short names."""
+    """Return the text of a formula, with its variables by their short names."""
     if isinstance(formula, bool):
         return "0 = 0" if formula else "0 = 1"
     if isinstance(formula, Atom):
@@ -60,7 +60,7 @@ def _formula(formula: Formula, short: Mapping[str, str]) -> str:
 
 
 def _polynomial(poly: fmpz_mpoly, short: Mapping[str, str]) -> str:
-    """Return a polynomial, with short names in place of those of its ring."""
+    """Return the text of a polynomial, with short names in place of those of its ring."""
     text, names = "", [short.get(name, name) for name in poly.context().names()]
     for exponents, c in zip(poly.monoms(), poly.coeffs()):
         powers = [n if e == 1 else f"{n}^{e}" for n, e in zip(names, exponents) if e]
@@ -71,8 +71,8 @@ def _polynomial(poly: fmpz_mpoly, short: Mapping[str, str]) -> str:
 
 
 def qepcad(text: str) -> str:
-    """Return TRUE or FALSE, as QEPCAD says; empty where it does not within the CPU seconds that are
-    left.
+    """Return QEPCAD's answer, TRUE or FALSE; an empty text if it gives none within the CPU seconds
+    that are left.
     """
     for cells in CELLS:
         output = output_of(["qepcad", "-noecho", f"+N{cells}"], text) or ""
@@ -83,7 +83,7 @@ def qepcad(text: str) -> str:
 
 
 def fails(text: str) -> bool | None:
-    """Return whether a statement fails, as QEPCAD says; None where it does not say."""
+    """Return whether a statement fails, by QEPCAD; None if it does not decide."""
     asked = questions(read_statement(text))
     answers = [qepcad(prenex(question)) for question in asked]
     if ("TRUE", True) in zip(answers, (question.refutes for question in asked)):

@@ -1,12 +1,12 @@
-"""The five questions about energy, from the derived expressions: what is sought, on which set, and
-the closed form that is its truth; and a question whose variables grow by one at a time.
+"""The five questions about energy, from the derived expressions: the supremum or infimum that is
+sought, the set, and the closed form that is the true value; and a question in any number of
+variables.
 
 Everything is in the normal form (x height in units of r T, w closing speed in units of r, energies
-in units of r^2), for all alpha of ALPHAS at once.  A set is met in two forms.  As the paper has it,
-by polynomial inequalities in alpha, x and w: that is what solvers are asked.  And as the image of a
-box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it): that
-is what box methods take, so that constraints need no search.  The supremum over a set is the
-maximum over its closure.
+in units of r^2), for all alpha of ALPHAS at once.  A set has two forms.  Solvers are asked about
+the paper's form, polynomial inequalities in alpha, x and w.  Box methods take the set as the image
+of a box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it),
+so that constraints need no search.  The supremum over a set is the maximum over its closure.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ p, q, s = sympy.symbols("p q s")
 
 @dataclass(frozen=True)
 class Question:
-    """What is sought, the fraction and the variables of its box, the statement of its set, the
+    """A question: the fraction and the variables of its box, the statement about its set, the
     closed form, and how the set became a box.
     """
 
@@ -60,7 +60,7 @@ class Question:
     sought: tuple[Term, Term]
 
     def truth(self) -> Fraction:
-        """The closed form at the end of ALPHAS where it is greatest (least, where the infimum is
+        """The closed form at the end of ALPHAS where it is greatest (least, if the infimum is
         sought).
         """
         return truth_at_ends(self.closed_form, self.sign)
@@ -105,8 +105,8 @@ class Question:
 
 
 def bounding(name: str, names: str, givens: Iterable[str], over: str, under: str, sign: int) -> str:
-    """The statement that over/under, whose denominator is positive, is at most (at least, where
-    sign is -1) {bound}, which is still to be put in.
+    """The statement that over/under, whose denominator is positive, is at most (at least, if sign
+    is -1) {bound}, which is still to be put in.
     """
     shown = f"show {over} {'<=' if sign > 0 else '>='} {{bound}}*({under})"
     return "\n".join(
@@ -121,7 +121,7 @@ def bounding(name: str, names: str, givens: Iterable[str], over: str, under: str
 
 
 def denial(statement: str) -> str:
-    """The denial of a statement of `bounding` in SMT-LIB, likewise with {bound} still to be put
+    """The negation of a statement of `bounding` in SMT-LIB, also with {bound} still to be put
     in.
     """
     text = statement.format(bound=BOUND).replace("forall ", f"forall {BOUND} ")
@@ -132,8 +132,8 @@ def denial(statement: str) -> str:
 
 
 def truth_at_ends(closed_form: sympy.Expr, sign: int) -> Fraction:
-    """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there;
-    DerivationError where it may not be.
+    """The greatest value (least, if sign is -1) on ALPHAS of a function that is monotone there;
+    raises DerivationError if it may not be.
     """
     rises = sign_for_lossy_impacts(closed_form.diff(alpha)) * sign > 0
     return fraction(closed_form.subs(alpha, rational(ALPHAS[1 if rises else 0])))
@@ -284,15 +284,15 @@ def questions() -> dict[str, Question]:
 
 
 # -------------------------------------------------------------------------------------------------
-# The energy that so many balls gain together: a question in one variable more for each.
+# The energy that a number of balls gain together: a question with one more variable for each.
 
-TOP = Fraction(4)  # of the closing speeds, beyond where the energy change is greatest
+TOP = Fraction(4)  # the greatest closing speed, beyond that at which the energy change is greatest
 VARIABLE_WIDTH = Fraction(1, 1000)
 
 
 def balls(count: int) -> tuple[Problem, Fraction]:
-    """The most energy that so many balls gain together, each struck as it leaves the table (x = 0):
-    count + 1 variables; and the closed form.
+    """The most energy that `count` balls gain together, each struck as it leaves the table (x = 0),
+    in count + 1 variables; and the closed form.
 
     The polynomial is sum_i Delta E(0, w_i) on ALPHAS x [0, TOP]^count, its maximum is count Delta
     E_max.

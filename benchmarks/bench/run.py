@@ -1,5 +1,5 @@
-"""The benchmark: each answer is measured in a process of its own; questions in turn are measured,
-judged against their closed forms, printed and drawn.
+"""The benchmark: each answer is measured in a process of its own.  The questions are measured one
+after another, judged against their closed forms, printed and drawn.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ Works = Callable[[Fraction], tuple[Work, Fraction, Fraction]]  # work, its own s
 
 
 def same(work: Work) -> Works:
-    """One work at each size, and answers as they are."""
+    """The same work at each size, and answers as they are."""
     return lambda size: (work, size, Fraction(0))
 
 
@@ -127,9 +127,9 @@ _WIDTH = re.compile(
 
 
 class Cost(NamedTuple):
-    """A question of cost as work grows: its methods, and those of a quick run, by the sizes of the
-    work; what is printed above it, and against what seconds are compared.  `works` gives for a size
-    the work, its own size, and the truth.
+    """A question of cost as work grows: its methods, those of a quick run, and the sizes of the
+    work; the text that is printed above it, and the quantity against which seconds are compared.
+    `works` gives for a size the work, its own size, and the truth.
     """
 
     title: str
@@ -143,7 +143,7 @@ class Cost(NamedTuple):
 
 
 def summed(size: Fraction) -> tuple[Work, Fraction, Fraction]:
-    """The energy that so many balls gain, to one width, and its closed form."""
+    """The energy that `size` balls gain, to one width, and its closed form."""
     problem, truth = balls(int(size))
     return problem, VARIABLE_WIDTH, truth
 
@@ -199,7 +199,7 @@ NAMES = (*ENERGY, *COSTS)
 
 @dataclass(frozen=True)
 class Wish:
-    """What is to be measured."""
+    """The questions, widths and seconds of a run."""
 
     names: tuple[str, ...]
     widths: tuple[Fraction, ...]
@@ -208,7 +208,7 @@ class Wish:
 
 
 def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, quick: bool) -> Wish:
-    """What the options say; ClaimError, one line, for what cannot be measured.
+    """What the options say; raises ClaimError, one line, for what cannot be measured.
 
     >>> wish(["orbit"], None, None, True).names, wish(None, "1e-2,1/7", "3", False).widths
     (('orbit',), (Fraction(1, 7), Fraction(1, 100)))
@@ -253,7 +253,7 @@ def _seconds(text: str) -> float:
 
 
 class Run:
-    """A run: prints as it goes, counts what is wrong."""
+    """A run, which prints as it goes, and counts wrong answers."""
 
     def __init__(self, wanted: Wish, folder: Path, report: Report) -> None:
         self.wanted, self.folder, self.report = wanted, folder, report
@@ -261,8 +261,8 @@ class Run:
         self.judged: list[table.Judged] = []
 
     def all(self) -> int:
-        """Every question; 1 where an enclosure does not hold the truth, no method that is present
-        answers a question, or nothing is answered at all; else 0.
+        """Measures every question; returns 1 if an enclosure does not hold the truth, no method
+        that is present answers a question, or nothing is answered at all, else 0.
         """
         print(head(self.wanted))
         for name in self.wanted.names:
@@ -281,7 +281,7 @@ class Run:
         return 1 if self.wrong or not self.answered else 0
 
     def energy(self, name: str) -> None:
-        """One of the questions about energy."""
+        """Measures one of the questions about energy."""
         question = questions()[name]
         problem, truth, present = question.problem(), question.truth(), self.present(METHODS, QUICK)
         print(
@@ -304,7 +304,7 @@ class Run:
         print("\n" + table.slopes(present, results, "1/width", True))
 
     def cost(self, name: str, asked: Cost) -> None:
-        """A question of cost, by the size of the work."""
+        """Measures a question of cost, by the size of the work."""
         present = self.present(asked.methods, asked.quick)
         sizes = asked.sizes[:QUICK_SIZES] if self.wanted.quick else asked.sizes
         print(f"{asked.said}\n")
@@ -313,7 +313,7 @@ class Run:
         print("\n" + table.slopes(present, results, asked.against, asked.inverse))
 
     def present(self, methods: Mapping[str, Method], quick: Sequence[str]) -> list[Method]:
-        """The methods that are there, of a quick run's only some; prints which are absent."""
+        """The methods that are installed, in a quick run only some; prints which are absent."""
         absent = [method for method in methods.values() if not method.needs.present()]
         if absent:
             print("absent: " + ", ".join(dict.fromkeys(method.needs.package for method in absent)))
@@ -326,7 +326,7 @@ class Run:
     def measure(
         self, present: Sequence[Method], works: Works, sizes: Sequence[Fraction]
     ) -> table.Results:
-        """All methods at all sizes."""
+        """Measures all methods at all sizes."""
         found = measure_all(present, works, sizes, self.wanted.seconds, self.report)
         return table.by_method(list(found))
 
@@ -339,7 +339,7 @@ class Run:
         results: table.Results,
         truth: Fraction,
     ) -> None:
-        """Prints the table and what is wrong, and writes the plot; none where nothing was
+        """Prints the table and the wrong answers, and writes the plot; prints none if nothing was
         measured.
         """
         self.report("")
@@ -362,7 +362,7 @@ class Run:
 
 
 def head(wanted: Wish) -> str:
-    """What the numbers mean."""
+    """The lines that say what the numbers mean."""
     return (
         "warm: the least of 3 answers after the first in one process, of more where they are"
         " quick; cold: the first, with all that the method\nloads, not the start of Python. Each"

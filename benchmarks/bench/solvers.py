@@ -32,7 +32,7 @@ BITS, DEPTH = 100, 60
 
 @cache
 def has_coq_interval() -> bool:
-    """Whether the compiler and the library are there."""
+    """Whether the compiler and the library are installed."""
     coqc = shutil.which("coqc")
     if coqc is None:
         return False
@@ -47,8 +47,8 @@ def has_coq_interval() -> bool:
 
 
 def goal(problem: Problem, bound: Fraction) -> str:
-    """That the excess is >= 0 on the box, by bisection of all variables, with slopes along the
-    last.
+    """The goal that the excess is >= 0 on the box, by bisection of all variables, with slopes along
+    the last.
 
     >>> from fractions import Fraction as F
     >>> one = Problem("half", ("p",), ((F(0), F(1)),), {(1,): F(1)}, {(0,): F(2)}, 1, "", "")
@@ -86,8 +86,8 @@ def proves(text: str, seconds: float) -> bool:
 # -------------------------------------------------------------------------------------------------
 # Questions to solvers: by bisection, and one question just above the value at a point.
 #
-# An enclosure made of such answers is worth what the solver's word is worth; none leaves a proof
-# behind that is checked here.
+# An enclosure made of such answers is worth as much as the solver's word; none leaves a proof that
+# is checked here.
 
 START = Fraction(4)  # every supremum asked for lies between -4 and 4, which is asked too
 ENOUGH = 3600.0  # CPU seconds: fewer are left to the process that asks
@@ -95,8 +95,8 @@ Exceeds = Callable[[Problem, Fraction], bool]
 
 
 def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
-    """The range halved until it is as narrow as the width; raises GaveUp where the supremum is not
-    in [-START, START].
+    """Halves the range until it is as narrow as the width; raises GaveUp if the supremum is not in
+    [-START, START].
     """
     low, high, asked = -START, START, 2
     if not exceeds(problem, low) or exceeds(problem, high):
@@ -108,8 +108,8 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
 
 
 def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
-    """One question, a little above the value at a point, which floating point finds and exact
-    arithmetic evaluates; raises GaveUp where the supremum exceeds it.
+    """Asks one question, a little above the value at a point, which floating point finds and exact
+    arithmetic evaluates; raises GaveUp if the supremum exceeds it.
     """
     low = best_point(problem, width / SHARE)[1]
     high = low + width * (SHARE - 1) / SHARE
@@ -134,8 +134,8 @@ def by_z3(problem: Problem, bound: Fraction) -> bool:
 
 
 def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
-    """cvc5, in this process; if asked to, it writes its proof, in its own format.  Raises GaveUp
-    where it does not decide, or writes none.
+    """cvc5, in this process; if asked to, it writes its proof, in its own format.  Raises GaveUp if
+    it does not decide, or writes none.
     """
     import cvc5
 
@@ -162,7 +162,7 @@ def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
 
 
 def by_qepcad(problem: Problem, bound: Fraction) -> bool:
-    """QEPCAD B, a program each time, which is how it is used."""
+    """QEPCAD B, which is used as a program that is started for each question."""
     from juggleproof.benchmarks.bench.qepcad import fails
 
     answer = fails(problem.of_set(bound))
@@ -173,7 +173,7 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
-    Its proof is checked by Coq's kernel.  Raises GaveUp where there is none.
+    Its proof is checked by Coq's kernel.  Raises GaveUp if there is none.
     """
     if not proves(goal(problem, bound), ENOUGH):
         raise GaveUp("no proof")

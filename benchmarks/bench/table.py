@@ -1,4 +1,4 @@
-"""What was measured, as text and as a plot: seconds and errors by method and size, the aims as
+"""The measurements, as text and as a plot: seconds and errors by method and size, the aims as
 ratios of this run, and slopes.
 """
 
@@ -22,7 +22,7 @@ WORDS: dict[Time, str] = {"seconds": "warm", "cold": "cold"}
 
 
 def by_method(measurements: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
-    """What was measured, by method and size."""
+    """The measurements, by method and size."""
     results: dict[str, dict[Fraction, Measured]] = {}
     for one in measurements:
         results.setdefault(one.method, {})[one.size] = one
@@ -30,8 +30,8 @@ def by_method(measurements: Sequence[Measured]) -> dict[str, dict[Fraction, Meas
 
 
 def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
-    """The same measurement of work of this size, the answer being its distance from the truth,
-    which is then 0.
+    """The same measurement for work of this size; its answer becomes the distance from the truth,
+    so that the truth is 0.
     """
     answer = one.answer
     if isinstance(answer, Answer):
@@ -42,7 +42,7 @@ def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
 
 
 def power(value: Fraction) -> str:
-    """A size, short.
+    """A size as a short text.
 
     >>> sizes = Fraction(1, 10**9), Fraction(10**6), Fraction(3, 100), Fraction(7)
     >>> tuple(map(power, sizes))
@@ -77,7 +77,7 @@ def number(value: float | None) -> str:
 def measured(
     methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, truth: Fraction
 ) -> str:
-    """Three lines a method: seconds warm and cold, and its error."""
+    """Three lines for each method: its seconds warm and cold, and its error."""
     rows = [("method", "worth", "", *(power(size) for size in sizes))]
     for method in methods:
         own = results.get(method.name, {})
@@ -128,8 +128,8 @@ def faults(methods: Sequence[Method], results: Results) -> list[str]:
 def ratios(
     methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float
 ) -> str:
-    """How many times the seconds of our best certificate each other method takes; where it gave up,
-    more than its limit.
+    """The multiples of the seconds of our best certificate that the other methods take; for a
+    method that gave up, more than its limit.
     """
     parts = []
     for time in WORDS:
@@ -154,7 +154,7 @@ def _shown(found: tuple[float, bool] | None) -> str:
 
 
 def ours(methods: Sequence[Method], size: Fraction, results: Results, time: Time) -> float | None:
-    """The seconds of our best method whose certificate was checked; None where none was."""
+    """The seconds of our best method whose certificate was checked; None if there is none."""
     times = [
         getattr(one, time)
         for method in methods
@@ -172,8 +172,8 @@ def ratio(
     seconds: float,
     time: Time,
 ) -> tuple[float, bool] | None:
-    """(times ours, whether it is more than that because the method gave up at this size or before);
-    None where we have nothing ourselves.
+    """(the multiple of our seconds, whether it is more than that because the method gave up at this
+    size or before); None if we have no answer ourselves.
     """
     base, own = ours(methods, size, results, time), results.get(method.name)
     if base is None or not own:
@@ -197,7 +197,7 @@ class Judged:
     where: str
 
     def line(self) -> str:
-        """In words."""
+        """The judgement in words."""
         held = "met" if self.met == self.of else "NOT met"
         aim = (
             f"{self.aim} times faster than {self.against}"
@@ -217,8 +217,8 @@ def judged(
     results: Results,
     seconds: float,
 ) -> list[Judged]:
-    """The aim, by what this run measured: against all certified peers together, and against Z3 in
-    each way of asking it, warm and cold.
+    """The aim judged by the measurements of this run: against all certified peers together, and
+    against Z3 in each way of asking it, warm and cold.
     """
     found = []
     for time in WORDS:
@@ -269,7 +269,7 @@ def _times(
 
 
 def together(judgements: Sequence[Judged]) -> list[Judged]:
-    """What was judged of several questions, taken together."""
+    """The judgements on several questions, taken together."""
     kinds = dict.fromkeys((one.time, one.against, one.aim) for one in judgements)
     groups = [
         [one for one in judgements if (one.time, one.against, one.aim) == kind] for kind in kinds
@@ -306,8 +306,8 @@ def slopes(methods: Sequence[Method], results: Results, of: str, inverse: bool) 
 
 
 def slope(sizes: Sequence[float], seconds: Sequence[float]) -> float | None:
-    """The slope of the line through log seconds against log sizes, by least squares; None where
-    there are not two sizes.
+    """The slope of the line through log seconds against log sizes, by least squares; None if there
+    are not two sizes.
 
     >>> round(slope([1, 10, 100], [2.0, 20.0, 200.0]), 6)
     1.0
@@ -334,8 +334,8 @@ FLOOR = 1e-20  # where an error of 0, or one below it, is drawn
 
 
 def plot(title: str, methods: Sequence[Method], results: Results, truth: Fraction) -> bytes:
-    """The plot: a line a method, its warm seconds across, its errors upwards; filled marks and full
-    lines are certificates.
+    """The plot: a line for each method, with its warm seconds across and its errors upwards; filled
+    marks and full lines are certificates.
     """
     figure = new_figure()
     axes = figure.add_subplot()

@@ -1,5 +1,5 @@
-"""Random problems of SMT-LIB by classes, from counted seeds, true and false ones: how many Z3, cvc5
-and we decide, and what each takes.
+"""Random problems of SMT-LIB by classes, from counted seeds, with and without a solution: how many
+Z3, cvc5 and we decide, and the CPU seconds of each.
 
     writing      random polynomials, and scripts about them
     polynomials  few variables: boxes, forms, one variable, equations, several constraints

@@ -1,11 +1,11 @@
-"""Random problems by classes, answered by Z3, cvc5 and us; what docs/benchmarks.md says of them.
+"""Random problems by classes, answered by Z3, cvc5 and us; their table in docs/benchmarks.md.
 
     python -m juggleproof.benchmarks.classes                # some minutes
     python -m juggleproof.benchmarks.classes --share 8      # one problem in 8, some seconds
     python -m juggleproof.benchmarks.classes --accept       # writes the table into the page
     python -m juggleproof.benchmarks.classes -o DIR         # only writes the scripts
 
-Exit 1 where any answer is wrong, or the checker does not take a certificate.
+The exit code is 1 if any answer is wrong, or the checker does not take a certificate.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def write_scripts(problems: Sequence[Made], folder: Path) -> None:
 
 
 def undecided(one: Measured) -> str:
-    """The class, and which of its problems we leave open."""
+    """A line with the class, and those of its problems that we leave open."""
     ours = one.decided("ours")
     left = [problem.name for problem in one.problems if problem.name not in ours]
     return f"{one.group}: {len(ours)} of {len(one.problems)}" + (

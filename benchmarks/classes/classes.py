@@ -1,5 +1,5 @@
 """The classes of problems, each with the functions that make its random problems; and the problems
-that these make of counted seeds.
+that these make from counted seeds.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class Made(NamedTuple):
 
 
 def made(group: str, seed: int) -> Made:
-    """The problem of a class that a seed stands for: its functions take turns, and each makes
+    """The problem of a class for a seed: the functions of the class take turns, and each makes
     problems with and without a solution in turn.
 
     >>> made("one variable", 5).name, made("one variable", 5).status
@@ -83,5 +83,5 @@ def made(group: str, seed: int) -> Made:
 
 
 def every_problem(seeds: int = SEEDS) -> list[Made]:
-    """The problems of all classes, so many of each."""
+    """The problems of all classes, `seeds` of each."""
     return [made(group, seed) for group in CLASSES for seed in range(seeds)]

@@ -1,5 +1,5 @@
-"""What Z3, cvc5 and we answer to the problems, in CPU seconds, and what the bare checker says of
-our certificates; as a table.
+"""The answers of Z3, cvc5 and us to the problems, with their CPU seconds, and the bare checker's
+verdicts on our certificates; as a table.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ ROOT = Path(__file__).resolve().parents[2]
 CHECKER = ROOT / "certificates/checker"
 Z3_UNITS = 10_000_000  # Z3's rlimit
 CVC5_UNITS = 500_000  # cvc5's rlimit
-SECONDS = 6.0  # CPU, that end what no counted limit ends
+SECONDS = 6.0  # CPU seconds that end a search which no counted limit ends
 OUTCOMES = ("unsat", "sat")
 
 
 @dataclass(frozen=True)
 class Said:
-    """An answer: sat, unsat, unknown, or why it is none; ours with its statement and
+    """An answer: sat, unsat, unknown, or why there is none; ours with its statement and
     certificate.
     """
 
@@ -70,13 +70,13 @@ def statement_of(problem: Made) -> str:
 
 
 def z3() -> Callable[[Made], Callable[[], Said]]:
-    """Z3, each script in a context of its own; where the script sets an option that is read before
-    a context is made, by the program that comes with it.
+    """Z3, each script in a context of its own; if the script sets an option that is read before a
+    context is made, by the program that comes with Z3.
     """
     set_param("rlimit", Z3_UNITS)
 
     def run(problem: Made) -> Said:
-        context = Context()  # which lives until all is read
+        context = Context()  # it has to live until all is read
         try:
             output = Z3_eval_smtlib2_string(context.ref(), problem.script)
         except Z3Exception:
@@ -116,7 +116,7 @@ def last_word(output: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# What all of them say of the problems of a class, and the bare checker of our certificates.
+# The answers of all solvers to the problems of a class, and the checker's verdicts on ours.
 
 SOLVERS: Mapping[str, Ask] = {"Z3": z3, "cvc5": cvc5, "ours": ours}
 _SUMMARY = re.compile(r"\d+ statements: (\d+) certified, (\d+) refuted, 0 unknown, 0 rejected")
@@ -124,8 +124,8 @@ _SUMMARY = re.compile(r"\d+ statements: (\d+) certified, (\d+) refuted, 0 unknow
 
 @dataclass(frozen=True)
 class Measured:
-    """The answers to the problems of a class by solver, each with its CPU seconds; the bytes of our
-    certificates, and the CPU seconds of the bare checker, which takes so many of them.
+    """The answers to the problems of a class by solver, each with its CPU seconds; the number of
+    our certificates that the bare checker takes, their bytes, and its CPU seconds.
     """
 
     group: str
@@ -144,7 +144,7 @@ class Measured:
         }
 
     def faults(self) -> list[str]:
-        """One line for each wrong answer, and where the checker does not take every certificate."""
+        """One line for each wrong answer, and one if the checker rejects a certificate."""
         lines = [
             f"WRONG: {problem.group}: {problem.name} is {problem.status}; {solver} says"
             f" {one.answer.word}"
@@ -158,7 +158,7 @@ class Measured:
 
 
 def measured(group: str, problems: Sequence[Made]) -> Measured:
-    """What every solver that is installed says of the problems, one after the other."""
+    """The answers of every installed solver to the problems, one solver after the other."""
     said = {
         solver: list(each(start, problems, SECONDS))
         for solver, start in SOLVERS.items()
@@ -173,8 +173,8 @@ def measured(group: str, problems: Sequence[Made]) -> Measured:
 
 
 def checked(found: Mapping[str, Said]) -> tuple[int, int, float]:
-    """How many certificates the checker takes for what we say, in a process of its own; their
-    bytes, and its CPU seconds.
+    """The number of our certificates that the checker takes, in a process of its own; their bytes,
+    and its CPU seconds.
     """
     certificates = {name: one.certificate for name, one in found.items()}
     with tempfile.TemporaryDirectory() as folder:

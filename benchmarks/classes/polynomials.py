@@ -1,5 +1,5 @@
-"""Random problems about few variables: each is solvable, or not, by how it is made: a point is
-planted that solves it, or an identity that leaves it no solution.
+"""Random problems about few variables.  Each is made to be solvable, or not: a point that solves it
+is planted, or an identity that leaves it no solution.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ def products_of_sides(random: Random, names: Names, box: Sides, degree: int) -> 
 
 
 def over_a_box(random: Random, solvable: bool) -> str:
-    """Products of sides, squares and a margin are positive on a box; so is no polynomial at a point
-    where it is less than its value there and a margin.
+    """A sum of products of sides, squares and a margin is not negative on a box; a polynomial less
+    its value at a point and a margin is negative there.
     """
     count, margin = random.randint(2, 4), random.choice(MARGINS)
     names, box = variables(count), sides(random, count)
@@ -82,7 +82,7 @@ def over_a_box(random: Random, solvable: bool) -> str:
 
 
 def least_coefficient(wave: fmpq_mpoly, box: Sides) -> fmpq:
-    """The least Bernstein coefficient on a box, which no value is below.
+    """The least Bernstein coefficient on a box; no value is below it.
 
     >>> (x,) = variables(1)
     >>> least_coefficient(x**2 - x, [(fmpq(0), fmpq(1))])
@@ -105,7 +105,7 @@ def least_coefficient(wave: fmpq_mpoly, box: Sides) -> fmpq:
 
 def above_a_bound(random: Random, solvable: bool) -> str:
     """A random polynomial is not below the least Bernstein coefficient on the parts of a box, less
-    a margin; it is below its least value at their corners and a margin.
+    a margin; somewhere it is below its least value at their corners, plus a margin.
     """
     count, margin = random.randint(2, 3), random.choice(MARGINS)
     names, box = variables(count), sides(random, count)
@@ -120,7 +120,7 @@ def above_a_bound(random: Random, solvable: bool) -> str:
 
 
 def box_and_constraints(random: Random, solvable: bool) -> str:
-    """Likewise, where constraints g >= 0 are given too, and squares times g are added."""
+    """The same with constraints g >= 0, where squares times g are added."""
     count, margin = random.randint(2, 3), random.choice(MARGINS)
     names, box = variables(count), sides(random, count)
     there = inside(random, box)
@@ -261,8 +261,8 @@ def _lowered(form: fmpq_mpoly, names: Names, there: Sequence[int | fmpq], by: fm
 
 
 def published_form(random: Random, solvable: bool) -> str:
-    """A nonnegative form that is no sum of squares (over the rationals) is not negative; less a
-    little it is.
+    """A nonnegative form that is no sum of squares (over the rationals) is not negative; with a
+    little subtracted it is, at some point.
     """
     form, there = random.choice(FORMS)
     names = variables(len(there))
@@ -273,7 +273,7 @@ def published_form(random: Random, solvable: bool) -> str:
 
 
 def moved_form(random: Random, solvable: bool) -> str:
-    """The same in other coordinates: each variable becomes itself and a multiple of the next."""
+    """The same in other coordinates: a multiple of the next variable is added to each."""
     form, there = random.choice(FORMS[:6])
     names = variables(len(there))
     factors = [random.choice((-1, 0, 1)) for _ in names[1:]]
@@ -313,8 +313,8 @@ def agiform(random: Random, solvable: bool) -> str:
 
 
 def sum_of_squares(random: Random, solvable: bool) -> str:
-    """A random sum of few squares of forms is not negative; less a little it is, at a common zero
-    of the forms or near.
+    """A random sum of few squares of forms is not negative; with a little subtracted it is, at a
+    common zero of the forms or near it.
     """
     count, degree = random.randint(2, 4), random.choice((2, 4))
     names, there = variables(count), [random.choice((-1, 1, 2)) for _ in range(count)]
@@ -379,7 +379,7 @@ def sparse(random: Random, solvable: bool) -> str:
 
 
 def clauses_on_a_line(random: Random, solvable: bool) -> str:
-    """Of each clause one part holds at a planted point; or no part holds between two numbers."""
+    """One part of each clause holds at a planted point; or no part holds between two numbers."""
     (x,) = variables(1)
     low = rational(random, -3, 2)
     high = low + rational(random, 1, 2)
@@ -406,8 +406,8 @@ def clauses_on_a_line(random: Random, solvable: bool) -> str:
 
 
 def touching(random: Random, solvable: bool) -> str:
-    """a^2 x^2 + b^2 y^2 = c and x y >= c/(2 a b): the point is irrational in both; above that there
-    is none.
+    """a^2 x^2 + b^2 y^2 = c and x y >= c/(2 a b): both coordinates of the point are irrational;
+    with a greater bound there is no point.
     """
     x, y = variables(2)
     a, b, c = (fmpq(random.randint(1, 5)) for _ in range(3))
@@ -417,7 +417,7 @@ def touching(random: Random, solvable: bool) -> str:
 
 
 def tower(random: Random, solvable: bool) -> str:
-    """x^2 = d, y^2 = x + e and so on: solvable for x > 0, and where x < -e it is not."""
+    """x^2 = d, y^2 = x + e and so on: solvable for x > 0, and not for x < -e."""
     count = random.randint(2, 3)
     names = variables(count)
     size = random.choice((2, 3, 5, 6, 7))
@@ -432,8 +432,8 @@ def tower(random: Random, solvable: bool) -> str:
 
 
 def symmetric(random: Random, solvable: bool) -> str:
-    """x + y + z, x y + y z + z x and x y z are those of the roots of a cubic: three real ones, or
-    one, where another factor is a^2 + b^2 > 0.
+    """x + y + z, x y + y z + z x and x y z are those of the roots of a cubic, which has three real
+    roots; or only one, since another factor has the form a^2 + b^2 > 0.
     """
     x, y, z = names = variables(3)
     root, shift = rational(random, -3, 3), rational(random, -2, 2)
@@ -483,8 +483,8 @@ def planted_certificate(random: Random, solvable: bool) -> str:
 
 
 def balls(random: Random, solvable: bool) -> str:
-    """Two balls whose centres are as far apart as their radii together, less or more a little; and
-    a third that holds the point between.
+    """Two balls whose centres are a little less or more apart than the sum of their radii; and a
+    third that holds the point between.
     """
     count = random.randint(2, 4)
     names, first = variables(count), point(random, count, 2)
@@ -530,8 +530,8 @@ def above_and_below(random: Random, solvable: bool) -> str:
 
 
 def binomials(random: Random, solvable: bool) -> str:
-    """x, y >= 0, x + y = 1, and comb(n, k) x^k y^(n - k) is more than 1, or what it is at a planted
-    point.
+    """x, y >= 0, x + y = 1, and comb(n, k) x^k y^(n - k) is more than 1, or at least its value at a
+    planted point.
     """
     x, y = variables(2)
     degree = random.randint(3, 8)

@@ -1,5 +1,5 @@
-"""Random problems of size, or with divisions, clauses and commands: each is solvable, or not, by
-how it is made.
+"""Large random problems, and random problems with divisions, clauses and commands.  Each is made to
+be solvable, or not.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def sum_of_ratios(random: Random, solvable: bool) -> str:
 
 
 def mediant(random: Random, solvable: bool) -> str:
-    """a/b < c/d with b, d > 0: (m a + n c)/(m b + n d) lies between them; it does not where b and d
+    """a/b < c/d with b, d > 0: (m a + n c)/(m b + n d) lies between them; it need not if b and d
     may be negative.
     """
     a, b, c, d = names = variables(4)
@@ -82,7 +82,7 @@ def mediant(random: Random, solvable: bool) -> str:
 
 
 def divisor_that_vanishes(random: Random, solvable: bool) -> str:
-    """t/d is the same number for equal d, also where d is 0; but it may then be any."""
+    """t/d is the same number for equal d, even if d is 0; but then it may be any number."""
     x, y = variables(2)
     wave = polynomial(random, [x], 2, 3)
     top = random.randint(1, 5)
@@ -119,7 +119,7 @@ def nested(random: Random, solvable: bool) -> str:
 
 
 def doubled(random: Random, solvable: bool) -> str:
-    """Definitions each of which has the one before twice: 2^n x is what it is."""
+    """Definitions that each use the one before twice: the last is 2^n x."""
     (x,) = variables(1)
     count = random.randint(10, 40)
     rows = [f"(define-fun t0 () Real {x})"]
@@ -162,13 +162,13 @@ def linear_system(random: Random, solvable: bool) -> str:
 
 
 def differences(random: Random, solvable: bool) -> str:
-    """x_j - x_i >= c along a cycle: solvable where the c's have a sum that is not positive."""
+    """x_j - x_i >= c along a cycle: solvable if the sum of the c's is not positive."""
     count = random.choice((8, 15, 30, 61, 80))
     names = variables(count)
     steps = [random.randint(-9, 9) for _ in names[1:]]
     steps.append(-sum(steps) + (0 if solvable else 1))
     facts = [atom(names[(k + 1) % count] - names[k], ">=", step) for k, step in enumerate(steps)]
-    for _ in range(count // 2):  # further ones, all of which hold at the solution
+    for _ in range(count // 2):  # further ones, which all hold at the solution
         k, m = random.sample(range(count), 2)
         rise = sum(steps[:m]) - sum(steps[:k])
         facts.append(atom(names[m] - names[k], ">=", rise - random.randint(0, 3)))
@@ -182,7 +182,7 @@ def differences(random: Random, solvable: bool) -> str:
 
 def bilinear(random: Random, solvable: bool) -> str:
     """Sparse equations, bilinear in two groups of variables, that hold at a planted point; or the
-    last is another one and a number.
+    last one contradicts a combination of two others.
     """
     half = random.randint(7, 20)
     names = variables(2 * half)
@@ -208,8 +208,8 @@ def bilinear(random: Random, solvable: bool) -> str:
 
 
 def clauses(random: Random, solvable: bool) -> str:
-    """Clauses about products and sums, of each of which one part holds at a planted point; or all
-    clauses that some atoms and their opposites make.
+    """Clauses about products and sums; one part of each holds at a planted point.  Or all clauses
+    that some atoms and their opposites make.
     """
     count = random.randint(4, 13)
     names = variables(count)
@@ -245,8 +245,8 @@ def clauses(random: Random, solvable: bool) -> str:
 
 
 def zero_or_one(random: Random, solvable: bool) -> str:
-    """x^2 = x for all variables, and whole weights of a sum that is reached, or is odd where all
-    weights are even.
+    """x^2 = x for all variables, and a sum with whole weights, whose value is attained; or is odd
+    although all weights are even.
     """
     count = random.randint(12, 20) if solvable else random.randint(3, 7)
     names = variables(count)
@@ -269,7 +269,7 @@ def _margin(random: Random, solvable: bool) -> list[str]:
 
 
 def assumed(random: Random, solvable: bool) -> str:
-    """Formulas behind Bools that `check-sat-assuming` assumes; one that it denies says nothing."""
+    """Formulas behind Bools that `check-sat-assuming` assumes; a denied Bool says nothing."""
     first, second = _margin(random, solvable)
     logic = random.choice(("QF_NRA", "QF_UFNRA", "ALL"))
     return (

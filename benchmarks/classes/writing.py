@@ -35,7 +35,7 @@ def point(random: Random, count: int, size: int = 3) -> list[fmpq]:
 def polynomial(
     random: Random, names: Sequence[fmpq_mpoly], degree: int, terms: int = 4
 ) -> fmpq_mpoly:
-    """A random polynomial that is no number: at most so many terms of that degree at most."""
+    """A random polynomial that is no number, with at most this many terms and this degree."""
     total = random.choice(names) ** degree
     for _ in range(terms - 1):
         factors = random.choices([*names, 1 + 0 * names[0]], k=degree)
@@ -108,17 +108,17 @@ def atom(
 
 
 def every(formulas: Sequence[str]) -> str:
-    """All of them."""
+    """The conjunction of formulas."""
     return applied("and", formulas)
 
 
 def some(formulas: Sequence[str]) -> str:
-    """One of them."""
+    """The disjunction of formulas."""
     return applied("or", formulas)
 
 
 def denied(formula: str) -> str:
-    """Its negation."""
+    """The negation of a formula."""
     return f"(not {formula})"
 
 

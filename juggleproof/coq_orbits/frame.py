@@ -1,4 +1,4 @@
-"""The words in which a file of Coq speaks of its map or relation."""
+"""The words by which a file of Coq names the parts of its map or relation."""
 
 from __future__ import annotations
 
@@ -16,16 +16,15 @@ from juggleproof.coq_store.text import conjunctive, coq_name, disjunctive
 
 
 def theorem_name(name: str) -> str:
-    """The name of the theorem that a statement is."""
+    """The name of the theorem for a statement."""
     return "theorem_" + re.sub(r"\W", "_", name)
 
 
 class Frame:
-    """The words in which a file speaks of its map or relation: parameters, state and inputs, bound
-    and applied; kind: of which of the two it speaks, as a map may be taken for a relation.
+    """The words by which a file names the parameters, state and inputs of its map or relation,
+    bound and applied.  kind: "map" or "relation", since a map may be taken for a relation.
 
-    A parameter that is an integer is bound as one, of type Z, and terms begin with the real number
-    that it is.
+    An integer parameter is bound in type Z; terms begin with a `let` that makes it a real number.
     """
 
     def __init__(self, own: checker.Statement, known: Known, kind: str) -> None:
@@ -74,8 +73,8 @@ class Frame:
         around: str = "",
         **more: str,
     ) -> dict[str, str]:
-        """What is said of a map in one way, and of a relation in another, around the point of a
-        module, and that this point is fixed.
+        """The texts that differ between a map and a relation, around the point of a module; and the
+        text that this point is fixed.
         """
         words = {"around": around, "e": self.fill(kinds.POINT, own, around=around), **more}
         texts = {"is_fixed": kinds.FIXED[self.kind], **parts[self.kind]}
@@ -93,8 +92,8 @@ class Frame:
         of_state: bool = True,
         more: str = "",
     ) -> str:
-        """A definition over the parameters, of a state, and of more, by the texts of a statement;
-        of several it is the state that they are the coordinates of.
+        """A definition over the parameters, a state and more variables, by texts of a statement.
+        Several texts are the coordinates of a state.
         """
         state = (f" {self.pattern}" if of_state else "") + more
         write = coq_formula if returns == "Prop" else coq_term
@@ -102,8 +101,8 @@ class Frame:
         return f"Definition {name}{self.bound}{state} : {returns} :=\n  {body}."
 
     def lets(self, own: checker.Statement, parts: Sequence[str]) -> str:
-        """What texts name beside real parameters and state, in order, as `let` of Coq: integers as
-        real numbers, roots, and around a point its coordinates, and the state less these.
+        """The names in texts other than real parameters and the state, in order, as `let` of Coq:
+        integers as real numbers, roots, and around a point its coordinates and the gaps to them.
         """
         entries = [
             (name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")
@@ -143,9 +142,9 @@ class Frame:
         places: str = " in of_next |- *",
         case: str = "exact {}",
     ) -> str:
-        """Tactics that show something of the next state by a premise for each piece, and for a term
-        of the value; known: what it assumes; point: the coordinates; places: where the next state
-        occurs.
+        """Tactics that show a property of the next state by one premise for each piece; value: the
+        end of the premise's name, for a term of the value; known: proofs of what it assumes; point:
+        the coordinates; places: where the next state occurs.
         """
         before = "".join(f"{name} " for name in self.inputs)
         cases = "|".join(
@@ -160,7 +159,7 @@ class Frame:
         )
 
     def decided(self, own: checker.Statement, k: int) -> str:
-        """That a guard holds or does not."""
+        """The lemma that a guard holds or does not."""
         bound, decided = f"{self.bound} (of_s : State)", "{guard_$k$a of_s} + {~ guard_$k$a of_s}"
         return self.fill(
             f"Lemma decided_$k{bound} : {decided}.\n"
@@ -170,8 +169,8 @@ class Frame:
         )
 
     def guards(self, own: checker.Statement, keyword: str) -> Iterator[str]:
-        """The guards of the lines with this keyword, one for each number of a line from 0 on, and
-        none for other numbers.
+        """The guards of the lines with this keyword, as a function of the number of a line from 0
+        on; it is false for other numbers.
         """
         cases = ""
         for k, (guard, _) in enumerate(own.get(keyword), 1):
@@ -186,7 +185,7 @@ class Frame:
         )
 
     def one_piece(self) -> str:
-        """The pattern for the piece whose guard holds, and for the image by it."""
+        """The pattern for the piece whose guard holds, and for its image."""
         return disjunctive([conjunctive([*self.inputs, "of_g", "of_same"])] * len(self.pieces))
 
     def extra_steps(self, descent: checker.Statement) -> int:
@@ -195,7 +194,7 @@ class Frame:
 
 
 def opened(state: str, names: Sequence[str]) -> str:
-    """The tactic that takes a state apart, where it has several coordinates."""
+    """The tactic that takes a state apart, if it has several coordinates."""
     pattern = names[0]
     for name in names[1:]:
         pattern = f"[{pattern} {name}]"
@@ -203,7 +202,7 @@ def opened(state: str, names: Sequence[str]) -> str:
 
 
 def equal_states(proofs: Sequence[str]) -> str:
-    """A proof that states are equal, from those for the coordinates."""
+    """A proof that states are equal, from proofs that their coordinates are."""
     proof = proofs[0]
     for one in proofs[1:]:
         proof = f"(f_equal2 pair {proof} {one})"
@@ -211,7 +210,7 @@ def equal_states(proofs: Sequence[str]) -> str:
 
 
 def nested(last: str, count: int) -> str:
-    """The pattern for a number that is one of the first few, or more."""
+    """The pattern for a natural number that is one of the first `count`, or more."""
     for _ in range(count):
         last = f"[|{last}]"
     return last

@@ -1,11 +1,11 @@
-"""What a file of Coq says of a map in one way, and of a relation in another: the state after a
-state, the orbit, and the theorems of Rules.v, Lyapunov.v and Relation.v that conclude.
+"""The texts in a file of Coq that differ between a map and a relation: the state after a state, the
+orbit, and the theorems of Rules.v, Lyapunov.v and Relation.v that conclude.
 """
 
 from __future__ import annotations
 
-# `$F` is the map or relation; `$after` a state after of_s, `$step` that it is one, `$by` its proof;
-# `$at_n` the state after of_n steps from `$start`, on the orbit or execution `$orbit`.
+# `$F` is the map or relation; `$after` a state after of_s, `$step` says that it is, `$by` is a
+# proof; `$at_n` the state after of_n steps from `$start`, on the orbit or execution `$orbit`.
 WORDS = {
     "map": {
         "M": "Map",
@@ -65,7 +65,7 @@ Definition executions_attracting (space : State -> Prop) (next : State -> State 
   forall j, Rabs (coordinate j (x n) - coordinate j e) < epsilon.""",
 }
 
-# That the point of the module `$around` is fixed: nothing else comes after it.
+# The point of the module `$around` is fixed: no other state comes after it.
 FIXED = {
     "map": "Map.f$a ($around.point$a) = $around.point$a",
     "relation": """\
@@ -207,8 +207,8 @@ rewrite <- (Nat.add_0_r of_n) in of_in.
     },
 }
 
-# The same pieces on a smaller space, in the module Inner, by what is spoken of on the larger space
-# and on the smaller.
+# The same pieces on a smaller space, in the module Inner; the keys are the kind on the larger space
+# and that on the smaller.
 INTO = {
     ("map", "map"): {
         "into": "Lyapunov.into",

@@ -1,7 +1,7 @@
 """Ranks that fall along orbits until these are in a stage, as theorems of Coq: the rule on descent.
 
-A rank of one term is a function of the state. One of several terms is met by what is at least each
-of its components, whichever guards hold: proofs/coq/orbits/Ranks.v.
+A rank of one term is a function of the state.  A rank of several terms is replaced by numbers of_v,
+one for each component, that are at least the terms whose guards hold: proofs/coq/orbits/Ranks.v.
 """
 
 from __future__ import annotations
@@ -13,12 +13,13 @@ from juggleproof.coq_orbits import kinds
 from juggleproof.coq_orbits.frame import Frame, nested
 from juggleproof.coq_store.text import conjoined, conjunctive, disjunctive
 
-# For what is shown of the next state, which is in the space.
+# The beginning of proofs about the next state, which is in the space.
 NEXT = """\
 assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
   assert (of_next := of_map_keeps$a $st of_map of_there$by)."""
 
-# `$of_v` binds what is at least the rank, `$above` says that it is, `$lower` that a rank is less.
+# `$of_v` binds numbers, `$above` says that they are at least the rank, `$lower` that a rank is
+# less.
 DESCENT = """\
 Lemma of_rank_bounded : ${all}Descent.domain$a ->
   forall of_s$of_v, ${M}.space$a of_s -> ${above}$positive.
@@ -174,7 +175,7 @@ def _terms(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """Every orbit is in the last stage, from a step on that the rank tells."""
+    """Every orbit is in the last stage, from a step on that the rank gives."""
     stages = range(1, len(own.get("stage")) + 1)
     last, next_ = stages[-1], f.fill(NEXT, own)
     sizes = {"count": len(own.get("rank")), "size": len(components(own))}
@@ -215,13 +216,13 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def has_end(own: checker.Statement) -> bool:
-    """Whether the rank tells by when the last stage is reached: it has one component."""
+    """Whether the rank bounds the step at which the last stage is reached: it has one component."""
     return len(components(own)) == 1
 
 
 def times(f: Frame, own: checker.Statement, more: str = "") -> dict[str, str]:
-    """When the last stage is reached: the words `$n`, `$late` and `$lates` of a theorem, which is
-    about more numbers.
+    """The words `$n`, `$late` and `$lates` of a theorem, which say when the last stage is reached;
+    `more`: further numbers that the theorem is about.
     """
     if not has_end(own):
         late = f"exists of_N, forall of_n{more}, (of_N <= of_n)%nat ->\n  "
@@ -243,7 +244,9 @@ def times(f: Frame, own: checker.Statement, more: str = "") -> dict[str, str]:
 
 
 def _here(f: Frame, own: checker.Statement) -> str:
-    """Tactics for what premises assume of what is at least the rank, line by line."""
+    """Tactics that show, line by line, that the numbers of_v are at least the rank, which premises
+    assume.
+    """
     rows = []
     for k, (guard, _) in enumerate(own.get("rank"), 1):
         each = [f"Descent.rank_{k}_{c + 1}$a of_s <= of_v {c}%nat" for c in components(own)]
@@ -263,8 +266,8 @@ def _here(f: Frame, own: checker.Statement) -> str:
 
 
 def _arguments(own: checker.Statement) -> tuple[str, str]:
-    """What premises are about beside the state, and what they assume of it: of a rank without
-    guards on one line, nothing.
+    """The numbers of_v that premises are about beside the state, and the proofs of what they assume
+    of these.  Both are empty for a rank on one line without guards.
     """
     ranks = own.get("rank")
     if [guards for guards, _ in ranks] == [[]]:
@@ -274,7 +277,7 @@ def _arguments(own: checker.Statement) -> tuple[str, str]:
 
 
 def _bounded(f: Frame, own: checker.Statement) -> dict[str, str]:
-    """The proof that what is at least the rank is not negative."""
+    """The proof that numbers which are at least the rank are not negative."""
     numbers, heres = _arguments(own)
     least = [f"of_least_{c}" for c in components(own)]
     shown = [f"(Rge_le _ _ {one})" for one in least]
@@ -297,7 +300,7 @@ def _bounded(f: Frame, own: checker.Statement) -> dict[str, str]:
 
 
 def _falls(f: Frame, own: checker.Statement) -> str:
-    """The proof that a component falls, and none before it grows."""
+    """The proof that a component falls, and that none before it grows."""
     numbers, heres = _arguments(own)
     ranks, given, cases = own.get("rank"), f"of_dom of_there of_out{heres} of_g of_next", []
     patterns = []
@@ -306,7 +309,7 @@ def _falls(f: Frame, own: checker.Statement) -> str:
         for k, (guard, _) in enumerate(ranks, 1):
             names = [f"of_low_{k}_{b}" for b in range(c + 1)]
             exact = [f"exact {name}" for name in names]
-            if not numbers:  # less than a term, which is at most what is at least the rank
+            if not numbers:  # less than a term, and so than the number that is at least this term
                 exact = [
                     f"exact (Rle_trans _ _ _ {name} {_above(b, len(components(own)), b == c)})"
                     for b, name in enumerate(names)
@@ -332,8 +335,8 @@ def _falls(f: Frame, own: checker.Statement) -> str:
 
 
 def _above(component: int, count: int, is_last: bool) -> str:
-    """That a component is at most what is at least it, of the first line; or that both less 1
-    are.
+    """A proof that a component of the first line is at most its number of_v; if `is_last`, that the
+    same holds of both less 1.
     """
     proof = "of_here_1"
     for _ in range(component):
@@ -343,7 +346,9 @@ def _above(component: int, count: int, is_last: bool) -> str:
 
 
 def _by_lines(f: Frame, own: checker.Statement) -> dict[str, str]:
-    """For a rank of one component: that each of its terms is met, by the time that it tells."""
+    """For a rank of one component: proofs that the number of a step is at least each of its terms,
+    from that of the rank.
+    """
     early, lates = [], []
     for k, (guard, _) in enumerate(own.get("rank"), 1):
         late = f"(of_late_{k} of_guard)" if guard else f"of_late_{k}"

@@ -1,5 +1,5 @@
-"""The premises of rules on orbits as Coq lemmas in the words of the statements, with quotients and
-square roots; each is proved from its polynomial lemma, which a certificate proves.
+"""The premises of rules on orbits as Coq lemmas in the terms of the statements, with quotients and
+square roots.  Each is proved from its polynomial lemma, which a certificate proves.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ AND, OR = "/\\", "\\/"
 
 
 def reading_name(name: str) -> str:
-    """The name of the lemma in the words of a statement."""
+    """The name of the lemma in the terms of a statement."""
     return "of_" + lemma_name(name)
 
 
 def readings(statement: checker.Statement, certificate: Hint, known: Known) -> str:
-    """The premises of a rule on orbits, each as a polynomial lemma and in its own words.
+    """The premises of a rule on orbits, each as a polynomial lemma and in its own terms.
 
-    Raises NotWritten where a certificate has what is not written for Coq.
+    Raises NotWritten if a part of a certificate is not written for Coq.
     """
     written = [lemmas(statement, certificate, known)]
     shown: dict[str, str] = {}
@@ -46,8 +46,8 @@ def readings(statement: checker.Statement, certificate: Hint, known: Known) -> s
 
 
 class _Read(NamedTuple):
-    """A proof of `reads N P Q` (Readings.v): a formula, and what it and its negation are as
-    polynomial formulas.
+    """A proof of `reads N P Q` (Readings.v): N is a formula, P and Q are the polynomial formulas of
+    N and of its negation.
     """
 
     holds: str
@@ -70,11 +70,12 @@ class _Texts(Transfer):
 
 
 class Reading:
-    """A statement for all, in the words of its lines, as a lemma that its polynomial lemma proves.
+    """A universal statement, in the terms of its lines, as a lemma that its polynomial lemma
+    proves.
 
-    A root is written as `sqrt`; that it is one needs the sign of what is under it, which the
-    certificate proves and which has a lemma of its own, as have the lines `have`, and formulas of
-    variables alone, which several premises assume; shown: {such a text: the name of its lemma}.
+    A root is written as `sqrt`.  This needs the sign of the term under it, which the certificate
+    proves, and which has a lemma of its own.  Lines `have` have such lemmas too, and so do formulas
+    in variables alone that several premises assume; shown: {such a text: the name of its lemma}.
     """
 
     def __init__(
@@ -87,11 +88,11 @@ class Reading:
         self.form = Form(statement)
         self.branch = Branch(State(self.form.unfolding.context), known, [0])
         self.walk = checker.Context()  # the values of names, line by line
-        self.stated: list[str] = []  # what is stated, up to the line
+        self.stated: list[str] = []  # the statement up to the line
         self.rows: list[str] = []
         self.universal: list[str] = []
-        self.integers: dict[str, str] = {}  # of the variables that are integers, the name in Z
-        self.whole: list[str] = []  # that these are integers
+        self.integers: dict[str, str] = {}  # {integer variable: its name in Z}
+        self.whole: list[str] = []  # proofs that these are integers
         self.assumed: list[str] = []  # names of the lines assumed, as they stand
         self.premises: list[str] = []  # and as polynomial formulas
         self.defined: set[str] = set()  # names that stand for terms
@@ -148,7 +149,7 @@ class Reading:
         own, value = coq_name(name), term_of(term, 0)
         self.walk.define(name, self.walk.value(term))
         self.defined.add(name)
-        if ast.unparse(term) == f"{name}_point + {name}_gap":  # so that it can be any state
+        if ast.unparse(term) == f"{name}_point + {name}_gap":  # by an equation it can be any state
             equation = self.branch.fresh()
             self.stated.append(f"forall {own} : R, {own} = {value} ->")
             self.rows.append(f"intros {own} {equation}.")
@@ -183,7 +184,7 @@ class Reading:
         self.walk.license(formula)
 
     def _root(self, count: int, name: str, under: ast.expr) -> None:
-        """A root: it is not negative, and its square is what stands under it."""
+        """A root: it is not negative, and its square is the term under it."""
         own = coq_name(name)
         below = self._shown(count, ast.Compare(under, [ast.GtE()], [ast.Constant(0)]))
         radicand, value = term_of(under, 0), self.walk.value(under)
@@ -205,7 +206,7 @@ class Reading:
         self._hold(f"(proj1 {self._same(node, formula)} {squared})", formula)
 
     def _shown(self, count: int, node: ast.expr) -> str:
-        """A proof of what the certificate shows before a line; its lemma is written before."""
+        """A proof of the formula that the certificate shows before a line; its lemma is first."""
         lines = self.statement.text().splitlines()[1 : count + 1]
         shown = ast.unparse(node).replace("**", "^").replace("==", "=")
         text = "\n".join([*lines, f"show {shown}"])
@@ -226,19 +227,19 @@ class Reading:
         return [name for line in self.statement.get("forall") for name in line]
 
     def _show(self) -> None:
-        """What is shown, from the polynomial lemma."""
+        """The conclusion, proved from the polynomial lemma."""
         (node,) = self.statement.get("show")
         self.stated.append(formula_of(node, 0))
         same = self._same(node, self.form.unfolding.goal(True))
         self.rows.append(f"exact (proj2 {same} ({self._applied()})).")
 
     def _applied(self) -> str:
-        """The polynomial lemma for what is assumed."""
+        """The polynomial lemma, applied to what is assumed."""
         name = lemma_name(self.statement.name)
         return " ".join([name, *self.universal, *self.whole, *self.premises])
 
     def _exhibit(self) -> None:
-        """What exists, from the polynomial lemma."""
+        """The existence of values, proved from the polynomial lemma."""
         names, own = [*map(coq_name, self.form.existential)], self.branch.fresh()
         integers = self.form.whole(self.form.existential)
         whole = [self.branch.fresh() for _ in integers]
@@ -260,7 +261,7 @@ class Reading:
         self.rows += [*(f"exists {name}." for name in names), f"exact {proof}."]
 
     # -------------------------------------------------------------------------------------------
-    # A formula as it stands, and the polynomial formula that it is.
+    # A formula as it stands, and the polynomial formula that is equivalent to it.
 
     def _same(self, node: ast.expr, formula: checker.Formula) -> str:
         """A proof that a formula as it stands is equivalent to its polynomial formula."""
@@ -335,7 +336,7 @@ class Reading:
 
 
 def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
-    """The polynomial whose sign, or vanishing, is that of a quotient, as the checker has it."""
+    """The polynomial that has the sign of a quotient, or vanishes with it, as in the checker."""
     signless = [
         licence
         for (licence, positive), exponent in value.under.items()
@@ -345,7 +346,7 @@ def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
 
 
 def _divides(node: ast.AST) -> bool:
-    """Whether a name is divided by, which a branch has to know not to be 0."""
+    """Whether a term with a name is divided by; a branch has to know that it is not 0."""
     return any(
         isinstance(one, ast.BinOp) and isinstance(one.op, ast.Div) and names_of(one.right)
         for one in ast.walk(node)

@@ -1,5 +1,5 @@
-"""That every orbit of a map comes to that of one of several points, by a map that makes several of
-its steps at once, as a theorem of Coq by Returns.v.
+"""The theorem of Coq that every orbit of a map comes to that of one of several points, by a map
+that makes several of its steps at once; by Returns.v.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from juggleproof.coq_orbits.terms import coq_term
 from juggleproof.coq_store.branch import Known
 from juggleproof.coq_store.text import conjoined, conjunctive, disjunctive
 
-# The other map, with what it settles to, is in the module Inner. `$word` is that of its piece `$k`,
+# The other map, with its points, is in the module Inner. `$word` is the word of its piece `$k`,
 # `$shown` that the pieces of the word apply, `$equal` that the last image is that of the piece.
 GOES_ALONG = """\
 Lemma of_goes_along_$k : ${all}Inner.Descent.domain$a -> forall of_s, Map.space$a of_s ->
@@ -164,7 +164,7 @@ def returning_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def _other(f: Frame, own: checker.Statement) -> Frame:
-    """The words for the map that makes several steps at once."""
+    """The frame of the map that makes several steps at once."""
     settling = f.known[own.get("settling")[0]]
     descent = f.known[settling.get("descent")[0]]
     return Frame(f.known[descent.get("map")[0]], f.known, "map")
@@ -244,7 +244,7 @@ def returning_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def _says(f: Frame, own: checker.Statement, at: str, steps: int) -> str:
-    """That the orbit of a point is periodic and stable."""
+    """The text that the orbit of a point is periodic and stable."""
     return f.fill(
         f"(Rules.iterate (Map.f$a) {steps} ({at}.point$a) = {at}.point$a /\\\n"
         f"  Returns.orbit_stable States.coordinate (Map.f$a) (Map.space$a) ({at}.point$a))",
@@ -274,8 +274,8 @@ def _continuous(f: Frame, own: checker.Statement, k: int) -> str:
 
 
 def _lines_shown(own: checker.Statement, known: Known) -> list[list[str]]:
-    """For each word the lemmas that say that its pieces apply, of the lines `have` in its premise;
-    the same lines in two premises have one lemma.
+    """For each word, the lemmas that its pieces apply, from the lines `have` in its premise; the
+    same lines in two premises have one lemma.
     """
     names: dict[tuple[str, ...], str] = {}
     found = []

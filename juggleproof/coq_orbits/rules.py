@@ -50,12 +50,12 @@ from juggleproof.statements.language import lemmas_of, rests_on
 from juggleproof.statements.nodes import Certificate
 
 ORBITS = FOLDER / "coq" / "orbits"
-# what says nothing of stability or attraction
+# kinds of statements that say nothing of stability or attraction
 NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation")
 
 
 def theorems_in(statements: Known) -> list[str]:
-    """The theorems on the orbits of a map on which no other statement rests."""
+    """The names of the theorems on the orbits of a map on which no other statement rests."""
     inner = {name for one in statements.values() for name in rests_on(one)}
     return [
         name for name, one in statements.items() if one.kind not in NO_THEOREM and name not in inner
@@ -85,15 +85,15 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
 
 
 def _frame(name: str, known: Known, around: str = "map") -> Frame:
-    """The words for what a statement is about: for a map those of a relation where a relation is on
-    the space around.
+    """The frame of the map or relation that a statement is about; a map has that of a relation if
+    the space around it belongs to a relation.
     """
     own = known[_chain(name, known)[0]]
     return Frame(own, known, "relation" if around == "relation" else own.kind)
 
 
 def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) -> Iterator[str]:
-    """What a statement rests on, and the statement."""
+    """The rows of what a statement rests on, and those of the statement."""
     within = _modules(f.known[name])
     for one in _chain(name, f.known):
         own = f.known[one]
@@ -113,7 +113,7 @@ def _chain_rows(name: str, f: Frame, certificates: Mapping[str, Certificate]) ->
 
 
 def _modules(own: checker.Statement) -> dict[str, str]:
-    """The modules of what a statement names several of."""
+    """The modules for the refutations or contractions that a statement names."""
     refuted = _refutations(own)
     modules = {name: f"Refuted_{refuted.index(name) + 1}" for name in refuted}
     if own.kind == "settles":
@@ -127,8 +127,8 @@ def _refutations(own: checker.Statement) -> list[str]:
 
 
 def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
-    """The map rules that a statement rests on, the map first, and the statement; with those on
-    another map where the whole is asked for.
+    """The map rules that a statement rests on, the map first, and the statement; if `whole`, also
+    those on another map.
     """
     own, chain = known[name], []
     for one in rests_on(own):
@@ -138,8 +138,8 @@ def _chain(name: str, known: Known, whole: bool = False) -> list[str]:
 
 
 def _inner(own: checker.Statement) -> list[str]:
-    """What a statement names of another map: of that on the smaller space that it leads into, or of
-    that which makes several steps at once.
+    """The statements on another map that a statement names: on the map on the smaller space that it
+    leads into, or on the map that makes several steps at once.
     """
     within = {"into": "attraction", "returns": "settling"}.get(own.kind, "")
     return own.get(within)
@@ -157,7 +157,7 @@ def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[
 
 
 def _theory(statements: Sequence[checker.Statement]) -> str:
-    """The lemmas of certificates, and what rules conclude for any map or relation."""
+    """The lemmas for certificates, and the conclusions of rules for any map or relation."""
     modules, rules = {"Rules": "Rules.v"}, {one.kind for one in statements}
     has_ranks = any(one.kind == "descends" and not has_one_term(one) for one in statements)
     if rules & {"relation", "lyapunov", "unstable", "attracts", "into"}:
@@ -186,11 +186,11 @@ def _theory(statements: Sequence[checker.Statement]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# The rules, each by its definitions, and by what follows from its premises.
+# The rules: for each its definitions, and the proofs from its premises.
 
 
 def states(f: Frame, rules: Set[str]) -> Iterator[str]:
-    """The state, its coordinates, and what is stable and attracting."""
+    """The state, its coordinates, and the definitions of stable and attracting."""
     axes = [axis.removeprefix("States.") for axis in f.axes]
     cases = " | ".join(f"{axis} => {name}" for axis, name in zip(axes, f.state))
     yield "Module States."
@@ -218,7 +218,7 @@ def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The map keeps the space, and is on each piece what the piece says."""
+    """The map stays in the space, and equals on each piece the image of the piece."""
     one, last = "(Map.guard_{k}$a of_s /\\ Map.f$a of_s = Map.image_{k}$a of_s)", f.pieces[-1]
     decided = []
     for k in f.pieces:
@@ -419,7 +419,7 @@ def _around(f: Frame, attraction: checker.Statement) -> str:
 
 
 def _tends(attraction: checker.Statement) -> str:
-    """What takes from its theorem that every state is attracted."""
+    """The function that takes from its theorem the part that every state is attracted."""
     bounded = bool(attraction.get("contraction"))
     return "(fun of_all => proj1 (proj2 of_all))" if bounded else "proj2"
 
@@ -472,7 +472,7 @@ def into_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The point is stable and attracts every state just on the domain of the descent."""
+    """The point is stable and attracts every state exactly on the domain of the descent."""
     attraction, refuted = f.known[own.get("attraction")[0]], _refutations(own)
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     words = {

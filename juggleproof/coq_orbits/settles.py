@@ -1,4 +1,4 @@
-"""That every orbit of a map tends to one of several points, as a theorem of Coq by Attractors.v."""
+"""The theorem of Coq that every orbit of a map tends to one of several points, by Attractors.v."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from juggleproof.coq_orbits.frame import Frame, theorem_name
 from juggleproof.coq_orbits.readings import reading_name
 from juggleproof.coq_store.text import conjoined, conjunctive, disjunctive
 
-# `$words` are the words of which sequences hold one that do not repeat one of `$repeated`, and
-# `$letters` those that they are written in; `$places` shows that. `$known` is what a state has
-# along a word, in the order of the premises.
+# Every sequence of `$letters` holds one of the words `$words`, unless it repeats one of `$repeated`
+# at last; `$places` shows this. `$known` are the facts on a state along a word, in the order of the
+# premises.
 FOLLOWED = """\
 Lemma $lemma : ${all}Descent.domain$a -> forall of_s,
   Settling.follows$a $word of_s -> $shown.
@@ -200,9 +200,9 @@ def settling_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 def places(
     words: Sequence[Sequence[int]], repeated: Sequence[Sequence[int]], letters: int
 ) -> Iterator[str]:
-    """For each end that is kept of what is read (`checker.ways_on`): a number that is greater than
-    that of the ends that it leads to, or the same round a circle; and on a circle which of the
-    repeated words it is, and how many of its letters are read.
+    """For each end of what is read that is kept (`checker.ways_on`): its height, a number that is
+    greater than that of the ends to which it leads, or equal round a circle; and on a circle, which
+    of the repeated words it is, and how many of its letters are read.
     """
     ways, height = checker.ways_on(words, letters, checker.Work()), 0
     while ways:
@@ -236,8 +236,8 @@ def _followed(
     then: str,
     to_the_last: bool = False,
 ) -> str:
-    """What holds of a state that follows a word: the states on the way are the images, and so is
-    the one after it, where something is shown of that.
+    """The lemma for a state that follows a word: the states on the way are the images, and so is
+    the state after the word if `to_the_last`.
     """
     state, steps, rewrites = "of_s", list[str](), list[str]()
     for n, piece in enumerate(word[:-1]):

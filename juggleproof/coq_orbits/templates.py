@@ -83,7 +83,7 @@ Proof.
 Qed.
 """
 
-# For what is shown of the next state, which is in the space.
+# The beginning of proofs about the next state, which is in the space.
 NEXT = """\
 assert (of_map : ${M}.domain$a) by exact (${P}_inside$a of_dom).
   assert (of_next := of_map_keeps$a $st of_map of_there$by)."""
@@ -170,9 +170,9 @@ Proof.
 Qed.
 """
 
-# `$E` are the coordinates of the point, where premises are about all points with what the lines
-# `have` say, `$H` the proofs of these, `$gaps` those of the state less those of the point, `$sums`
-# the state as their sum; `$here` says of of_v that it is at least the value.
+# `$E` are the coordinates of the point, if premises are about all points for which the lines `have`
+# hold; `$H` are proofs of these lines. `$gaps` are the coordinates of the state less those of the
+# point, `$sums` the state as the sum; `$here` says that of_v is at least the value.
 LYAPUNOV = """\
 Lemma of_near_point_is : ${all}forall of_c of_s, LyapunovFunction.near$a of_c of_s <->
   $inequalities.
@@ -250,7 +250,7 @@ Proof.
 Qed.
 """
 
-# What the least value of a function without guards is, in place of one that is no less.
+# The least value of a function without guards, in place of a number that is at least the value.
 OWN_VALUE = """\
 assert (of_own : LyapunovFunction.value_1$a of_s <= of_v) by exact (of_high 0%nat ltac:(lia) I).
     clear of_1. assert (of_1 : of_above of_s (LyapunovFunction.value_1$a of_s)).
@@ -327,7 +327,7 @@ BOUNDED = """
     destruct (of_constants$a of_near) as (_ & _ & _ & of_size & _).
     $approach }"""
 
-# The last stage from a number of steps on which a theorem tells, or which it says to exist.
+# The last stage from a number of steps on that a theorem gives, or says to exist.
 IN_TIME = {
     True: {
         "by_then": "intros $orbit$n$runs of_there$lates.",

@@ -44,8 +44,8 @@ def coq_formula(text: str) -> str:
 
 
 def term_of(node: ast.expr, level: int) -> str:
-    """The Coq term of a syntax tree, in parentheses where what is around it binds tighter than
-    `level` allows.
+    """The Coq term of a syntax tree, in parentheses if its operator binds less tightly than the
+    `level` around it.
     """
     if isinstance(node, ast.Constant) and type(node.value) is int:
         return str(node.value)
@@ -66,8 +66,8 @@ def term_of(node: ast.expr, level: int) -> str:
 
 
 def formula_of(node: ast.expr, level: int) -> str:
-    """The Coq proposition of a syntax tree; 0, 1, 2, 3: inside an implication, a disjunction, a
-    conjunction, a negation.
+    """The Coq proposition of a syntax tree; level 0, 1, 2, 3: inside an implication, a disjunction,
+    a conjunction, a negation.
     """
     if isinstance(node, ast.Compare) and all(type(op) in RELATIONS for op in node.ops):
         sides = [term_of(side, 0) for side in (node.left, *node.comparators)]
@@ -99,7 +99,7 @@ def _enclosed(text: str, own: int, level: int) -> str:
 
 
 def names_in(text: str) -> set[str]:
-    """The names that occur in a text; `sqrt` is none."""
+    """The names that occur in a text, without `sqrt`."""
     return names_of(checker.parse(text)) - {"sqrt"}
 
 

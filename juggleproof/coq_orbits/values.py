@@ -16,7 +16,9 @@ LYAPUNOV, CHETAEV = "LyapunovFunction", "ChetaevFunction"
 
 
 class Around:
-    """How premises around a point are applied: their arguments for a state, and what is near."""
+    """The words by which premises around a point are applied: their arguments for a state, and the
+    formula that a state is near.
+    """
 
     def __init__(self, f: Frame, own: checker.Statement, module: str) -> None:
         self.guards = [guard for guard, _ in own.get("value")]
@@ -52,7 +54,7 @@ class Around:
 
 
 def values_of(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """Domain, point, the terms of the value with their guards, numbers, and what is near."""
+    """Domain, point, the terms of the value with their guards, numbers, and nearness."""
     yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
     yield f.define(own, "point", "State", *own.get("point")[0], of_state=False)
     values = ""
@@ -79,7 +81,7 @@ def _reals(*names: str) -> str:
 
 
 def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The value, what it loses at least, and the set."""
+    """The value, its least loss, and the set."""
     yield f"Module {LYAPUNOV}.\nImport States {f.words['M']}."
     yield from values_of(f, own)
     yield f.define(own, "on", "Prop", *own.get("on"))
@@ -94,8 +96,8 @@ def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is fixed, stable, and attracts the set.
 
-    Where the value is one term without a guard, premises are about it, else about all that are at
-    least the value.
+    If the value is one term without a guard, premises are about it, else about all numbers that are
+    at least the value.
     """
     around = Around(f, own, LYAPUNOV)
     is_plain = around.guards == [[]]
@@ -162,7 +164,7 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 
 def _at_least(k: int, has_guard: bool) -> str:
-    """Tactics for what premises say of a number that is at least the value."""
+    """Tactics that show that a number is at least the value, as premises assume."""
     least = f"{LYAPUNOV}.value_{k}$a of_s <= of_v"
     if not has_guard:
         return f"assert (of_here_{k} : {least}) by exact (of_high {k - 1}%nat ltac:(lia) I).\n    "
@@ -182,7 +184,7 @@ def _side(proof: str, k: int, count: int) -> str:
 
 
 def instability_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The value, what it grows by, and states as near the point as one likes."""
+    """The value, its rate of growth, and states as near the point as one likes."""
     yield f"Module {CHETAEV}.\nImport States Map."
     yield from values_of(f, own)
     yield f.define(own, "rate", "R", *own.get("rate"), of_state=False)

@@ -6,9 +6,9 @@
 - `transfer`: statements as Coq text, and formulas at values;
 - `rules`: the proof rules as tactics;
 - `values`: points, witnesses and counterexamples as tactics;
-- `roots`: that a polynomial has one root in an interval;
+- `roots`: the lemma that a polynomial has one root in an interval;
 - `lemmas`: the lemmas of a statement;
-- `files`: a whole store as files of Coq, and what of it is written.
+- `files`: a whole store as files of Coq, and which statements are written.
 """
 
 from juggleproof.coq_store.files import export, share_of, write

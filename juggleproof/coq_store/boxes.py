@@ -1,4 +1,4 @@
-"""Box trees as tactics: a polynomial is a sum of products of what is positive on a box."""
+"""Box trees as tactics: a polynomial is a sum of products of terms that are positive on a box."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Axis(NamedTuple):
 
 
 class Box(NamedTuple):
-    """What holds on a box: the numerator of a polynomial is > 0, or >= 0, by a hypothesis."""
+    """A box, and a hypothesis on it: the numerator of a polynomial is > 0, or >= 0."""
 
     poly: checker.Poly
     relation: str
@@ -42,7 +42,7 @@ class Box(NamedTuple):
     axes: list[Axis]
 
     def coefficients(self) -> list[Fraction]:
-        """The Bernstein coefficients of the numerator, the first axis varying slowest."""
+        """The Bernstein coefficients of the numerator; the first axis varies slowest."""
         if not self.poly.terms:
             return [Fraction(0)] * prod(n + 1 for n in self.degrees())
         shifts = [(checker.BITS * axis.place, axis.low, axis.high) for axis in self.axes]
@@ -88,7 +88,7 @@ def boxes(branch: Branch, index: int, bounds: Sequence[tuple[int, int]], tree: s
 
 
 def axis_of(branch: Branch, place: int, low: int, high: int) -> Axis:
-    """The variable of this number between what two facts say."""
+    """The variable of this number, between the ends that two facts state."""
     ends: list[Fraction] = []
     sides: list[Side] = []
     for index in (low, high):
@@ -122,7 +122,7 @@ def _closed(branch: Branch, box: Box, tree: Iterator[str]) -> list[str]:
 
 
 def split(branch: Branch, axis: Axis) -> tuple[str, list[Axis]]:
-    """The tactic that tells the halves of an axis apart, the lower one first, and the halves."""
+    """The tactic that splits an axis into halves, the lower one first; and the halves."""
     middle = (axis.low + axis.high) / 2
     below, above = branch.fresh(), branch.fresh()
     share, work = Fraction(middle.denominator), checker.Work()
@@ -136,8 +136,8 @@ def split(branch: Branch, axis: Axis) -> tuple[str, list[Axis]]:
 
 
 def excluded(branch: Branch, found: Sequence[Box], depth: int = DEEPEST) -> list[str]:
-    """The goal False, where on each part of a box one of several polynomials, all > 0 or >= 0
-    by hypothesis, is not; the parts are halves of halves.
+    """The tactics for the goal False.  By hypothesis, several polynomials are all > 0 or >= 0 on a
+    box; on each of its parts, which are halves of halves, one of them is not.
     """
     for box in found:
         if max(box.coefficients()) < (box.relation == ">"):
@@ -157,7 +157,9 @@ def excluded(branch: Branch, found: Sequence[Box], depth: int = DEEPEST) -> list
 
 
 def _face(branch: Branch, box: Box, place: int, tree: Iterator[str]) -> list[str]:
-    """On the face the polynomial is at least what it is on the box, by coefficients that grow."""
+    """The tactics for a face: by coefficients that grow towards it, the polynomial is greatest
+    there.
+    """
     sizes = [n + 1 for n in box.degrees()]
     indices = list(product(*map(range, sizes)))
     by_index = dict(zip(indices, box.coefficients()))

@@ -18,7 +18,7 @@ from juggleproof.statements.states import State
 Factors = list[tuple[str, bool]]  # a proof of the sign of each, and whether it is strict
 Weighed = tuple[Fraction, Factors, bool]  # a weight, factors, and whether all are strict
 Known = Mapping[str, checker.Statement]
-Hint = Any  # of a certificate, which anyone may have written: what does not fit, Coq refuses
+Hint = Any  # of a certificate, which anyone may have written: Coq refuses what does not fit
 
 
 class Branch:
@@ -76,7 +76,7 @@ class Branch:
         return rows
 
     def assume_number(self, formula: checker.Formula, name: str) -> list[str]:
-        """Likewise for an atom that is written out, though it may be about a number."""
+        """The same for an atom that is written out, though it may be about a number."""
         if formula is not False:
             return [] if formula is True else self.assume(formula, name)
         false = self.fresh()
@@ -84,15 +84,15 @@ class Branch:
 
 
 def contradiction(weighed: Sequence[Weighed]) -> list[str]:
-    """The goal False, where positive products have the sum 0: the signs as one proof term, the sum
-    being 0 by ring.
+    """The tactic for the goal False, if positive products have the sum 0: one proof term gives the
+    signs, and `ring` shows that the sum is 0.
     """
     return [f"exact (no_positive_zero _ {positive_sum(weighed)[0]}\n  ltac:(ring))."]
 
 
 def positive_sum(weighed: Sequence[Weighed]) -> tuple[str, int]:
-    """(a proof that the sum of products is positive, what it was multiplied by to be whole); it is
-    only >= 0 where no product is strict.
+    """(a proof that the sum of products is positive, the factor that made the weights whole); the
+    sum is only shown to be >= 0 if no product is strict.
     """
     scale = common_factor([weight for weight, _, _ in weighed])
     terms = sorted(

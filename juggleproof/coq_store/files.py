@@ -1,4 +1,4 @@
-"""A whole store as files of Coq, and what of it is written."""
+"""A whole store as files of Coq, and which of its statements are written."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def share_of(names: Iterable[str], share: int, place: int = 0) -> list[str]:
 
 
 def write(exported: Export, folder: Path, files: int = FILES) -> None:
-    """Writes Prelude.v and files of similar size, a statement in that of those that it uses."""
+    """Writes Prelude.v and files of similar size; a statement is in the file of those it uses."""
     write_file(folder / "Prelude.v", PRELUDE.encode())
     for count, names in enumerate(_parts(exported, files), 1):
         text = HEADER + "\n".join(exported.texts[name] for name in names)

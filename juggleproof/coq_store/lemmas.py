@@ -1,4 +1,4 @@
-"""Stored statements as lemmas of Coq, each proved by its certificate; see `lemmas`."""
+"""The lemmas of a stored statement in Coq, proved by its certificate; see `lemmas`."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def lemmas(statement: checker.Statement, certificate: Certificate, known: Known)
     """The Coq lemmas of a statement that is certified or refuted, with their proofs; known: the
     statements before it.
 
-    Of a certified statement `statement_NAME` says what it says, and `statement_NAME_possible` that
-    its premises hold somewhere; of a refuted one `statement_NAME_refuted` says that it is false.
-    Of a rule on orbits there is a lemma for each premise, `statement_NAME_PREMISE`, and none for
-    what the rule concludes. Raises NotWritten where the certificate has what is not written.
+    For a certified statement, `statement_NAME` says the same, and `statement_NAME_possible` says
+    that its premises hold somewhere; for a refuted one, `statement_NAME_refuted` says that it is
+    false.  For a rule on orbits there is a lemma for each premise, `statement_NAME_PREMISE`, and
+    none for the conclusion.  Raises NotWritten if a part of the certificate is not written for Coq.
     """
     if "unknown" in certificate or not certificate:
         raise NotWritten("it has no certificate that settles it")
@@ -62,7 +62,7 @@ def _lemma(name: str, comment: str, text: str, rows: Sequence[str]) -> str:
 
 
 def certified(statement: checker.Statement, proof: Hint, known: Known) -> str:
-    """The lemma of a statement that is for all, with the proof of a certificate."""
+    """The lemma of a universal statement, with the proof of a certificate."""
     form = Form(statement)
     count = [0]
     branch = Branch(State(form.unfolding.context), known, count)
@@ -136,7 +136,7 @@ def _refuted(statement: checker.Statement, values: Hint, known: Known) -> str:
 
 
 def _sharp(statement: checker.Statement, certificate: Hint, known: Known) -> str:
-    """For all parameters in the domain: the condition <=> all the statements hold."""
+    """The lemma that for all parameters in the domain: the condition <=> all statements hold."""
     inside, outside, points = certificate
     (names,), (over,) = statement.get("sharp"), statement.get("over")
     (domain,), (condition,) = statement.get("domain"), statement.get("holds")

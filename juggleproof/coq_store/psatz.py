@@ -1,5 +1,5 @@
-"""The rule psatz as a computation of Coq: a sum of products that is 0, though each is positive or
-not negative, on terms (see sums.py).
+"""The rule psatz as a computation of Coq on terms (see sums.py): a sum of products is 0, though
+each product is positive or not negative.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from juggleproof.coq_store.text import common_factor, coq_name, numeral, polynom
 from juggleproof.statements.nodes import Cofactor, Product
 
 LONG = 10**60  # the largest weight, when all are whole
-Square = tuple[Fraction, checker.Poly]  # a weight, and what is squared
+Square = tuple[Fraction, checker.Poly]  # a weight, and the polynomial that is squared
 Factors = tuple[tuple[int, int], ...]  # numbers of facts, and exponents
 
 
 def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofactor]) -> list[str]:
-    """The goal False, as the sum of products and of multiples of equations is 0."""
+    """The tactics for the goal False: the sum of products and of multiples of equations is 0."""
     squares: dict[Factors, list[Square]] = {}
     for coefficient, factors, text in products:
         key = tuple((index, exponent) for index, exponent in factors)
@@ -29,7 +29,7 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
     shares = [(branch.state.facts[index][0], branch.poly(text)) for index, text in equations]
     facts = [branch.state.facts[index][0] for key in squares for index, _ in key]
     roots = [root for some in squares.values() for _, root in some]
-    # others may be no variables of the proof, as what is yet to be found
+    # others may be no variables of the proof, such as values that are yet to be found
     together, mask = 0, (1 << checker.BITS) - 1
     for poly in [*facts, *roots, *chain(*shares)]:
         for monomial in poly.terms:
@@ -69,7 +69,7 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
 
 class Sum:
     """Weighted products of facts and squares in the variables of these names; rows: the tactics
-    that show what it uses.
+    that show the facts.
     """
 
     def __init__(self, branch: Branch, names: Sequence[str]) -> None:
@@ -92,11 +92,11 @@ class Sum:
         return f"({text})%expression"
 
     def facts(self) -> str:
-        """The facts that it uses: whether each is strict, and of what term."""
+        """The facts that it uses: whether each is strict, and its term."""
         return listed(self.texts)
 
     def fact(self, strict: bool, text: str, proof: str) -> int:
-        """The place of a new fact."""
+        """Adds a fact, and returns its place."""
         self.texts.append(f"({str(strict).lower()}, {text})")
         self.proofs.append(proof)
         return len(self.proofs) - 1
@@ -108,7 +108,7 @@ class Sum:
         more: Sequence[int],
         root: checker.Poly | None = None,
     ) -> None:
-        """One more product: of powers of facts of the branch, more facts and a square."""
+        """Adds a product of powers of facts of the branch, more facts and a square."""
         powers = []
         for index, exponent in factors:
             poly, relation = self.branch.state.facts[index]
@@ -129,15 +129,15 @@ class Sum:
         self.summands.append((weight, f"{listed(powers)}, {squared})"))
 
     def scaled(self, scale: int) -> str:
-        """The products, their weights times a factor that makes them whole."""
+        """The products, with weights that are multiplied by a factor that makes them whole."""
         return listed(
             [f"({numeral(int(weight * scale))}%positive, {text}" for weight, text in self.summands]
         )
 
     def not_negative(self, squares: Sequence[Square]) -> tuple[Fraction, int]:
-        """Shows that a sum of squares is not negative, from the last to the first, as sums of fewer
-        squares have shorter coefficients than all weights made whole; (c, the place of a fact), c
-        times what this is about is the sum.
+        """Shows that a sum of squares is not negative.  Squares are added from the last to the
+        first: sums of fewer squares have shorter coefficients than all weights made whole.  Returns
+        (c, the place of the fact); c times the polynomial of the fact is the sum.
         """
         work, text, proof = checker.Work(1 << 60), "", ""
         total, before = checker.number(0, work), Fraction(0)
@@ -166,7 +166,7 @@ class Sum:
 
 
 def _denominators(branch: Branch, factors: Factors) -> int:
-    """What a product of facts has below, which Coq's facts have not."""
+    """The denominator of a product of facts, which the facts in Coq do not have."""
     below = 1
     for index, exponent in factors:
         below *= branch.state.facts[index][0].den ** exponent

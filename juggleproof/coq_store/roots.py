@@ -1,4 +1,4 @@
-"""That a polynomial has one root in an interval, where it changes its sign, as a lemma of Coq."""
+"""The lemma of Coq that a polynomial has one root in an interval, where it changes its sign."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from juggleproof.statements.states import State
 
 
 def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tuple[str, list[str]]:
-    """(what is stated, its proof): the polynomial, in one variable, has different signs at two
+    """(the statement, its proof): the polynomial, in one variable, has different signs at two
     numbers and exactly one root between them.
 
-    Two roots x and y would be zeros of (p(x) - p(y))/(x - y): on each part of a box that polynomial
-    or p(x) or p(y) has one sign.
+    Two roots x and y would be zeros of (p(x) - p(y))/(x - y).  But on each part of a box this
+    polynomial, p(x) or p(y) has one sign.
     """
     (place,) = poly.places()
     context = checker.Context()

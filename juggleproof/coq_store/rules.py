@@ -45,7 +45,7 @@ def closed(branch: Branch, node: Node) -> list[str]:
 
 
 def _close(branch: Branch) -> list[str]:
-    # where nothing false is assumed, Coq is to say so
+    # if nothing false is assumed, Coq has to say so
     return [f"destruct {branch.absurd}." if branch.absurd else "contradiction."]
 
 
@@ -61,7 +61,7 @@ def _cases(branch: Branch, index: int, nodes: Sequence[Node]) -> list[str]:
 
 
 def signs(branch: Branch, text: str) -> tuple[str, list[tuple[list[str], Branch]]]:
-    """The tactic that tells p < 0, p = 0 and p > 0 apart, and what begins each case."""
+    """The tactic that distinguishes p < 0, p = 0 and p > 0, and the beginning of each case."""
     poly = branch.poly(text)
     parts = [branch.fresh() for _ in range(3)]
     sides = f"({polynomial(branch.names, poly)}) ({polynomial(branch.names, -poly)})"
@@ -103,13 +103,13 @@ def _use(
     fresh: Mapping[str, str],
     node: Node,
 ) -> list[str]:
-    """The instance of an earlier lemma: its premises fail, or what it shows holds."""
+    """The instance of an earlier lemma: its premises fail, or its conclusion holds."""
     statement = branch.known[name]
     context = checker.Context(branch.state.context)
     values = {key: branch.state.context.value(checker.parse(t)) for key, t in arguments.items()}
     rows = nonzero(branch, values)
     form = Form(statement)
-    names: dict[str, str] = {}  # of what exists, in the branch
+    names: dict[str, str] = {}  # in the branch, of the values that exist
     for key, new in sorted(fresh.items()):
         context.declare(new, key in form.integers)
         values[key] = context.values[new]

@@ -1,6 +1,6 @@
 """Sums of products that are 0, though each product is positive or not negative, by computation."""
 
-# A polynomial as a term of which Coq computes the coefficients, and its value at a list of reals.
+# A polynomial as a term whose coefficients Coq computes, and its value at a list of reals.
 SUMS = """\
 Notation expression := (Ring_polynom.PExpr Z).
 Notation num n := (Ring_polynom.PEc n%Z).

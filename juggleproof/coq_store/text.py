@@ -1,5 +1,5 @@
 """The checker's polynomials and formulas as Coq text over the reals, with integer coefficients
-only, and what every exported file begins with.
+only; and the text with which every exported file begins.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ Ltac equivalent := split; let taken := fresh "of_taken" in
     + SUMS
 )
 
-# Words that are no name in Coq: its keywords, and what `intros` may begin with.
+# Words that are no name in Coq: its keywords, and words that `intros` may begin with.
 KEYWORDS = frozenset(
     "as at by cofix else end exists exists2 fix for forall fun if IF in let match mod return then"
     " until using where with Axiom CoFixpoint Definition Fixpoint Hypothesis Parameter Prop Set"
@@ -166,8 +166,8 @@ KEYWORDS = frozenset(
 
 
 class NotWritten(ClaimError):
-    """A certificate, or a part of it, that is not written for Coq; `reason` is the same for all of
-    its class.
+    """A certificate, or a part of it, that is not written for Coq; `reason` is the same for all
+    certificates of its class.
     """
 
     def __init__(self, reason: str) -> None:
@@ -181,8 +181,8 @@ def coq_name(name: str) -> str:
 
 
 def without_primes(text: str, beside: str = "") -> str:
-    """A text in which variables have no prime, but those whose name without it is a word of Coq, or
-    occurs in `beside` outside of comments.
+    """A text in which variables have no prime, except those whose name without it is a word of Coq,
+    or occurs in `beside` outside of comments.
 
     >>> without_primes("forall x' R' in' : R, 0 < x'", "forall x' R' in' : R, 0 < x'")
     "forall x R' in' : R, 0 < x"
@@ -203,9 +203,9 @@ def polynomial(
     number: str = "",
 ) -> str:
     """The numerator of a polynomial, its integer coefficients times the factor, as a sum of
-    monomials, lexicographically from the largest down, where the last variable counts most;
-    `names` gives the number of each variable, `values` text to put in place of some, `number` what
-    stands before a number.
+    monomials.  They are in lexicographic order from the largest down; the last variable counts
+    most.  `names` gives the number of each variable, `values` texts that replace some variables,
+    `number` the text before a number.
     """
     own = {name: coq_name(name) for name in names} | dict(values or {})
     rows = []
@@ -223,8 +223,8 @@ def polynomial(
 
 
 def numeral(number: int) -> str:
-    """A whole number that is not negative; a long one in hexadecimal digits, which Coq reads in a
-    time that grows with their number, not with its square.
+    """A whole number that is not negative.  A long one is in hexadecimal digits, which Coq reads in
+    a time that grows with their number, not with its square.
     """
     return str(number) if number < 10**40 else hex(number)
 
@@ -283,7 +283,7 @@ def conjoined(proofs: Sequence[str]) -> str:
 
 
 def some(names: Sequence[str], parts: Sequence[str]) -> str:
-    """That something exists."""
+    """The formula that values of these names exist for which all parts hold."""
     binder = f"exists ({' '.join(map(coq_name, names))} : R), " if names else ""
     text = " /\\ ".join(f"({part})" for part in parts) if len(parts) > 1 else "".join(parts)
     return binder + (text or "True")

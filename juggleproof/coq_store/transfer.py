@@ -1,8 +1,9 @@
 """A statement as Coq text, and the same formula at values in two forms.
 
-A lemma is over variables; at given values its atoms are what these put in their place.  The
-checker, which puts values into the statement's text, has atoms without denominators.  Each is a
-multiple of the other by something positive (other than 0, for = and !=), which `transfer` names.
+A lemma is over variables; at given values, its atoms are about the values in place of the
+variables.  The checker, which puts values into the statement's text, has atoms without
+denominators.  Each atom is a multiple of the other by a positive factor (a nonzero one, for = and
+!=), which `Transfer` names.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ TURNED = "values turn the sign of an atom"
 
 
 def denominator(branch: Branch, licence: checker.Poly) -> tuple[int, int]:
-    """(number of a fact, c): c times what is known to be nonzero is the numerator of the fact."""
+    """(number of a fact, c): c times the polynomial that is known to be nonzero is the numerator of
+    the fact.
+    """
     facts = sorted(enumerate(branch.state.facts), key=lambda entry: entry[1][1] != ">")
     for index, (poly, relation) in facts:
         if relation in (">", "!="):
@@ -58,7 +61,7 @@ def value_text(branch: Branch, value: checker.Poly) -> str:
 
 
 def nonzero(branch: Branch, values: Numbers) -> list[str]:
-    """Hypotheses by which `field` may divide by what the values divide by."""
+    """Hypotheses by which `field` may divide by the divisors of the values."""
     rows = []
     for index in sorted(
         {denominator(branch, licence)[0] for value in values.values() for licence, _ in value.under}
@@ -84,7 +87,7 @@ def substituted(poly: checker.Poly, names: Mapping[str, int], values: Numbers) -
 
 
 class Transfer:
-    """P <-> Q, where P is a formula of a lemma at values and Q is what the checker has for it."""
+    """Proofs of P <-> Q: P is a formula of a lemma at values, and Q the checker's form of it."""
 
     def __init__(self, branch: Branch, names: Mapping[str, int], values: Numbers) -> None:
         self.branch = branch
@@ -139,7 +142,7 @@ class Transfer:
         plain: dict[int, checker.Poly],
         pairs: dict[int, checker.Poly],
     ) -> tuple[str, str]:
-        """(what the formula at the values is equivalent to, a proof)."""
+        """(a formula that is equivalent to the formula at the values, a proof of this)."""
         if formula[0] == "atom":
             _, poly, relation = formula
             own = plain[id(poly)]
@@ -205,15 +208,15 @@ class Transfer:
         return atom(wanted, relation), proof
 
     def equal(self, text: str) -> str:
-        """The tactic that shows that a multiple of the text is one of a polynomial."""
+        """The tactic that shows that a multiple of the text is a multiple of a polynomial."""
         return "field; repeat split; assumption" if "/" in text else "ring"
 
     def _multiple(
         self, value: checker.Poly, target: checker.Poly
     ) -> tuple[list[checker.Poly], Fraction, list[int]]:
-        """(factors, c, exponents) with (the factors)^exponents * value = c * target, of numerators:
-        the factors are what the value divides by, and at most two more that are known to be
-        nonzero.
+        """(factors, c, exponents) with (the factors)^exponents * value = c * target, for the
+        numerators.  The factors are the divisors of the value, and at most two more that are known
+        to be nonzero.
         """
         under = [(licence, exponent) for (licence, _), exponent in value.under.items()]
         known = [licence.terms for licence, _ in under]
@@ -240,7 +243,7 @@ def _apart(weight: int, factors: Factors) -> str:
 def _exponents(
     value: checker.Poly, target: checker.Poly, under: Sequence[tuple[checker.Poly, int]]
 ) -> tuple[Fraction, list[int]] | None:
-    """(c, exponents) with (what is below)^exponents * value = c * target, of numerators."""
+    """(c, exponents) with (the divisors)^exponents * value = c * target, for the numerators."""
     choices = product(*(range(min(-1, e - 2), e + 2) for _, e in under))
     for powers in sorted(choices, key=lambda one: (sum(map(abs, one)), one)):
         own, other = value.over({}), target.over({})
@@ -255,7 +258,7 @@ def _exponents(
 
 
 def _paired(own: checker.Formula, target: checker.Formula, pairs: dict[int, checker.Poly]) -> None:
-    """Finds for each atom of a formula that of another one of the same shape."""
+    """Finds for each atom of a formula the atom of another formula of the same shape."""
     if isinstance(own, bool) or isinstance(target, bool):
         same = own is target
     elif own[0] == "atom" and target[0] == "atom":
@@ -272,14 +275,14 @@ def _paired(own: checker.Formula, target: checker.Formula, pairs: dict[int, chec
 
 
 # -------------------------------------------------------------------------------------------------
-# What is stated of a statement, and values for its variables.
+# The Coq text of a statement, and values for its variables.
 
 
 class Form:
     """A statement for all variables but those of `base`, as Coq text.
 
-    unfolding: of its lines; universal, existential: the variables; given: the numbers of the
-    premises that are assumed, without what is derived, or stated before it.
+    unfolding: that of its lines; universal, existential: the variables; given: the numbers of the
+    premises that are assumed, without those that are derived, or stated before it.
     """
 
     def __init__(
@@ -301,7 +304,7 @@ class Form:
         self.integers = self.unfolding.integers
 
     def whole(self, names: Sequence[str]) -> list[str]:
-        """What says that variables are integers."""
+        """The formulas that say that variables are integers."""
         return [f"whole {coq_name(name)}" for name in names if name in self.integers]
 
     def premises(self) -> list[str]:
@@ -309,12 +312,12 @@ class Form:
         return [proposition(self.names, self.unfolding.premises[k]) for k in self.given]
 
     def goal(self) -> str:
-        """What is shown."""
+        """The formula that is shown."""
         parts = [*self.whole(self.existential), proposition(self.names, self.unfolding.goal(True))]
         return some(self.existential, parts)
 
     def text(self) -> str:
-        """All of it, in lines."""
+        """The whole statement, in lines."""
         binder = f"forall ({' '.join(map(coq_name, self.universal))} : R), "
         rows = [binder.rstrip()] if self.universal else []
         rows += [f"{text} ->" for text in self.whole(self.universal)]
@@ -322,15 +325,15 @@ class Form:
         return "\n  ".join([*rows, f"({self.goal()})"])
 
     def possible(self) -> str:
-        """That the premises hold somewhere."""
+        """The formula that the premises hold somewhere."""
         return some(self.universal, [*self.whole(self.universal), *self.premises()])
 
 
 def premise_proofs(
     branch: Branch, form: Form, inner: checker.Unfolding, name: str, values: Numbers
 ) -> tuple[list[str], list[str]]:
-    """Tactics after which the premises of a form hold at the values, and a proof of each; `name`
-    says that those of an unfolding with these values hold.
+    """Tactics after which the premises of a form hold at the values, and a proof of each; the
+    hypothesis `name` says that the premises of an unfolding with these values hold.
     """
     together = checker.join("and", inner.premises)
     count = len(checker.conjuncts(together)) * (together is not True)

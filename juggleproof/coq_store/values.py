@@ -119,7 +119,7 @@ def adjoin(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the values are for.
+# The uses of values: points, witnesses and counterexamples.
 
 
 def values_of(
@@ -141,7 +141,7 @@ def exhibited(
 
 
 def as_point(form: Form, sharp: Range | None = None) -> Callable[..., list[str]]:
-    """How a point of a statement is written: its premises hold."""
+    """The function that writes a point of a statement: its premises hold there."""
 
     def write(branch: Branch, name: str, terms: Mapping[str, str], node: Node) -> list[str]:
         values = values_of(branch, terms, ())
@@ -168,7 +168,7 @@ def _premises(
 
 
 def as_witness(form: Form, sharp: Range | None = None) -> Callable[..., list[str]]:
-    """How a witness of a statement is written: its goals hold."""
+    """The function that writes a witness of a statement: its goals hold there."""
 
     def write(branch: Branch, name: str, terms: Mapping[str, str], node: Node) -> list[str]:
         values = values_of(branch, terms, form.unfolding.universal)
@@ -187,7 +187,9 @@ def as_witness(form: Form, sharp: Range | None = None) -> Callable[..., list[str
 def as_counterexample(
     forms: Mapping[str, Form], all_hold: Mapping[str, str], base: Sequence[str], sharp: Range | None
 ) -> Callable[..., list[str]]:
-    """How a counterexample to one of the statements is written; all_hold: a proof of each."""
+    """The function that writes a counterexample to one of the statements; all_hold: a proof of
+    each.
+    """
 
     def write(
         branch: Branch, name: str, terms: Mapping[str, str], node: Node, fails: Node

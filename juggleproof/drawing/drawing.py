@@ -69,8 +69,8 @@ def svg(figure: Figure, slug: str) -> bytes:
 
 
 def _with_own_ids(text: str, slug: str) -> str:
-    """The same file in fewer bytes, ids distinct from those of other figures; glyphs, which it
-    uses most, have the shortest ids.
+    """The same file in fewer bytes, with ids distinct from those of other figures; glyphs, which
+    it uses most, have the shortest ids.
     """
     text = text.replace("xlink:href=", "href=").replace(
         ' xmlns:xlink="http://www.w3.org/1999/xlink"', ""
@@ -124,8 +124,8 @@ NUMBERS, LABELS = 9.0, 11.0  # sizes of letters
 
 
 class Plane:
-    """A part of a figure with its own coordinates: `across` and `up` are what it shows, `box` is
-    where.
+    """A part of a figure with its own coordinates: `across` and `up` are the ranges that it shows,
+    `box` is its place.
     """
 
     def __init__(self, figure: Figure, box: Box, across: Sides, up: Sides) -> None:
@@ -159,7 +159,7 @@ class Plane:
         self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **style: Style
     ) -> None:
         """Draws arcs as one curve, joined only where one ends at the very point where the next
-        starts; nothing where there are none.
+        starts; draws nothing if there are no arcs.
         """
         if arcs:
             dashes = {"linestyle": (0, tuple(look.dashes))} if look and look.dashes else {}
@@ -240,7 +240,7 @@ class Plane:
         above: bool = True,
         gap: float = 3,
     ) -> None:
-        """Writes along a curve, so many points above or below its point with the parameter."""
+        """Writes along a curve, `gap` points above or below its point with the parameter."""
         x, y = self.place(*arc.at(parameter))
         dx, dy = (slope * scale for slope, scale in zip(arc.slope(parameter), self.scale))
         angle = atan2(dy, dx)
@@ -264,8 +264,8 @@ class Plane:
         both: bool = False,
         short: float = 0,
     ) -> None:
-        """Draws an arrow between two points of the plane, with a head at the tip or at both ends,
-        ending so many points short of them.
+        """Draws an arrow between two points of the plane, with a head at the tip or at both ends;
+        it ends `short` points before them.
         """
         (x, y), (far_x, far_y) = self.place(*tail), self.place(*tip)
         length = hypot(far_x - x, far_y - y)
@@ -305,7 +305,7 @@ class Plane:
         room: float = 20,
     ) -> None:
         """Draws the two axes with their ticks, numbers and labels; the label of the upward one
-        stands so many points to the left.
+        stands `room` points to the left.
         """
         left, bottom, right, top = (
             self.left,
@@ -440,8 +440,8 @@ def axes(
     title: Title,
     bottom: float = BOTTOM,
 ) -> Plane:
-    """A plane in a new figure of this size in points, so much of it left free at the right and at
-    the bottom.  SceneError for sides that floats do not tell apart.
+    """A plane in a new figure of this size in points, with `right` and `bottom` points left free on
+    these sides.  Raises SceneError for ends of a side that floats do not tell apart.
     """
     for low, high in (across, up):
         if not 1e-9 * max(abs(low), abs(high)) < high - low < inf:

@@ -1,6 +1,6 @@
-"""Stability of a map that is given alone: its fixed point, a function that falls along its orbits,
-and for which parameters, or an orbit that stays away.  Nothing here has to be believed: the checker
-certifies all that is said.
+"""The search for the stability of a map.  Only the map is given.  The search finds a fixed point
+and a function that falls along all orbits, with the parameters for which it does, or an orbit that
+stays away from the point.  None of it has to be believed: the checker certifies every statement.
 
 In reading order, each importing those before it only:
 
@@ -18,9 +18,9 @@ In reading order, each importing those before it only:
 - `settings`: a fixed point with a part of the domain.
 - `findings`: what certified statements say of the map, as a sentence.
 - `attracting`: the list of strategies that show a point to be stable and to attract every state.
-- `failing`: that a point is not stable, or does not attract every state.
+- `failing`: proofs that a point is not stable, or does not attract every state.
 - `points_as_parameters`, `points_by_equation`: fixed points that square roots do not express. Such
-  a point takes the place of a parameter, or is a further one, with an equation in the domain.
-- `search`: all of it, in order, and the outcome.
-- `claiming`: the same as a claim of one's own.
+  a point replaces a parameter, or becomes one more parameter with an equation in the domain.
+- `search`: the whole search, in order, and its outcome.
+- `claiming`: stability as a claim of one's own.
 """

@@ -56,9 +56,10 @@ from juggleproof.map_stability.terms import as_factor, atoms, renamed, written
 class Strategy:
     """A family of functions, with the counted work for a premise of a candidate.
 
-    affine: the family is for maps whose pieces are all affine; best: the number of candidates of
-    least rank that are tried, all in their order if it is 0; first: the number of candidates that
-    are tried in their order; licensed: V may divide by what its set alone says to be positive.
+    affine: the family is for maps whose pieces are all affine; best: the number of candidates that
+    are tried, those of least rank, or 0 for all in their order; first: the number of candidates
+    that are tried in that order; licensed: V may divide by a term that only the candidate's set
+    says to be positive.
     """
 
     candidates: Callable[[Setting], Iterable[Candidate]]
@@ -105,8 +106,8 @@ def of_map(one: Candidate, setting: Setting) -> Candidate:
 
 
 def two_sided_without_searches(setting: Setting) -> Iterator[Candidate]:
-    """Two-sided candidates for a second time: what their own searches find does not depend on the
-    budget.
+    """Yield the two-sided candidates for a second try, without their own searches: these do not
+    depend on the budget, and would fail again.
     """
     return (replace(one, searches={}) for one in two_sided_candidates(setting))
 
@@ -159,8 +160,8 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
 
 
 def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
-    """Return whether the same is certified by a part of the space that every orbit enters.  This
-    part is the space of a map of its own.
+    """Return whether it is certified that the point is stable and attracts every state, because
+    every orbit enters a part of the space.  This part is the space of a map of its own.
     """
     spaces = spaces_entered(setting, far)
     if not spaces:
@@ -176,8 +177,8 @@ def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
 
 
 def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
-    """Return whether the same is certified by functions that fit samples.  Simple functions that
-    fit well come first.
+    """Return whether a function that fits samples certifies that the point is stable and attracts
+    every state.  Simple functions that fit well come first.
     """
     every = {one.rule: one for one in fitting_candidates(setting)}  # each once
     found = sorted(every.values(), key=lambda one: one.rank)

@@ -64,12 +64,12 @@ class Proof:
     known: dict[str, checker.Statement] = field(default_factory=dict)
     budget: int = (
         limits.PREMISE_WORK
-    )  # of a premise where nothing less is said; what is less grows with it
+    )  # of a premise that has no smaller one; smaller ones grow in proportion
     fault: str = ""  # why the last statement was not certified, if it was not
     open: tuple[str, str, checker.Statement] | None = None  # the last premise without a proof
-    work: int = 0  # that was spent on premises
-    most: int = limits.MAP_WORK  # of it
-    # premises without a proof: the largest budget, and whether the search ended for want of it
+    work: int = 0  # the work that was spent on premises
+    most: int = limits.MAP_WORK  # the most work that may be spent
+    # each premise without a proof: its largest budget, and whether the search used it up
     sought: dict[str, tuple[int, bool]] = field(default_factory=dict)
 
     def add(
@@ -94,7 +94,7 @@ class Proof:
         try:
             statement = checker.read_statements(text)[rule.name]
             premises = checker.premises_of(statement, self.known)
-            # those first that fail most often
+            # the premises that fail most often come first
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
                 proof = searches[name](premises[name], self.known) if name in searches else None
                 work = budget * self.budget // limits.PREMISE_WORK
@@ -119,7 +119,7 @@ class Proof:
         return ""
 
     def grant(self, work: int) -> None:
-        """Let this much more work be spent; it grows with the budget."""
+        """Allow this much more work, in proportion to the budget."""
         self.most = max(self.most, self.work + work * self.budget // limits.PREMISE_WORK)
 
     def free_name(self, name: str) -> str:
@@ -159,7 +159,7 @@ class Proof:
         return False
 
     def keep(self, count: int) -> None:
-        """Leave the first `count` statements only."""
+        """Keep the first `count` statements, and remove the others."""
         for rule in self.rules[count:]:
             del self.certificates[rule.name], self.known[rule.name]
         del self.rules[count:]
@@ -228,8 +228,8 @@ def function_of(rule: MapRule) -> str:
 
 
 def beyond(given: str, domain: str, parameters: Sequence[str]) -> str:
-    """Return the conditions of the domain that are not certified to follow from the given one.  A
-    licence rests on samples, which miss an end point.
+    """Return the conditions of the domain that are not certified to follow from the given one.
+    Conditions on divisors may be among them: they were found at samples, which miss end points.
     """
     before, open_ = conjuncts(given), []
     facts = [f"given {one}" for one in before]

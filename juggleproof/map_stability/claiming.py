@@ -13,8 +13,8 @@ from juggleproof.statements.language import ClaimError, MapRule
 
 
 def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
-    """The statements that the map's fixed point is stable and attracts every state, as they are
-    found: what a claim returns whose map alone is given.
+    """The statements, found by a search, that the map's fixed point is stable and attracts every
+    state.  A claim that gives a map alone returns them.
 
     The map has the name of the claim, since the statements refer to each other by it; `point` names
     the fixed point by its terms, where there are several.  Raises ClaimError, one line, where that

@@ -70,7 +70,7 @@ def without_cycles(system: Map, parameters: Arrays) -> list[tuple[Expr, bool]]:
             signs = [np.asarray(value(written(term), parameters), float) >= 0 for term, _ in inside]
         exists = np.logical_and.reduce(np.broadcast_arrays(*signs))
         if exists.any() and not exists.all():
-            # one of the bounds alone says whether it exists
+            # one of the bounds alone decides whether the orbit exists
             one = next((k for k, sign in enumerate(signs) if (sign == exists).all()), None)
             found += [(-inside[one][0], not inside[one][1])] if one is not None else []
     return found
@@ -106,8 +106,8 @@ def failing_at_ends(system: Map, fixed: FixedPoint, parameters: Arrays) -> list[
 
 
 def ends_of_domain(system: Map) -> list[dict[Expr, Expr]]:
-    """Parameters of the domain, each at an end that belongs to its range, or in the middle of it;
-    MOST_ENDS at most.
+    """Points of the domain, each parameter at an end that belongs to its range, or in the middle of
+    the range; at most MOST_POINTS of them.
     """
     ranges = []
     for name in system.parameters:
@@ -129,7 +129,7 @@ def ends_of_domain(system: Map) -> list[dict[Expr, Expr]]:
 def failing_for(
     terms: Iterable[tuple[Expr, bool]], parameters: Arrays, ends: Sequence[dict[Expr, Expr]] = ()
 ) -> Iterator[str]:
-    """Those of the conditions term > 0, or >= 0, that fail at samples or at these ends."""
+    """Yield the conditions, term > 0 or term >= 0, that fail at samples or at these ends."""
     for term, strict in terms:
         term = without_root(term, parameters)
         if term is None or not term.free_symbols:
@@ -186,8 +186,8 @@ def without_root(term: Expr, parameters: Arrays) -> Expr | None:
 
 
 def needed(rows: list[str], parameters: Arrays) -> list[str]:
-    """The conditions without those that hold at all samples where the others do, the longest
-    first.
+    """The conditions without those that hold at all samples at which the others hold.  Long
+    conditions are left out first.
     """
     kept = list(dict.fromkeys(rows))
     for row in sorted(rows, key=len, reverse=True):
@@ -203,9 +203,8 @@ def needed(rows: list[str], parameters: Arrays) -> list[str]:
 
 
 def middle_of(system: Map, domain: str) -> list[str]:
-    """Return the middle half of each parameter's range, as formulas.  If there is no upper end, it
-    is the range from 1/2 above the lower end on.  If a parameter has no lower end, there are no
-    formulas.
+    """Return the middle half of each parameter's range, as formulas.  A range without an upper end
+    is cut 1/2 above its lower end.  If a parameter has no lower end, there are no formulas.
     """
     rows = []
     for name in system.parameters:

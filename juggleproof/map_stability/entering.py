@@ -1,6 +1,6 @@
-"""Boxes that every orbit enters, as where a map saturates.  The guards of the pieces bound the
-next state, step by step.  The images of one rational piece are bounded by their values at the
-ends of the box before, as 0 < x/(1 + y) is.
+"""Boxes that every orbit enters, such as those of a map that saturates.  The guards of the pieces
+bound the next state, step by step.  If the map has one rational piece, the values of its images at
+the ends of one box bound the next: for example 0 < x/(1 + y) if x > 0 and y > 0.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def _end(system: Map, place: int, side: int, inside: str) -> Expr | None:
 
 
 def _ends(system: Map, image: Expr, side: int, known: set[Expr]) -> list[Expr]:
-    """Return terms in the parameters that bound the image, by one of the facts bound >= 0."""
+    """Return terms in the parameters that bound the image, each by one fact `bound >= 0`."""
     state = set(symbols(system.state))
     if not image.free_symbols & state:
         return [image]
@@ -113,9 +113,9 @@ def entering_rules(setting: Setting, boxes: Sequence[str]) -> list[MapRule]:
 
 
 def spaces_entered(setting: Setting, far: bool) -> list[str]:
-    """Return parts of the space: in each, every state is after one more step, whatever state the
-    orbit begins at.  No state is at an end of a part; if `far`, its ends are the limits of the
-    images.
+    """Return parts of the space, each within the one before.  Every orbit is in the first part
+    after one step, in the second after two, and so on.  No image reaches an end of a part; if
+    `far`, the ends are the limits of the images.
     """
     system, found = setting.system, [setting.system.space]
     bounded: dict[Side, str] = {}
@@ -202,8 +202,8 @@ def _at(term: Expr, points: Arrays) -> Floats:
 
 
 def radius_of(setting: Setting, space: str) -> str:
-    """Less than the point's distances to the ends that this part of the space adds: the least of
-    positive numbers is above 1/(the sum of 1/each).
+    """A term below the distances d of the point to the ends that this part of the space adds:
+    1/(2 sum 1/d), which is less than each d.
     """
     at = dict(zip(symbols(setting.system.state), map(expression, setting.point.terms)))
     known, states = atoms(setting.system.space), states_at_ends(setting, setting.system.space)
@@ -217,7 +217,7 @@ def radius_of(setting: Setting, space: str) -> str:
 
 def rules_into(setting: Setting, spaces: Sequence[str]) -> list[MapRule]:
     """The statements that every orbit enters the last of the spaces, and that the point attracts
-    all states, as it attracts those.
+    all states, since it attracts those of that space.
     """
     stages = (setting.system.space, *spaces)
     return [

@@ -1,5 +1,5 @@
-"""Proofs that a point is not stable, or does not attract every state; and the theorem that is
-sharp, which puts both parts of the domain together.
+"""Proofs that a point is not stable, or does not attract every state; and the sharp theorem, which
+says for the whole domain where the point is stable and attracts every state, and where not.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def complement(conditions: str) -> list[str]:
     return parts
 
 
-NAMED = {"escapes": "escape", "unstable": "unstable"}  # lines of `exactly` that name such a rule
+NAMED = {"escapes": "escape", "unstable": "unstable"}  # the lines of `exactly` that name each kind
 
 
 def parts_refuted(
@@ -118,8 +118,8 @@ def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], lo
 
 
 def is_fixed(setting: Setting) -> bool:
-    """Return whether the point is certified to be a fixed point.  The conclusion of the rule
-    `escapes` holds of any other state too.
+    """Return whether the point is certified to be a fixed point.  The rule `escapes` does not show
+    this: its conclusion holds for any other state too.
     """
     system, (guard, images) = setting.system, setting.system.pieces[setting.piece]
     return is_fixed_point(setting.head, system.space, guard, images, system.state)

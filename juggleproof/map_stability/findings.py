@@ -47,8 +47,10 @@ class MapVerdict(StrEnum):
 
 @dataclass(frozen=True)
 class Finding:
-    """A verdict with its sentence; the point, for which parameters of the given domain it attracts
-    (all, where `condition` is empty), and which set (the whole space, where `attracted` is empty).
+    """A verdict with its sentence, and what they are about.
+
+    point: the point; condition: the parameters of the given domain for which it attracts, or an
+    empty text for all; attracted: the set that it attracts, or an empty text for the whole space.
     """
 
     verdict: MapVerdict
@@ -60,8 +62,8 @@ class Finding:
 
 @dataclass(frozen=True)
 class Meaning:
-    """A sentence that says what a parameter stands for, which took the place of another one.
-    `certified`: every parameter of the given map has one.
+    """A sentence on a parameter that replaced another one: it says how they are related.
+    `certified`: whether every value of the given parameters is certified to have a value of it.
     """
 
     sentence: str
@@ -93,7 +95,7 @@ class Fact:
 
     @cached_property
     def point(self) -> str:
-        """The point, its roots written out."""
+        """The point, with its roots written out."""
         return named(self.lines.around(), "point")
 
     @cached_property
@@ -129,7 +131,7 @@ class Fact:
 
     def is_fixed(self) -> bool:
         """Return whether it is certified, for the whole domain of the statement, that the point
-        is a fixed point of the map: what a rule concludes on a failure holds of other states too.
+        is a fixed point of the map.  The rules on failures do not show this.
         """
         of_map, state = self.lines.of_map(), self.given.state
         head = [
@@ -151,7 +153,7 @@ def finding_of(
     meaning: Meaning | None = None,
 ) -> Finding | None:
     """Return what these certified statements say of the given map; None if they say nothing of its
-    fixed points.  `meaning`: what a parameter stands for that took the place of another one.
+    fixed points.  `meaning` relates a parameter to the one that it replaced.
     """
     texts = {rule.name: rule.text() for rule in rules}
     lines = {name: Lines(name, texts) for name in texts}
@@ -230,8 +232,9 @@ def of_attraction(
 def of_failure(
     given: Map, failing: Sequence[Fact], nowhere: Sequence[str], near: Sequence[Fact]
 ) -> Finding:
-    """Return the finding on fixed points that are not stable, or do not attract every state.  If a
-    state that fails is certified to be a fixed point, no other fixed point attracts it.
+    """Return the finding on fixed points that are not stable, or do not attract every state.  No
+    point attracts another fixed point: where a point that fails is certified to be fixed, none
+    attracts every state.
     """
     asked = [asked_beyond(given, domain) for domain in nowhere]
     lines = [f"{begun(where)}{NO_FIXED_POINT}" for where in asked]
@@ -267,7 +270,7 @@ def is_covered(given: Map, domains: Sequence[str]) -> bool:
 
 
 def without_fixed_point(system: Map) -> MapRule:
-    """The map with guards that say of each state that its image is another."""
+    """The map with guards that say that the image of each state is a different state."""
     pieces = tuple(
         (conjunction(guard, moves(images, system.state)), images) for guard, images in system.pieces
     )
@@ -311,7 +314,7 @@ def is_fixed_point(
 
 
 def pieces_of(lines: Lines) -> Iterator[tuple[str, list[str]]]:
-    """Guard and images of each piece of a map."""
+    """Yield the guard and the images of each piece of a map."""
     for piece in lines.all("piece"):
         guard, _, images = piece.partition(" -> ")
         yield guard, terms_of(images)
@@ -345,7 +348,7 @@ def in_brackets(text: str) -> str:
 
 
 def named(lines: Lines, keyword: str) -> str:
-    """The state that the line of this keyword names, its roots written out."""
+    """The state that the line of this keyword names, with its roots written out."""
     return lines.without_roots(in_brackets(lines.one(keyword)))
 
 

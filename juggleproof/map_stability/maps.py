@@ -133,7 +133,9 @@ class Map:
 
 
 def ends_of_space(system: Map, space: str = "", strict: bool = False) -> dict[Side, Expr]:
-    """The ends of the space, or of a part of it, in single variables; `strict`: if not in it."""
+    """The ends of the space, or of a part of it, that bound a single variable; if `strict`, only
+    those that do not belong to it.
+    """
     state = symbols(system.state)
     found: dict[Side, Expr] = {}
     for poly, is_strict in atoms(space or system.space):
@@ -311,7 +313,7 @@ def _refuse_call(call: ast.Call, in_piece: bool) -> None:
 
 
 def _degree(node: ast.AST) -> int:
-    """The greatest product of exponents that stand above each other."""
+    """The greatest product of nested exponents."""
     inner = max(map(_degree, ast.iter_child_nodes(node)), default=1)
     if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)):
         return inner
@@ -323,7 +325,7 @@ def _degree(node: ast.AST) -> int:
 
 
 def _term(node: ast.expr) -> str:
-    """The term as text; raises ClaimError for what is none, and for a division by 0."""
+    """The term as text; raises ClaimError if the node is no term, or divides by 0."""
     try:
         text = str(term_of(node))
     except ClaimError:
@@ -335,7 +337,7 @@ def _term(node: ast.expr) -> str:
 
 
 def _formula(node: ast.expr) -> str:
-    """The formula as text; raises ClaimError for what is none, and for a division by 0."""
+    """The formula as text; raises ClaimError if the node is no formula, or divides by 0."""
     try:
         text = str(formula_of(node))
     except ClaimError:

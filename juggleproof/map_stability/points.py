@@ -65,8 +65,8 @@ class FixedPoint:
 
 
 def fixed_points(system: Map) -> list[FixedPoint]:
-    """The fixed points of all pieces that are written with rational operations and square roots;
-    of a map whose point is named, that alone.
+    """The fixed points of all pieces that are written with rational operations and square roots.
+    If the map names its point, it is the only one.
     """
     return list(dict.fromkeys(_named(system) if system.point else _found(system)))
 
@@ -102,8 +102,8 @@ def _found(system: Map) -> Iterator[FixedPoint]:
 
 
 def solutions(equations: Sequence[Expr], state: Sequence[Expr]) -> Iterator[list[tuple[Expr, ...]]]:
-    """The states that solve the equations, each alone in a list; of a continuum, a list of states
-    in which the free variables have rational values.
+    """Yield lists of states that solve the equations: an isolated state is alone in its list; a
+    continuum has a list of states whose free variables have rational values.
     """
     try:
         equations = [one for one in map(sympy.expand, equations) if one != 0]
@@ -180,8 +180,8 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
 
 
 def without_root_below(term: Expr, root: Expr, under: Expr) -> Expr:
-    """The term with a denominator without the root, whose square is `under`: a divisor is licensed
-    by the domain, which knows no roots.
+    """The same term with a denominator without the root, whose square is `under`.  The domain has
+    to say that a divisor is not 0, and it cannot name roots.
     """
     above, below = sympy.fraction(sympy.together(term))
     if root not in below.free_symbols:

@@ -1,5 +1,5 @@
-"""Fixed points that square roots do not express: the point becomes a parameter, in place of an old
-one, in which the equation of the point is linear.
+"""Fixed points that square roots do not express: the point becomes a parameter.  It replaces an old
+parameter in which the equation of the point is linear.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ NAMES = "ecuvwz"  # for the point, the first that is free
 
 @dataclass(frozen=True)
 class Renamed:
-    """The map with its fixed point as a parameter, and an old parameter with its term."""
+    """A map with its fixed point as a parameter, which replaced another: `parameter` = `term`."""
 
     system: Map
     parameter: str
@@ -57,14 +57,14 @@ class Renamed:
         return Meaning(f"{says}, {doubt}", certified=False)
 
     def name(self) -> str:
-        """The parameter that the old one makes room for."""
+        """The parameter that replaces the old one."""
         return self.system.parameters[-1]
 
 
 def by_its_point(system: Map, several: bool = False) -> Renamed | None:
-    """Return the map of one variable with its fixed point as a parameter.  The equation of the
-    point is linear in the old parameter; at samples the point is the only one in the space, or one
-    of `several`.  None for any other map.
+    """Return the map of one variable with its fixed point as a parameter, or None.  The equation of
+    the point has to be linear in a parameter, which the point replaces.  At samples the point has
+    to be the only one in the space; if `several`, there have to be more.
 
     >>> from juggleproof.map_stability.maps import read_rows
     >>> rows = [("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x > 0"),
@@ -98,8 +98,8 @@ def by_its_point(system: Map, several: bool = False) -> Renamed | None:
 def with_parameter(
     system: Map, inside: str, name: str, point: tuple[str, ...], old: str, term: Expr
 ) -> Renamed:
-    """The map with a name for a coordinate of its point, in place of an old parameter, which is
-    this term.
+    """The map with a coordinate of its point as a parameter of this name.  It replaces the
+    parameter `old`, which equals the term.
     """
     put = {old: as_factor(written(term))}
     over = tuple(one for one in system.parameters if one != old) + (name,)
@@ -150,7 +150,7 @@ def without_divisors(parts: Sequence[str]) -> list[str]:
 
 def without_positive_factors(part: str, positive: Set[Expr]) -> str:
     """Return an inequality without the factors that have one sign at all parameters, if one other
-    factor is left; `positive` are terms that are.
+    factor is left; `positive` are the names of positive parameters.
 
     >>> e = sympy.Symbol("e", real=True)
     >>> without_positive_factors("e*(e^2 + 1) < 2", set())
@@ -221,7 +221,7 @@ def changes_sign(given: Sequence[str], text: str, name: str, low: str, high: str
 
 
 def interval(before: Map, name: str, domain: str) -> tuple[str, str]:
-    """The ends that the domain has in the point; far out where it has none."""
+    """The ends of the domain in the parameter `name`; if one is missing, a term that is far out."""
     ends = ends_of_space(replace(before, state=(name,)), domain, strict=True)
     low, high = (written(ends[0, side]) if (0, side) in ends else "" for side in (LOW, HIGH))
     far = " + ".join(["1", *(f"{one}^2" for one in before.parameters)])
@@ -247,8 +247,8 @@ def is_the_point(system: Map, equation: Expr, inside: str, several: bool) -> boo
 def zeros_inside(
     system: Map, polynomial: Expr, name: str, terms: Sequence[Expr], inside: str
 ) -> NDArray[np.int64]:
-    """Return, for each sample of the parameters, the number of real zeros of a polynomial that make
-    a state of the set by these terms.
+    """Return, for each sample of the parameters, the number of real zeros of a polynomial at which
+    these terms are a state of the set.
     """
     parameters = region(system.domain, system.parameters, limits.PARAMETERS)
     count = len(next(iter(parameters.values()))) if parameters else 1

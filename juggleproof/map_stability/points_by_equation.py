@@ -1,5 +1,5 @@
-"""Fixed points that square roots do not express, where no parameter is a term in the point: a
-coordinate of the point becomes a further parameter, and the domain has the equation that
+"""Fixed points that square roots do not express, of maps none of whose parameters is a term in the
+point.  A coordinate of the point becomes one more parameter, and the domain has the equation that
 elimination leaves for it.
 """
 
@@ -59,9 +59,9 @@ class WithEquation:
 
 
 def by_an_equation(system: Map) -> WithEquation | Renamed | None:
-    """Return the map with a coordinate of its fixed point as a further parameter, which is a zero
-    of an equation; or in place of a parameter that the equation is linear in.  At samples exactly
-    one zero makes a fixed point in the space.  None for any other map.
+    """Return the map with a coordinate of its fixed point as one more parameter, which is a zero of
+    a polynomial.  If the polynomial is linear in a parameter, the coordinate replaces it.  Return
+    None if there is no polynomial with exactly one zero, at samples, that is such a coordinate.
 
     >>> from juggleproof.map_stability.maps import read_rows
     >>> rows = [("state", "x"), ("space", "x > 0"), ("piece", "(2*x + 2/x^2)/3")]
@@ -119,8 +119,8 @@ def eliminated(system: Map, piece: int, name: Expr) -> Iterator[tuple[Expr, tupl
 
 
 def linear_in(basis: list[sympy.Poly], last: Expr) -> dict[Expr, Expr]:
-    """Return the variables that a basis gives as terms in the last one: by an equation of degree
-    one in them, without other variables.
+    """Return the variables that are terms in the last one.  Each is the only other variable of an
+    equation in the basis, and has degree 1 in it.
     """
     found = {}
     for poly in basis:

@@ -200,8 +200,8 @@ def by_signs(
 def few_of(
     state: State, used: Collection[str], terms: Collection[int], unknowns: Collection[str]
 ) -> list[list[int]]:
-    """The numbers of the facts that are used, each once: without what bounds the distance by other
-    than linear terms, then with that.
+    """Return lists of the numbers of the facts to use, each fact once: one list without the facts
+    that bound the distance by nonlinear terms and, unless `terms` are given, one with them.
     """
     ring = Ring(tuple(state.context.index))
     positive = {str(ring.read(state.context.polynomial(text))) for text in used}

@@ -46,7 +46,7 @@ def words_of_stray_orbits(setting: Setting) -> list[tuple[int, ...]]:
 
 
 def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
-    """The pieces along the orbit of each state until it is back, for those that are."""
+    """Yield the pieces along the orbit of each state until it comes back, if it does."""
     start, letters = np.stack([states[name] for name in system.state]), []
     open_ = np.full(start.shape[1], True)
     with np.errstate(all="ignore"):
@@ -60,8 +60,9 @@ def _words_back(system: Map, states: Arrays) -> Iterator[tuple[int, ...]]:
 
 
 def affine_words(setting: Setting) -> Iterator[tuple[int, ...]]:
-    """Yield words of affine pieces with one periodic orbit, stable or not, which is one of the map
-    at all samples of the parameters; the shortest first, and each without its rotations.
+    """Yield words of affine pieces along which exactly one periodic orbit, stable or not, is an
+    orbit of the map at all samples of the parameters.  Short words come first; the rotations of a
+    word are left out.
     """
     system, count = setting.system, setting.count
     pieces, n = range(len(system.pieces)), len(system.state)
@@ -92,8 +93,8 @@ def _words(pieces: int) -> Iterator[tuple[int, ...]]:
 
 
 def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Point]]:
-    """The states that come back along a word of pieces, in exact terms; where they are a continuum,
-    several of it.
+    """Yield lists of states that come back along a word of pieces, in exact terms: an isolated
+    state is alone in its list; a continuum has a list of several.
     """
     state = symbols(setting.system.state)
     _, fixed = without_equations(setting.domain, setting.system.parameters)
@@ -253,7 +254,7 @@ def grows(setting: Setting, more: str) -> Callable[[str], bool]:
             points |= {f"{state}_gap": gap}
             with np.errstate(all="ignore"):
                 less = after(system, points)[f"{state}_gap"] ** 2 < (1 + faster) * gap**2
-            # of smaller distances rounding leaves no growth to see
+            # rounding hides the growth of smaller distances
             if (less & inside & (digits < limits.GROWTH_ROUNDING * faster * np.abs(gap))).any():
                 return False
         return True

@@ -70,8 +70,8 @@ def drawn(rng: np.random.Generator, low: float | None, high: float | None, count
 
 
 def region(formula: str, names: Sequence[str], count: int, given: Arrays | None = None) -> Arrays:
-    """Return points in a region, (count,) floats a name or fewer.  `given` has values of other
-    names, one for each of its points, from which the region takes its own.
+    """Return points in a region: for each name an array of `count` floats, or of fewer if few are
+    found.  `given` has points in other names; each point of the region takes the values of one.
     """
     rng = np.random.default_rng(SEED)
     formula, fixed = without_equations(formula, names)
@@ -153,7 +153,7 @@ def with_licences(system: Map) -> Map:
         for image in images:
             above, below = sympy.fraction(sympy.together(expression(image)))
             _, divisors = sympy.factor_list(below)
-            if len(divisors) > 1:  # each of which is licensed by itself
+            if len(divisors) > 1:  # each divisor is licensed by itself
                 below = sympy.factor(below)
             terms.append(written(sympy.factor(above) / below) if divides(image) else image)
             for divisor, _ in divisors:
@@ -177,8 +177,8 @@ def divisors_of(formula: str, state: Sequence[str]) -> list[Expr]:
 
 
 def multiplied_out(formula: str, facts: Mapping[Expr, str]) -> str:
-    """Return the formula with each comparison multiplied by these divisors: a fact says that a
-    divisor is > 0 or < 0; the square of a divisor that is not 0 is taken.
+    """Return the formula with each comparison multiplied by its divisors.  The fact of a divisor
+    says that it is > 0 or < 0; a divisor whose fact says that it is not 0 is squared.
 
     >>> x = sympy.Symbol("x", real=True)
     >>> multiplied_out("not 4*x/(1 + x) <= 2", {x + 1: "x + 1 > 0"})
@@ -261,7 +261,7 @@ class Point:
 
 
 def with_point_licences(domain: str, point: Point) -> str:
-    """The domain, with what the point's terms divide by said to be positive."""
+    """The domain, with the facts that license the divisors of the point's terms."""
     for text in (*point.terms, *(under for _, under in point.roots)):
         _, below = sympy.fraction(sympy.together(expression(text)))
         for divisor, _ in sympy.factor_list(below)[1]:
@@ -271,8 +271,8 @@ def with_point_licences(domain: str, point: Point) -> str:
 
 @dataclass(frozen=True)
 class Samples:
-    """States with parameters, roots, the point (NAME_point) and the distances to it (NAME_gap),
-    (count,) floats a name, and the number of the parameters that each state comes with.
+    """States with parameters, roots, the point (NAME_point) and the distances to it (NAME_gap), as
+    an array of floats for each name.  `which`: the number of each state's sample of the parameters.
     """
 
     points: Arrays

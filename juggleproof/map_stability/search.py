@@ -1,5 +1,5 @@
-"""The search: the map alone is given; found are the point, a function or a norm, and statements for
-which the checker takes certificates.
+"""The search for the stability of a map.  It finds the point, a function or a norm, and statements
+with certificates that the checker takes.
 """
 
 from __future__ import annotations
@@ -67,8 +67,7 @@ def search_stability(
     meaning: Meaning | None = None,
 ) -> Outcome:
     """Return a proof that a fixed point is stable and attracts the whole space, or that none does,
-    or what comes nearest to either.  `meaning`: what a parameter stands for that took the place of
-    another one.
+    or what comes nearest to either.  `meaning` relates a parameter to the one that it replaced.
     """
     lines: list[str] = []
     proof = Proof(budget=budget, most=limits.MAP_WORK * budget // limits.PREMISE_WORK)
@@ -85,8 +84,8 @@ def search_stability(
 
 
 def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
-    """Add what is certified of the map to the proof, and return why there is nothing; or return the
-    outcome for the map with a coordinate of its point as a parameter.
+    """Add what is certified of the map to the proof.  Return why nothing is certified, or an empty
+    text; or the outcome for the map with a coordinate of its point as a parameter.
     """
     given = system
     system = without_empty_pieces(with_licences(system))
@@ -135,7 +134,7 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
             return ""
     count = len(proof.rules)
     proof.grant(limits.REFUTATION_WORK)
-    # of several fixed points it says little that one does not attract another
+    # that one of several fixed points does not attract another says little
     ways = (by_growth, by_orbit) if len(every) > 1 else WAYS
     for fixed in every[: limits.MOST_REFUTED]:
         if fixed.exists(system, parameters).all():
@@ -194,8 +193,8 @@ def note(lines: list[str], text: str) -> None:
 
 
 def without_empty_pieces(system: Map) -> Map:
-    """The map without the pieces that apply at no state, as it is certified: of cases of abs, max
-    and min, many exclude each other.
+    """The map without the pieces that are certified to apply at no state.  Many cases of abs, max
+    and min exclude each other.
 
     >>> from juggleproof.map_stability.maps import read_rows
     >>> rows = [("state", "x"), ("piece", "max(x - 1, 0) + min(x + 1, 0)")]

@@ -50,8 +50,8 @@ def known_of(setting: Setting) -> tuple[str, ...]:
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str, by_samples: bool = False) -> Setting:
-    """The samples for a search over parameters in a domain; `by_samples`: where parameters are
-    positive at samples, they are taken to be.
+    """The setting of a search over the parameters in a domain.  The domain is made to say that a
+    parameter is positive at all samples, if that follows from it or `by_samples` is true.
     """
     point = fixed.point
     domain = with_point_licences(domain, point)

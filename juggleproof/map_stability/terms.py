@@ -93,7 +93,7 @@ def term_value(node: ast.expr, point: Point, number: Callable[[int], Value]) -> 
 
 
 def formula_holds(node: ast.expr, point: Point, known: dict[str, Value]) -> Value:
-    """Return whether a formula holds; what its comparisons come to is kept in `known`."""
+    """Return whether a formula holds; the values of its comparisons are kept in `known`."""
     if isinstance(node, ast.Compare):
         text = unparsed(node)
         if text not in known:
@@ -125,8 +125,8 @@ def _floats(point: Point) -> bool:
 
 
 def atoms(text: str) -> list[tuple[Expr, bool]]:
-    """The polynomials or quotients that a conjunction says are >= 0, and whether > 0; what is no
-    conjunction of inequalities is left out.
+    """The polynomials or quotients that a conjunction says to be >= 0, each with whether it says
+    > 0.  Parts that are no inequalities are left out.
     """
     return list(_atoms(checker.parse(text)))
 

@@ -2,7 +2,7 @@
 
 The rectangle, in alpha and Gamma, is cut into boxes in alpha and g; where a box fails it is cut
 across its longer side, until it is too narrow.  The boxes of one round are independent: any
-executor may share them.  Of a basin the share is sought that holds on all boxes.
+executor may share them.  For a basin, the share is sought that holds on all boxes.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ from juggleproof.statements.store import write_file
 START = Fraction(1, 200), Fraction(1, 50)  # the widths of the boxes that are tried first
 LEAST = Fraction(1, 4000)  # a box no wider than this is not cut
 GRIDS = (256, 16), (512, 32)  # columns, and rows of a unit of speed
-NARROW = Fraction(1, 1000)  # boxes no wider than this are tried on all of them
-CELLS = 6_000  # about what a box takes
+NARROW = Fraction(1, 1000)  # boxes no wider than this are tried on all of these grids
+CELLS = 6_000  # that a box takes, about
 SADDLE = 2048, 128  # the grid on which a saddle is looked for
 BUDGET = 20_000_000  # cells
 BASIN = 20_000  # cells of a box where a share of the impacts is asked for
@@ -50,8 +50,8 @@ Result = TypeVar("Result")
 
 
 class Tried(NamedTuple):
-    """line: the certificate of a box, or "" where there is none; proved: what the checker takes it
-    for; cells: how many the search looked at.
+    """line: the certificate of a box, or "" if there is none; proved: what it proves by the
+    checker; cells: how many the search looked at.
     """
 
     box: Box
@@ -91,9 +91,9 @@ def cover(
     box in the folder as soon as it is certified, and goes on from those that are there.  Where a
     rectangle asks for a basin, with the share 0, the greatest share is sought.
 
-    budget: cells that the search may look at for a rectangle; progress: is told how many boxes are
-    done, of how many that are known.  Raises ClaimError, one line, where the folder cannot be used
-    or the executor fails.
+    budget: cells that the search may look at for a rectangle; progress: is called with the number
+    of boxes that are done, and of those that are known.  Raises ClaimError, one line, where the
+    folder cannot be used or the executor fails.
     """
     proved, rejected = kept(folder, executor)
     for rectangle in rectangles:
@@ -111,8 +111,8 @@ def cover_one(
     budget: int | None,
     progress: Progress,
 ) -> Covered:
-    """What `cover` finds for one rectangle, from what the lines of the folder prove, to which it
-    adds.
+    """What `cover` finds for one rectangle; `proved` is what the lines of the folder prove, and new
+    lines are added to it.
     """
     counterexample = find_counterexample(rectangle, list(proved.values()))
     if counterexample is not None:
@@ -172,7 +172,7 @@ def with_share(rectangle: Rectangle, proved: Sequence[Proved]) -> Rectangle:
 
 
 def stated(rectangle: Rectangle) -> list[str]:
-    """Its line of statements, where it states anything."""
+    """The rectangle's line of statements, if it states anything."""
     return [rectangle.text] if rectangle.basin is None or rectangle.basin[0] else []
 
 
@@ -182,7 +182,7 @@ def shared(
     executor: Executor | None,
     done: Callable[[int, Result], None] = lambda place, result: None,
 ) -> list[Result]:
-    """The results of the work on the items, by the executor; ClaimError where that fails."""
+    """The results of the work on the items, by the executor; raises ClaimError where that fails."""
     try:
         return spread(work, items, executor, done)
     except ClaimError:
@@ -200,7 +200,7 @@ def shared(
 
 
 def kept(folder: Path, executor: Executor | None) -> tuple[dict[str, Proved], list[str]]:
-    """({line: what it proves}, what is wrong with others) of the certificates in a folder."""
+    """({line: what it proves}, what is wrong with the others), for the certificates in a folder."""
     path = folder / CERTIFICATES
     if not path.exists():
         return {}, []
@@ -253,7 +253,7 @@ def within(box: Box, rectangle: Rectangle, proved: Iterable[Proved]) -> bool:
 
 
 def width_of(box: Box) -> Fraction:
-    """The longer side."""
+    """The length of the longer side."""
     return max(end - start for start, end in box)
 
 
@@ -297,7 +297,9 @@ def first_boxes(rectangle: Rectangle) -> list[Box]:
 
 
 def halves(rectangle: Rectangle, box: Box) -> Iterator[Box]:
-    """A box cut across its longer side, but for what is outside the rectangle."""
+    """Yields the halves of a box cut across its longer side, without those outside the
+    rectangle.
+    """
     alpha, g = box
     if alpha[1] - alpha[0] > g[1] - g[0]:
         parts = [(half, g) for half in cut(alpha, (alpha[1] - alpha[0]) / 2)]
@@ -314,8 +316,8 @@ def halves(rectangle: Rectangle, box: Box) -> Iterator[Box]:
 
 
 def find_counterexample(rectangle: Rectangle, proved: Sequence[Proved]) -> Counterexample | None:
-    """A pair of the rectangle where the checker refutes the theorem: one that is known, or one of
-    the corners.
+    """A pair of the rectangle at which the checker refutes the theorem: one that is known, or one
+    of the corners.
     """
     known = [one for one in proved if isinstance(one, Counterexample)]
     corners = [

@@ -2,10 +2,10 @@
 
 The flights are those that the checker encloses; what is looked for is the rest: a trap round the
 bounce that the map contracts, the arc in which a ball may rest, and ranks of all other cells.
-Where enclosures are too wide for a rank, some cells lie on cycles: these alone are cut, until none
-is left but round the bounce (the subdivision algorithm; M. Dellnitz, A. Hohmann, Numer. Math. 75,
+Where enclosures are too wide for a rank, some cells lie on cycles: these alone are cut, until they
+are all round the bounce (the subdivision algorithm; M. Dellnitz, A. Hohmann, Numer. Math. 75,
 1997).  Where motions tend elsewhere too, cells have ranks as far as they can, and those at the
-border of these are cut.
+border of the ranked cells are cut.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from juggleproof.certificates.sine.flights import (
 )
 from juggleproof.sine.cycles import cyclic_parts
 
-Cell = tuple[int, int, int]  # how often its like are cut from the grid; column; row
+Cell = tuple[int, int, int]  # how often cells of the grid were cut to make it; column; row
 Box = tuple[int, int, int]  # width, low and high of a trap
 Targets = Callable[[Cell], Collection[Cell]]
 
@@ -54,7 +54,7 @@ ONCE, MOST_SPEED = Fraction(1), 5  # closing speeds: that of a strip is above 1,
 
 
 class Found(NamedTuple):
-    """certificate: None where none was found, for the reason; cells: how many were looked at."""
+    """certificate: None if none was found, with the reason; cells: how many were looked at."""
 
     certificate: Certificate | None
     reason: str
@@ -64,9 +64,9 @@ class Found(NamedTuple):
 def find_certificate(
     alpha: Interval, g: Interval, columns: int, per_unit: int, basin: int = 0, top: Fraction = ONCE
 ) -> Found:
-    """A certificate for a box, on a grid of so many columns and rows of a unit of speed: with ranks
-    for all cells or, for a basin, for as many as this number of cells to be looked at allows.  The
-    rows reach up to the closing speed `top`, and to an absorbing strip.
+    """A certificate for a box, on a grid of this many columns, and rows in a unit of speed.  All
+    cells have ranks; for a basin, as many cells as looking at `basin` cells allows.  The rows reach
+    up to the closing speed `top`, and to an absorbing strip.
     """
     graph = None
     try:
@@ -80,13 +80,13 @@ def find_certificate(
 def find_strip(
     alpha: Interval, g: Interval, columns: int, per_unit: int, top: Fraction
 ) -> tuple[Grid, Flights]:
-    """The fewest rows, not below this top, whose top is that of an absorbing strip, and the flights
-    below it.
+    """The grid with the fewest rows, not below this top, that end at the top of an absorbing strip;
+    and the flights below it.
     """
     grid = Grid(alpha, g, columns, per_unit, per_unit)
     trial = Flights(grid, Work(MAX_STEPS))
     for rows in range(-int(-top * per_unit // 1), MOST_SPEED * per_unit):
-        trial.rows = rows  # of which its tables know nothing
+        trial.rows = rows  # its tables do not depend on them
         try:
             absorbing_strip(trial)
         except Refused:
@@ -102,8 +102,8 @@ def find_strip(
 class Graph:
     """Cells, those of the grid and the parts of those that are cut, and where they land.
 
-    landings: of each cell that was looked at; cut: the cells that are cut; arc: of R, whose cells
-    are one node, `rest`; edges: how many were looked at, and how many may be.
+    landings: those of each cell that was looked at; cut: the cells that are cut; arc: that of R,
+    whose cells are one node, `rest`; edges: how many were looked at, and how many may be.
     """
 
     def __init__(self, grid: Grid, flights: Flights) -> None:
@@ -120,7 +120,7 @@ class Graph:
         self.edges, self.most_edges = 0, MAX_STEPS
 
     def level(self, number: int) -> Grid:
-        """The grid of cells that are cut so often."""
+        """The grid of cells that are cut this number of times."""
         if number == len(self.grids):
             grid = halved(self.grids[-1])
             self.flights.append(Flights(grid, Work(MAX_STEPS)))
@@ -128,7 +128,7 @@ class Graph:
         return self.grids[number]
 
     def lands(self, cell: Cell) -> list[Landing]:
-        """Where it lands."""
+        """The landings of a cell."""
         found = self.landings.get(cell)
         if found is None:
             number, i, row = cell
@@ -152,8 +152,8 @@ class Graph:
         return self.rest if rests else cell
 
     def nodes(self, number: int, landing: Landing) -> Iterator[Cell]:
-        """The cells that are not cut and have a part in common with where cells that are cut so
-        often land.
+        """The cells that are not cut and meet this landing of a cell that is cut this number of
+        times.
         """
         m, lowest, highest = landing
         m %= self.grids[number].columns
@@ -171,7 +171,7 @@ class Graph:
                     found.append(part)
 
     def targets(self, cell: Cell) -> set[Cell]:
-        """The cells where a motion may have its next impact, or leave from rest, first."""
+        """The cells in which a motion may first have its next impact, or leave from rest."""
         if self.edges > self.most_edges:
             raise Refused("flights may lead from too many cells back to them")
         if cell == self.rest:
@@ -194,7 +194,7 @@ class Graph:
 
 
 def above(cell: Cell) -> Cell:
-    """The cell of which this is a part."""
+    """The cell that this one is a part of."""
     number, i, row = cell
     return number - 1, i >> 1, row >> 1
 
@@ -236,10 +236,10 @@ def find_arc(flights: Flights, landings: dict[Cell, list[Landing]]) -> tuple[int
 
 def find_trap_and_cuts(graph: Graph, basin: bool) -> Certificate:
     """Cuts cells until those on cycles of the graph, or for a basin some round the bounce, are all
-    in a trap, which is returned.
+    in a trap; returns the trap.
 
-    A cycle of narrow cells is one of the wide cells that they are parts of: so only the parts of
-    cells on cycles are looked at again.
+    A cycle of narrow cells lies in a cycle of the wide cells that they are parts of: so only the
+    parts of cells on cycles are looked at again.
     """
     trapped: Certificate | None = None
     nodes = {graph.node(cell) for cell in graph.landings}
@@ -293,7 +293,7 @@ def finer(trapped: Certificate) -> Certificate:
 
 
 def rows_of_bounce(grid: Grid) -> tuple[int, int]:
-    """The rows with the bounce inside: where it is on a line, those on both of its sides."""
+    """The rows that hold the bounce; if it is on a line between rows, those on both sides."""
     first, last = (1 / (1 + end) * grid.per_unit for end in reversed(grid.alpha))
     return -int(-first // 1) - 1, int(last // 1) + 1
 
@@ -342,8 +342,8 @@ def weights_at_bounce(grid: Grid) -> list[Fraction]:
 
 
 def reached(graph: Graph, number: int, box: Box) -> Box | None:
-    """The least box round the bounce with this one in it and what its flights reach one period
-    later; None where some land elsewhere, or may touch the table, or not all its cells are there.
+    """The least box round the bounce that holds this one and all that its flights reach one period
+    later; None if some land elsewhere or may touch the table, or if a cell of it is not there.
     """
     width, low, high = box
     columns = graph.grids[number].columns
@@ -380,8 +380,8 @@ def around(graph: Graph, number: int, home: Collection[Cell]) -> Iterator[Cell]:
 def find_ranks(graph: Graph, trapped: Certificate, basin: int) -> Certificate:
     """Ranks: 0 in the trap, else one more than the greatest of the cells where flights may land.
 
-    For a basin the cells without a rank from which a flight may lead to one with a rank are cut, as
-    long as no more cells than this are looked at.
+    For a basin, cells without a rank from which a flight may lead to one with a rank are cut, as
+    long as no more than `basin` cells are looked at.
     """
     grid, last = graph.grids[0], len(graph.grids) - 1
 
@@ -423,13 +423,13 @@ def find_ranks(graph: Graph, trapped: Certificate, basin: int) -> Certificate:
 
 
 def at_border(graph: Graph, cell: Cell, ranks: Collection[Cell], deepest: int) -> bool:
-    """Whether a cell that may be cut, fewer times than this, has a flight to one of these."""
+    """Whether a cell that is cut fewer times than `deepest` has a flight to one with a rank."""
     narrow = cell == graph.rest or cell[0] >= deepest
     return not narrow and any(target in ranks for target in graph.targets(cell))
 
 
 def stored(grid: Grid, cut: Iterable[Cell]) -> int:
-    """How many cells the checker stores of a grid where these are cut: `read_levels`."""
+    """How many cells of a grid the checker stores if these are cut: `read_levels`."""
     columns = {(number, i) for number, i, _ in cut}
     return grid.rows * (grid.columns + sum(4 << number for number, _ in columns))
 
@@ -459,7 +459,7 @@ def descend(cells: Iterable[Cell], ranks: dict[Cell, int], targets: Targets) -> 
 
 
 def line_of(one: Certificate | Counterexample) -> str:
-    """What is written of it as a line of certificates."""
+    """The line of certificates for it."""
     if isinstance(one, Counterexample):
         cells = [one.columns, one.per_unit]
         pair = {"alpha": str(one.alpha), "g": [str(end) for end in one.g]}

@@ -29,8 +29,8 @@ STATEMENT = (
 
 
 def boxes_in(folder: Path) -> list[Attraction]:
-    """The boxes of the theorem whose certificates stand in a folder; that the checker takes them is
-    not asked here.
+    """The boxes of the theorem whose certificates stand in a folder.  Whether the checker takes
+    them is not asked here.
     """
     lines = map(read_line, load(str(folder / CERTIFICATES)).splitlines())
     return [
@@ -41,8 +41,8 @@ def boxes_in(folder: Path) -> list[Attraction]:
 
 
 def wide_rectangles() -> list[Rectangle]:
-    """The rectangles of the wide cover: first those of short intervals of alpha, which hold most of
-    the others, for most boxes in g.
+    """The rectangles of the wide cover.  Those of short intervals of alpha come first, since they
+    hold most of the others for most boxes in g.
     """
     lines = WIDE.joinpath(STATEMENTS).read_text().splitlines()
     return sorted(map(read_statement, lines), key=lambda one: one.alpha[1] - one.alpha[0])

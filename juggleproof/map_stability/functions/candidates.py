@@ -1,5 +1,5 @@
-"""A point with a part of the domain and samples of both, and the statements that a function proves
-it stable and attracting: the constants of the rule `lyapunov`.
+"""A point with a part of the domain and samples of both; and statements `lyapunov`, by which a
+function proves that the point is stable and attracts, with their constants.
 
 Everything here is in floats and believed by nobody: what it proposes is a statement of the checker,
 for which certificates are then sought.
@@ -51,8 +51,8 @@ from juggleproof.statements.language import MapRule
 
 
 def positive_factors(system: Map, facts: str, parameters: Arrays) -> list[str]:
-    """Return terms in the parameters and, linearly, in the point's names that facts say to be
-    positive.
+    """Return the terms that facts say to be positive, in the parameters and in the point's names;
+    they are linear in the latter.
     """
     points = set(symbols([f"{name}_point" for name in system.state]))
     found = [
@@ -192,7 +192,7 @@ class Setting:
 
     @cached_property
     def products(self) -> list[tuple[str, Floats]]:
-        """Products of powers, which constants are sought among."""
+        """Products of powers, among which constants are sought."""
         return self._products(limits.POWERS)
 
     @cached_property
@@ -262,9 +262,9 @@ class Setting:
         return MapRule(f"{self.system.name}/{name}", tuple(rows))
 
     def attraction(self, name: str, descent: str, within: str = "", radius: str = "") -> MapRule:
-        """The statement that the point attracts the states of this descent: its last stage is the
-        set of the statement `lyapunov`, or another statement says that the point attracts it and
-        that it has the states within a radius.
+        """The statement that the point attracts the states of this descent.  The descent's last
+        stage is the set of the statement `lyapunov`; or the statement `within` says that the point
+        attracts that stage, which contains all states within the radius.
         """
         rows = [("descent", f"{self.system.name}/{descent}")]
         if within:
@@ -322,8 +322,8 @@ def losses(
 
 
 def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[Candidate]:
-    """The candidates for this V whose loss is a constant times the squares of the distances, or
-    their fourth powers, by a power of 1 + V.
+    """The candidates for this V whose loss is a constant times the sum of the squares of the
+    distances, or of their fourth powers, divided by a power of 1 + V.
     """
     names, samples = setting.system.state, setting.states
     here, there = function.along(setting.system, samples.points, len(samples.which))
@@ -354,14 +354,14 @@ def derivatives(setting: Setting) -> Floats:
 
 
 def symmetric(size: int) -> tuple[Expr, list[Expr]]:
-    """A symmetric matrix of unknowns, and these."""
+    """A symmetric matrix of unknowns, and a list of these unknowns."""
     entry = [[sympy.Symbol(f"p_{min(i, j)}{max(i, j)}") for j in range(size)] for i in range(size)]
     return sympy.Matrix(entry), sorted({one for row in entry for one in row}, key=str)
 
 
 def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     """The form V and the term D > 0 with V(A g) - V(g) = -D |g|^2 for the derivative A at the point
-    (the discrete Lyapunov equation), in the parameters; None where there are none.
+    (the discrete Lyapunov equation), in the parameters; None if they are not found.
     """
     system = setting.system
     n, matrix = len(system.state), system.derivatives[setting.piece]
@@ -424,7 +424,7 @@ def small_balls(setting: Setting, function: Function) -> Iterator[tuple[str, str
     candidates = ["1"] if function.divisor == "1" else []
     if function.divisor != "1":
         candidates += [f"({e})/2" for e in setting.point.terms]
-    if setting.outer:  # how far the bounds are that the space adds
+    if setting.outer:  # the distances to the bounds that this part of the space adds
         names = [f"{one}_point" for one in setting.system.state]
         put = dict(zip(symbols(setting.system.state), symbols(names)))
         given = atoms(setting.outer)

@@ -71,9 +71,9 @@ def rotations(setting: Setting) -> Iterator[tuple[Function, str]]:
 
 
 def cone_functions(setting: Setting) -> Iterator[Function]:
-    """Linear forms W = |l g| of the distances g to the point, in an orthant of these and in its
-    opposite, which the derivative A there maps into each other or into themselves: for z = 1 or -1
-    and the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
+    """Yield linear forms W = |l g| of the distances g to the point, in an orthant and in its
+    opposite.  The derivative A maps each of these into itself (z = 1) or into the other (z = -1).
+    For the signs t of the orthant l = t adj(z A - 1), so that l z A = l + det(z A - 1) t, or -l.
     """
     system, count = setting.system, setting.count
     matrix = setting.derivative

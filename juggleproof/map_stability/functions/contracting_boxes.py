@@ -2,10 +2,10 @@
 enters one bound of the box after another.  V is the greatest of the distances to the point, each
 divided by that of the box's side.
 
-A bound begins where the variable does not change, with the others at the ends of the box that
-favour it most; it is then moved so far that the variable does change.  For two competing species
-the upper bounds are the capacities; the lower ones are what a species keeps while the other is at
-its capacity.
+To find a bound, the other variables are put at the ends of the box that move this variable farthest
+out.  The bound is first the value at which it then does not change, and is moved outwards.  For two
+competing species the upper bounds begin at the capacities; the lower ones, at what a species keeps
+while the other is at its capacity.
 
 Sources: H. L. Smith, The discrete dynamics of monotonically decomposable maps, Journal of
 Mathematical Biology 53 (2006); M. R. S. Kulenović, O. Merino, A global attractivity result for maps
@@ -162,7 +162,7 @@ def box_candidates(
 
 
 def radius_of(setting: Setting, widths: Sequence[Expr]) -> str:
-    """Less than all widths: what fits them, or 1/(the sum of 1/each)/2."""
+    """A term below all widths w: one that follows the least of them, or 1/(2 sum 1/w)."""
     wide = with_ends(setting)
     for rank, radius in bounded_below(below_all(wide, widths), products_of(wide), 1):
         if rank < limits.LOOSE:
@@ -200,7 +200,7 @@ def box_of(setting: Setting) -> Ends | None:
             for side in sorted(still, key=lambda side: side[1]):  # the lower ends first
                 limit = limit_of(setting, found, side) if side[1] == HIGH else lower.get(side)
                 limit = given.get(side) if limit is None else limit
-                if limit is None and free:  # nothing limits it: as far as the space below
+                if limit is None and free:  # nothing limits it: as far up as the space reaches down
                     reach = still[side] - lower.get((side[0], LOW), still[side] - 1)
                     limit = still[side] + (reach if reach != 0 else 1)
                 if side not in found and limit is not None:
@@ -214,7 +214,7 @@ def ends_for(setting: Setting) -> Ends:
 
 
 def ends_at_point(setting: Setting) -> Ends:
-    """The ends of the space that the point is at, as of what dies out."""
+    """The ends of the space that the point is at, as 0 is for a species that dies out."""
     point = list(map(expression, setting.point.terms))
     every = ends_of_space(setting.system)
     return {side: end for side, end in every.items() if sympy.cancel(end - point[side[0]]) == 0}
@@ -326,8 +326,8 @@ def condition(setting: Setting, side: Side, end: Expr) -> str:
 
 
 def step_of(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
-    """A term that falls by 1 in a step beyond the end, inside of the ends that are entered: a
-    height times a term in the parameters; nothing where samples fall by less.
+    """A term that falls by 1 in each step of a state beyond the end and inside the ends that are
+    entered: a height times a term in the parameters; an empty text if samples refute it.
     """
     (k, direction), system = side, setting.system
     height, one = height_of(setting, entered, side), symbols(system.state)[k]
@@ -367,8 +367,8 @@ def height_of(setting: Setting, entered: Ends, side: Side) -> Expr | None:
 
 
 def fall_at(setting: Setting, entered: Ends, side: Side, end: Expr) -> str:
-    """1 over the fall of a step from the end itself, without factors that are 1 at least; nothing
-    where the domain does not say that the others are positive.
+    """1 over the fall in a step from the end itself, without factors of the fall that are at least
+    1; an empty text if the domain does not say that its other factors are positive.
     """
     image, height = worst(setting, entered, side, end), height_of(setting, entered, side)
     if image is None or height is None:

@@ -54,8 +54,8 @@ def energy_candidates(setting: Setting) -> Iterator[Candidate]:
 
 
 def energies(setting: Setting) -> Iterator[Expr]:
-    """The forms in the gaps that are positive at samples, and that a piece conserves, and with it
-    no other but multiples of them.
+    """Yield the forms in the gaps that are positive at samples and that a piece conserves, if it
+    conserves their multiples only.
     """
     seen: set[Expr] = set()
     gaps = symbols([f"{one}_gap" for one in setting.system.state])

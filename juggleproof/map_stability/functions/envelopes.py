@@ -47,12 +47,12 @@ from juggleproof.statements.language import MapRule
 
 @dataclass(frozen=True)
 class Envelope:
-    """With a lower bound l of the space, the point e, d = e - l and a number b >= 0 the involution
+    """The involution for a lower bound l of the space, the point e, d = e - l and a number b >= 0:
 
-        s -> e - d (s - e)/(d + (1 - b) (s - e)),
+        s -> e - d (s - e)/(d + (1 - b) (s - e)).
 
-    which takes l to the state where upper = 0: lower = s - l, upper = d - b (s - e) times what is
-    positive, or 1 where b = 0.
+    It takes l to the state where upper = 0.  Here lower = s - l, and upper is a positive multiple
+    of d - b (s - e), or 1 if b = 0.
     """
 
     lower: str
@@ -87,8 +87,9 @@ def envelopes(setting: Setting) -> Iterator[Envelope]:
 
 
 def slopes(setting: Setting, reach: Expr) -> list[Expr]:
-    """b for which the involution has the second derivative of the map f at the point, where
-    f' = -1: b = 1 - d f''/2, for all parameters and at the least of the multipliers; then numbers.
+    """The values of b to try: 0; then b = 1 - d f''/2 as a term, and its value at the least of the
+    multipliers; then the numbers SLOPES.  If f' = -1 at the point, the involution with the second
+    b has the same second derivative there as the map f.
     """
     (state,) = symbols(setting.system.state)
     point = expression(setting.point.terms[0])
@@ -110,8 +111,8 @@ def slopes(setting: Setting, reach: Expr) -> list[Expr]:
 
 
 def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[Candidate]:
-    """The candidates by which the point attracts every state of the map's space, where it may be
-    `closed`: the multiplier is -1 at some of the parameters; what samples refute is left out.
+    """The candidates by which the point attracts every state of the map's space, without those that
+    samples refute.  `closed`: the multiplier may be -1 at some of the parameters.
     """
     system = setting.system
     if len(system.state) > 1 or len(system.pieces) > 1:
@@ -230,7 +231,7 @@ def candidates_for(setting: Setting, envelope: Envelope, closed: bool) -> Iterat
 
 
 def steepness(setting: Setting, function: Function, radius: str) -> str:
-    """A bound of V(s)/|s - e| where |s - e| <= radius; nothing where none is found."""
+    """A bound of V(s)/|s - e| where |s - e| <= radius; an empty text if none is found."""
     (state,) = setting.system.state
     known = setting.constants
     size = column(radius, known, setting.count)
@@ -283,8 +284,8 @@ def zero_of(setting: Setting, text: str) -> Floats:
 
 
 def entrance(setting: Setting, envelope: Envelope) -> list[MapRule]:
-    """The statements that orbits enter the part of the space where upper > 0, and that what
-    attracts that part attracts the whole; none where no constants are found.
+    """The statements that orbits enter the part of the space where upper > 0, and that the point,
+    which attracts that part, attracts the whole; none if no constants are found.
     """
     system = setting.system
     (state,) = system.state

@@ -103,7 +103,7 @@ def sizes_of(setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]) ->
 
 
 def factors_of(setting: Setting, terms: Sequence[Expr]) -> list[Expr]:
-    """The factors of numerators and denominators that are not constant, positive."""
+    """The nonconstant factors of numerators and denominators, with the sign that is positive."""
     found = set()
     for one in terms:
         for part in sympy.fraction(sympy.together(one)):

@@ -73,7 +73,7 @@ def first_rows(matrix: Floats) -> Iterator[Floats]:
 
 
 def invariant_rows(matrices: Floats, start: Floats, rate: float) -> Floats | None:
-    """Rows with |l_i A| <= rate times the norm for all matrices; None where they get too many."""
+    """Rows with |l_i A| <= rate times the norm for all matrices; None if there are too many."""
     rows = start
     frontier = list(start)
     while frontier:
@@ -178,12 +178,12 @@ def norm_candidates(setting: Setting) -> Iterator[Candidate]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Near the point only: a norm that the derivative there contracts, and how far the map does.
+# Near the point only: a norm that the derivative there contracts, and a set on which the map does.
 
 
 def local_norm_candidates(setting: Setting) -> Iterator[Candidate]:
-    """The candidates whose function is a norm, on the set where it is at most a number; the largest
-    number first that samples leave.
+    """The candidates whose function is a norm, on the set where it is at most a number.  The
+    largest number that samples allow comes first.
     """
     system = setting.system
     n = len(system.state)

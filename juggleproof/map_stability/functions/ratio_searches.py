@@ -87,8 +87,8 @@ def proof_that_it_falls(
     signs: Sequence[str],
     used: Sequence[str],
 ) -> Proof | None:
-    """A proof by products of what is positive; or from few facts, by the sign of what is squared,
-    or by those of slopes.
+    """A proof by products of positive terms; or from few facts, by the cases of the sign of a
+    squared difference, or of the signs of gaps and slopes.
     """
     found = proof_by_products(premise, known, terms, unknowns, squares, signs)
     differences = [one for one in squares if one not in signs]
@@ -124,7 +124,7 @@ def _slopes_at_corners(setting: Setting, put: dict[Expr, Expr], sides: Sequence[
 
 
 def _gaps(setting: Setting) -> list[str]:
-    """The gaps, of the variables first that the map is not affine in."""
+    """The gaps; those of the variables in which the map is not affine come first."""
     names, images = setting.system.state, setting.system.images[setting.piece]
     affine = {
         name: all(sympy.cancel(sympy.diff(image, one, 2)) == 0 for image in images)
@@ -134,8 +134,8 @@ def _gaps(setting: Setting) -> list[str]:
 
 
 def _differences(setting: Setting, put: dict[Expr, Expr]) -> list[str]:
-    """Return by how much T/T(e) differs between the terms T of an image that is a sum of these.
-    The difference of the means of numbers has the squares of such differences as factors.
+    """Return the differences of T/T(e) between two terms T of an image, which is a sum of terms.
+    The difference of two means of numbers has the squares of such differences as factors.
     """
     state, names = symbols(setting.system.state), points_of(setting, put)
     gaps = symbols([f"{one}_gap" for one in setting.system.state])

@@ -5,7 +5,7 @@ polytope norm in the logarithms, far from it the part metric with weights.
 Let A be the derivative at the point in the logarithms, and rows l of exponents with l A = sum of
 c_lk k over rows k and their opposites, c_lk >= 0.  The norm max |l log(x/e)|/u_l falls where
 C u < u: such u are the sums of the columns of the inverse of I - C, where its spectral radius is
-below 1.  In x + c in place of x it is the same, with c from a divisor of the map.
+below 1.  The same holds with x + c in place of x; c is taken from a divisor of the map.
 
 Sources: Krause and Nussbaum, A limit set trichotomy for self-mappings of normal cones in Banach
 spaces, Nonlinear Analysis 20 (1993); Kruse and Nesemann, Global asymptotic stability in some
@@ -140,7 +140,7 @@ def is_plain(origin: Sequence[Expr]) -> bool:
 
 
 def sets_of_rows(count: int, plain: bool) -> Iterator[list[Row]]:
-    """The variables; of two variables also with their quotient, or their product."""
+    """Yield the variables; for two variables, also these with their quotient or their product."""
     units = [tuple(int(i == j) for j in range(count)) for i in range(count)]
     yield units
     if count == 2 and not plain:

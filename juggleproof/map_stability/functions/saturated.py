@@ -52,7 +52,7 @@ def saturated_candidates(setting: Setting) -> Iterator[Candidate]:
 
 
 def scales(setting: Setting) -> Iterator[str]:
-    """1, and what goes to 0 at an end of the domain, where V may be free not to fall."""
+    """Yield 1, then the terms that go to 0 at an end of the domain, where V may cease to fall."""
     yield "1"
     for bound, strict in atoms(setting.domain):
         at = np.asarray(value(written(bound), setting.parameters), float)
@@ -138,7 +138,9 @@ def least_signs(setting: Setting, term: str, steepness: Expr) -> list[str]:
 def falls_signs(
     setting: Setting, term: str, reach: Sequence[bool], drop: Expr
 ) -> dict[str, list[str]]:
-    """Return for the premise of each piece how much more V falls by than its loss."""
+    """Return for the premise of each piece V(s) - V(f(s)) less c V(s), or less c if the piece does
+    not reach the point; `drop` is c.
+    """
     system = setting.system
     names = [f"{one}_point" for one in system.state]
     point = symbols(names) if setting.have else list(map(expression, setting.point.terms))

@@ -43,7 +43,7 @@ from juggleproof.statements.cases import conjunction
 
 
 def licensed_space(setting: Setting) -> str:
-    """The space, with what the map's images divide by said to be positive."""
+    """The space, with the facts that license the divisors of the map's images."""
     system, space = setting.system, setting.system.space
     for factor, _ in sympy.factor_list(sympy.denom(sympy.together(_image(setting))))[1]:
         if factor.free_symbols & set(symbols(system.state)):
@@ -100,7 +100,7 @@ def slope_of(setting: Setting, put: dict[Expr, Expr]) -> Expr:
 
 
 def function_of(setting: Setting, slope: Expr, sign: int, mean: tuple[int, int]) -> Function:
-    """V times what makes its weights polynomials; sign: 1 for the distance above the point."""
+    """V, scaled so that its weights are polynomials; sign: 1 for the distance above the point."""
     over, under = sympy.fraction(slope)
     if at_parameters(setting, under).max() < 0:
         over, under = -over, -under

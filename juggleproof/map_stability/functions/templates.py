@@ -23,7 +23,7 @@ from juggleproof.search.psatz.linear_program import Solver
 
 @dataclass(frozen=True)
 class Function:
-    """V: the greatest of the terms whose guard holds, without guards the greatest of all."""
+    """V: the greatest of the terms whose guard holds; without guards, the greatest of all."""
 
     terms: tuple[str, ...]
     guards: tuple[str, ...] = ()
@@ -51,8 +51,8 @@ class Function:
 
 @dataclass(frozen=True)
 class Template:
-    """A function V = sum of a_i b_i over a divisor: the b_i as text; where V has one part for each
-    piece, the guards, and the b_i of each part.
+    """A function V = (sum of a_i b_i)/divisor with unknown a_i; `basis` has the b_i as text.  If V
+    has a part for each piece, `parts` has the guards, and `bases` the b_i of each part.
     """
 
     basis: tuple[str, ...]
@@ -94,7 +94,9 @@ class Template:
 
 @dataclass(frozen=True)
 class Sides:
-    """The size of each form, or its positive and its negative part, times each factor."""
+    """A sum with unknown weights of the terms |form| times factor, for all forms and factors;
+    unless it is `even`, the positive and the negative part of each form have weights of their own.
+    """
 
     forms: tuple[str, ...]
     factors: tuple[str, ...]
@@ -116,8 +118,8 @@ class Sides:
         return [""] * (len(self.forms) * len(self.factors) * (1 if self.even else 2))
 
     def function(self, numbers: Sequence[Fraction]) -> Function:
-        """The sum, as the greatest of a linear form for each choice of signs, which it is where no
-        weight is negative: premises then have no cases.
+        """The sum, as the greatest of linear forms, one for each choice of signs.  They are equal
+        if no weight is negative.  So written, premises have no cases.
         """
         size = len(self.factors)
         products = [
@@ -186,8 +188,8 @@ def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Ite
 
 
 def sum_of_quotients(system: Map) -> Iterator[Template]:
-    """Quadratic forms in the differences, plus such forms over the distance of each state variable
-    to its lower bound.
+    """Quadratic forms in the distances to the point, plus such forms over the distance of each
+    state variable to its lower bound.
     """
     low, _ = bounds(system)
     if not 1 < len(low) <= 2:
@@ -207,8 +209,9 @@ def sum_of_quotients(system: Map) -> Iterator[Template]:
 def margins(
     template: Template | Sides, system: Map, states: Arrays, scale: str = "1"
 ) -> tuple[Floats, Floats]:
-    """The rows that ask V(s) - V(f(s)) > 0 and V(s) > 0, scaled to length 1, and which states they
-    are of; the former divided by the scale, which is small where V can fall by little only.
+    """The rows of the conditions V(s) - V(f(s)) > 0 and V(s) > 0, scaled to length 1, and the
+    number of the state of each row.  Rows of the former are divided by the scale, which is small
+    at states at which V can fall by little only.
     """
     with np.errstate(all="ignore"):
         here = template.columns(states)
@@ -261,8 +264,8 @@ SOLVER = Solver((("output_flag", False), ("threads", 1), ("random_seed", 1)))
 def program(
     matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
 ) -> Floats | None:
-    """The point of least cost with matrix x >= least between the bounds; of many rows few decide,
-    so that a part is asked for, and then what the point of that part breaks.
+    """The point x of least cost with matrix x >= least between the bounds.  Few of many rows
+    decide: the program begins with a part of them, and the rows that its solution breaks are added.
     """
     rows = len(matrix)
     asked = np.zeros(rows, bool)

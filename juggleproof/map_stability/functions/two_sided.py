@@ -68,7 +68,7 @@ class Side:
     power: int
 
     def term(self, state: str) -> str:
-        """The distance, times a power of the bound at the point by the bound at the state."""
+        """The distance times (the bound at the point/the bound at the state)^power."""
         gap = f"{state}_gap" if self.sign > 0 else f"-{state}_gap"
         if not self.power:
             return gap
@@ -206,9 +206,9 @@ def ends(setting: Setting) -> tuple[str, str]:
 
 
 def weighted(setting: Setting) -> Iterator[Function]:
-    """Yield the distances with a weight on each side, if one slope d alone takes states from a side
-    to the other, and slopes c take them back: d on one side, and on the other 1 - (the product of
-    all 1 - c d)/2, which is between 1 and each c d.
+    """Yield the distances with a weight on each side, if a single slope d takes states from one
+    side to the other, and slopes c take them back.  The weight is d on the one side, and on the
+    other 1 - (the product of all 1 - c d)/2, which is between 1 and each c d.
     """
     gap = f"{setting.system.state[0]}_gap"
     slopes = {side: crossing(setting, side) for side in (1, -1)}

@@ -53,8 +53,9 @@ from juggleproof.statements.language import MapRule
 
 
 def distances(setting: Setting) -> Iterator[tuple[str, ...]]:
-    """Yield the distances of the state variables above the point, then those below it: without
-    bounds of the space, over the lower bounds, and over the upper ones too.
+    """Yield the distances of the state variables above the point, then those below it: as they are,
+    then those below it over the distances to lower bounds of the space, then also those above it
+    over the distances to upper bounds.
     """
     system = setting.system
     low, high = bounds(system)
@@ -67,7 +68,7 @@ def distances(setting: Setting) -> Iterator[tuple[str, ...]]:
 
 
 def _over(system: Map, name: str, gap: str, bound: Mapping[str, str]) -> str:
-    """The distance times that of the point to a bound, by that of the state."""
+    """The gap times (the point's distance to the bound)/(the state's distance to the bound)."""
     if name not in bound:
         return gap
     text = as_factor(bound[name])
@@ -116,15 +117,15 @@ def values(setting: Setting, texts: Sequence[str]) -> tuple[Floats, Floats, Samp
 
 
 def _weights(setting: Setting, texts: Sequence[str]) -> tuple[Fraction, ...]:
-    """Weights under which all samples fall, those of the least greatest share that is left, as
-    changes of one after the other find them; empty where there are none.
+    """Weights under which V falls at all samples; empty if none are found.  One weight after the
+    other is changed as long as the greatest share of V that is left becomes smaller.
     """
     here, there, samples = values(setting, texts)
     if not here.size:
         return ()
 
     def fit(weights: Sequence[Fraction]) -> tuple[float, float]:
-        """The share of the samples that fall, and how far they do."""
+        """The share of the samples at which V falls, and the mean logarithm of its least falls."""
         scale = np.array([float(w) for w in weights])[:, None]
         left = (scale * there).max(axis=0) / (scale * here).max(axis=0)
         worst = samples.least(np.maximum(1 - left, limits.ROUNDING), setting.count)

@@ -69,7 +69,7 @@ class Bounded:
 
     @staticmethod
     def of(value: Fraction) -> Bounded:
-        """The float next to a rational, with what it misses."""
+        """The float next to a rational, with a bound on their difference."""
         rounded, missed = nearest(value)
         return Bounded(np.array(rounded), np.array(missed))
 
@@ -128,12 +128,12 @@ class Bounded:
         return Bounded(self.v[places], self.e[places])
 
     def put(self, places: Places, values: Bounded) -> None:
-        """Puts entries in at these places."""
+        """Puts values in at these places."""
         self.v[places], self.e[places] = values.v, values.e
 
 
 def _bounded(value: Bounded | int | Floats) -> Bounded:
-    """A whole number below 2^53, or whole floats, as exact; OverflowError for a greater one."""
+    """A whole number below 2^53, or whole floats, as exact; raises OverflowError above that."""
     if isinstance(value, Bounded):
         return value
     if isinstance(value, int) and abs(value) >= 2**53:
@@ -160,16 +160,17 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
 # Orbits in balls that are proved to hold the exact state, at a precision that is raised until every
 # branch is decided.
 #
-# Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses. The
-# margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
-# as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
+# Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses. If
+# the ball of the margin w - x holds 0, its sign is settled by the exact orbit from the rational
+# start, as long as its numbers stay about as short as the balls; otherwise the orbit begins again
+# with twice the bits.
 # So a state counts as on x = w only where that is proved, and nothing is guessed.  In the trap
 # the closed form holds for any number of periods at once.
 
 BITS = 128  # to begin with
 MOST_BITS = 2**21
 RADIUS = Fraction(1, 10**30)
-EXACT_SHARE = 8  # exact numbers may be so many times as long as the balls
+EXACT_SHARE = 8  # exact numbers may be this many times as long as the balls
 
 
 class _MoreBits(Stop):
@@ -242,8 +243,8 @@ def follow(
     show: Callable[[Track[arb]], None],
     report: Callable[[Track[arb]], None] | None = None,
 ) -> None:
-    """Follows the orbit in balls of at first `bits` and at most `most_bits` bits; `show` is given
-    every track that is begun, the last of which holds the result.
+    """Follows the orbit in balls of at first `bits` and at most `most_bits` bits.  `show` is called
+    with every track that is begun; the last one holds the result.
     """
     first = Sample(0, 0, *start)
     checkpoint = begin(Exact(alpha), alpha, first, False)
@@ -289,14 +290,14 @@ def _exactly(track: Track[Rational]) -> Sample[Fraction]:
 # Millions of orbits at once in float64, each with a proved bound on its error; what the bound
 # cannot decide is listed, not guessed.
 #
-# The states of a chunk move together: a whole flight and an impact a round, the closed form once
-# they are in the trap.  Every number is a `Bounded`, so that the bound of each state accounts for
-# what its start's conversion missed, for alpha's, and for every operation.  A branch is taken only
-# where the margin w - x is further from 0 than its bound; a state where it is not is left there,
-# with the period at which that happened.
+# The states of a chunk move together: in each round by a whole flight and an impact, or by the
+# closed form once they are in the trap.  Every number is a `Bounded`, so that the bound of each
+# state accounts for the rounding of its start, for that of alpha, and for every operation.  A
+# branch is taken only where the margin w - x is further from 0 than its bound; where it is not, the
+# orbit stops, and its state and period are kept.
 
 CHUNK = 1 << 14  # states that move together: their temporaries stay in the processor's cache
-ROUND_MEMORY = 64 * 8 * CHUNK  # at most so many temporaries of one chunk are alive
+ROUND_MEMORY = 64 * 8 * CHUNK  # bytes of the temporaries of one chunk: at most 64 are alive
 HISTORY_MEMORY = 1 << 30
 MOST_PERIODS = 1 << 52  # counted; whole floats
 NOT_DONE, REACHED, TRAP, UNDECIDED = range(4)
@@ -323,8 +324,8 @@ class Ensemble:
 
     @staticmethod
     def empty(count: int, goal: Goal, keep: bool) -> Ensemble:
-        """Room for so many orbits; SceneError where all states of all orbits would take too
-        much.
+        """Room for this many orbits; raises SceneError if all states of all orbits would take too
+        much memory.
         """
         if keep and bytes_needed(count, goal.steps, True) > HISTORY_MEMORY:
             room = f"more than {HISTORY_MEMORY >> 20} MB"
@@ -347,7 +348,7 @@ class Ensemble:
 
 
 def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
-    """The bytes that `follow_fast` holds at most, beside the program itself: 49 a state, one
+    """The bytes that `follow_fast` holds at most, beside the program itself: 49 for each state, one
     chunk's temporaries, and the history if asked for.
 
     >>> bytes_needed(10**6, 10**9) < 60_000_000
@@ -357,7 +358,7 @@ def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
 
 
 def refuse_flushing() -> None:
-    """SceneError on a processor whose floats have no gradual underflow."""
+    """Raises SceneError on a processor whose floats have no gradual underflow."""
     if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
         raise SceneError(
             "this processor is set to flush small floats to 0, under which no bound holds"
@@ -371,8 +372,8 @@ def follow_fast(
     report: Callable[[int, int], None] | None = None,
     chunk: int = CHUNK,
 ) -> None:
-    """Follows all orbits of the scene, chunk by chunk, in place; SceneError on a processor whose
-    floats have no gradual underflow.
+    """Follows all orbits of the scene, chunk by chunk, in place; raises SceneError on a processor
+    whose floats have no gradual underflow.
     """
     refuse_flushing()
     count = scene.starts.count
@@ -394,7 +395,7 @@ def follow_fast(
 
 
 class _Chunk:
-    """The orbits from number `low` on, those that are not at their end: `at` are their numbers."""
+    """The orbits from number `low` on that are not at their ends; `at` are their numbers."""
 
     def __init__(
         self,
@@ -422,8 +423,8 @@ class _Chunk:
         return self.goal.steps - (self.periods if self.goal.unit == "periods" else self.impacts)
 
     def _round(self) -> None:
-        """One round: who is at the end, leaves; who strikes, is struck; who flies, flies to its
-        next impact as far as that is certain.
+        """One round: orbits that are at their end leave; those with an impact have it; those that
+        fly go on to their next impact, as far as that is certain.
         """
         map_ = formulas()
         margin = map_.margin(self.x, self.w)
@@ -512,8 +513,8 @@ def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
     """For states that are proved to fly on: a number K >= 1 of periods that certainly have no
     impact, the whole flight where the bound decides it; all of shape (n,).
 
-    The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not
-    to be positive at K - 1, it is not between.
+    The margin after k periods is a convex parabola in k, negative at k = 0: if it is proved not to
+    be positive at K - 1, it is not positive in between.
     """
     map_ = formulas()
     b, square = map_.end_of_flight(x, w)

@@ -1,5 +1,5 @@
-"""The map and its flights as arithmetic, compiled from the derived expressions; and numbers as they
-are given, taken exactly or refused.
+"""The map and its flights as arithmetic, compiled from the derived expressions; and given numbers,
+which are taken exactly or refused.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ p_e, q_e, power = symbols("e_x e_w power")  # the fixed point, and (-alpha)^n
 
 def plain(expression: Expr, first: Symbol) -> str:
     """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients,
-    no powers, at most one division; DerivationError for any other expression.
+    no powers, at most one division; raises DerivationError for any other expression.
 
     >>> plain(normal_f1()[0], alpha), plain(normal_flight_power()[0], K), plain(normal_energy(), w)
     ('(alpha*(w - x))', '((K*(1 - K - w)) + x)', '((4*x) + (w*(w - 2)) + 1)/2')
@@ -101,8 +101,8 @@ def _is_negative(expression: Expr) -> bool:
 
 
 def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -> Compiled:
-    """A function of these names with the values of the expressions, its source being its docstring;
-    DerivationError where an expression is not rational or has other symbols.
+    """A function of these names with the values of the expressions; its docstring is its source.
+    Raises DerivationError if an expression is not rational or has other symbols.
 
     >>> compiled("impact", "alpha x w", *normal_f1()).__doc__
     'lambda alpha, x, w: ((alpha*(w - x)), (2 - (alpha*w)))'
@@ -152,8 +152,8 @@ class Formulas:
 
 @cache
 def formulas() -> Formulas:
-    """The formulas, derived and compiled once; DerivationError where they are not of the shape that
-    the arithmetics rely on.
+    """The formulas, derived and compiled once; raises DerivationError where they are not of the
+    shape that the arithmetics rely on.
 
     >>> from fractions import Fraction
     >>> f = formulas()
@@ -212,8 +212,8 @@ def _closed_form() -> tuple[Expr, Expr]:
 # -------------------------------------------------------------------------------------------------
 # Given numbers.
 #
-# Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
-# value and what is allowed.
+# Given numbers are taken exactly and within their ranges, or refused in one line with the value and
+# what is allowed.
 
 Number: TypeAlias = int | float | str | Fraction  # a float means the binary number that it is
 BITS = (
@@ -225,7 +225,7 @@ _FINITE = "is no finite number; give an integer, a fraction or a finite float"
 
 
 def rational(value: Number, name: str) -> Fraction:
-    """The number exactly; SceneError for what is none.
+    """The exact value of a number; raises SceneError for what is no number.
 
     >>> rational("1/3", "x"), rational(0.5, "x")
     (Fraction(1, 3), Fraction(1, 2))
@@ -247,7 +247,7 @@ def rational(value: Number, name: str) -> Fraction:
 
 
 def height(value: Number, name: str = "x") -> Fraction:
-    """A height, which is at least 0; SceneError for others."""
+    """A height, which is at least 0; raises SceneError for others."""
     number = rational(value, name)
     if number < 0:
         raise SceneError(f"{name} = {brief(number)} is below the table; a state has {name} >= 0")
@@ -255,7 +255,7 @@ def height(value: Number, name: str = "x") -> Fraction:
 
 
 def positive(value: Number, name: str) -> Fraction:
-    """The launch speed r or gravity g, which are greater than 0; SceneError for others."""
+    """The launch speed r or gravity g, which are greater than 0; raises SceneError for others."""
     number = rational(value, name)
     if number <= 0:
         raise SceneError(
@@ -265,7 +265,7 @@ def positive(value: Number, name: str) -> Fraction:
 
 
 def restitution(alpha: Number) -> Fraction:
-    """The restitution, strictly between 0 and 1; SceneError for others."""
+    """The restitution, strictly between 0 and 1; raises SceneError for others."""
     number = rational(alpha, "alpha")
     if not 0 < number < 1:
         raise SceneError(
@@ -275,7 +275,7 @@ def restitution(alpha: Number) -> Fraction:
 
 
 def counted(value: int, name: str, least: int, most: int) -> int:
-    """A whole number within its bounds; SceneError for others."""
+    """A whole number within its bounds; raises SceneError for others."""
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, np.integer))
@@ -299,7 +299,7 @@ def brief(value: object) -> str:
 
 def nearest(value: Fraction) -> tuple[float, float]:
     """A float next to the number, and a bound on their difference, itself rounded up; infinities
-    for what is beyond the floats.
+    for a number beyond the floats.
 
     >>> nearest(Fraction(1, 2)), 0 < nearest(Fraction(1, 3))[1] < 2**-54
     ((0.5, 0.0), True)

@@ -22,13 +22,13 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track
 #
 # An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
 # need no greatest common divisor, which would take most of the time where the numbers have
-# thousands of digits.  What has piled up of q above and below is taken out now and then.
+# thousands of digits.  The powers of q that pile up above and below are taken out now and then.
 
 RECENT = 16  # powers that are kept
 
 
 class Powers:
-    """q^k, the recent ones kept: the next is one short product away."""
+    """The powers q^k.  Recent ones are kept, so that the next takes one short product."""
 
     def __init__(self, q: int) -> None:
         self.q, self.recent = fmpz(q), {0: fmpz(1)}
@@ -44,8 +44,8 @@ class Powers:
 
 
 class Ratio:
-    """top / (rest q^k), rest > 0; adds, subtracts and multiplies with its like and with whole
-    numbers, and with fmpq as an fmpq.
+    """The number top / (rest q^k), rest > 0.  It can be added, subtracted and multiplied with its
+    like and with whole numbers; with an fmpq the result is an fmpq.
 
     >>> some = Ratio.of(fmpq(3, 56), Powers(10))
     >>> some.top, some.rest, some.k, lowest(3 - some * some - 1)
@@ -59,7 +59,7 @@ class Ratio:
 
     @staticmethod
     def of(value: fmpq, powers: Powers) -> Ratio:
-        """The fmpq over as small a power of q as there is, and what has no factor of q."""
+        """The fmpq with the least k for which `rest` has no factor in common with q."""
         common = value.q.gcd(pow(powers.q, value.q.bit_length(), value.q))
         k = bisect_left(
             range(common.bit_length()), True, key=lambda k: not pow(powers.q, k, common)
@@ -149,9 +149,9 @@ def shortened(value: Ratio) -> Ratio:
 # They stay within a stated length, or the orbit ends there.
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
-# from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+# bits from which on `Ratio`s are faster; bits from which on an fmpq, such as a start, stays one
 FEW_BITS, MANY_BITS = 2**10, 2**16
-PLACES = 64  # binary, of what only guesses are made from
+PLACES = 64  # binary places of a number that only guesses are made from
 
 
 def lifted(value: Fraction) -> fmpq:
@@ -229,8 +229,8 @@ class Exact:
             raise Stop("too long")
 
     def _shorten(self, track: Track[Rational]) -> None:
-        """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those
-        fmpq that are short then.
+        """Turns long numbers into `Ratio`s, takes out common powers of q, and turns those that are
+        then short into fmpq.
         """
         x, w = (
             shortened(part if isinstance(part, Ratio) else Ratio.of(part, self.powers))
@@ -278,7 +278,7 @@ def impact(alpha: Fraction, x: Fraction, w: Fraction) -> tuple[Fraction, Fractio
 
 
 def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
-    """f2 so many times, by (12): the state after so many periods without an impact.
+    """The power of f2, by (12): the state after this number of periods without an impact.
 
     >>> flight(Fraction(3), Fraction(-3), 2)
     (Fraction(7, 1), Fraction(1, 1))
@@ -288,7 +288,7 @@ def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
 
 def flight_length(x: Fraction, w: Fraction) -> int:
     """How many periods without an impact follow: the least K >= 0 with K^2 + K (w + 1) + w - x > 0;
-    SceneError where the closed form does not give it.
+    raises SceneError where the closed form does not give it.
 
     >>> flight_length(Fraction(1), Fraction(1))
     1
@@ -310,8 +310,8 @@ def flight_length(x: Fraction, w: Fraction) -> int:
 def impact_power(
     alpha: Fraction, x: Fraction, w: Fraction, periods: int
 ) -> tuple[Fraction, Fraction]:
-    """f1 so many times: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q); an orbit of f from a
-    state of the trap.
+    """The power of f1: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q) for n periods.  From a
+    state of the trap this is an orbit of f.
 
     >>> alpha, x, w = Fraction(1, 2), Fraction(0), Fraction(1)
     >>> impact_power(alpha, x, w, 2) == impact(alpha, *impact(alpha, x, w))
@@ -324,7 +324,7 @@ def impact_power(
 # -------------------------------------------------------------------------------------------------
 # Orbits in mpmath numbers.
 #
-# Numbers of so many digits: fast at any precision, and nothing is proved.
+# Numbers with a given number of digits: fast at any precision, and nothing is proved.
 #
 # Branches are decided by the rounded state.  The length of a flight is that of the rounded state
 # exactly, by whole square roots.

@@ -9,10 +9,10 @@ difference never exceed
 
     P = |p| + K alpha/(1 - alpha) |q|  and  Q = |q|,
 
-nor w - x changes by more than P + Q before an impact, and alpha (P + (n + 2) Q) n periods after
-one.  Where the orbit of e meets the conditions of its word with that much to spare, z keeps to the
-word for ever, and tends to the orbit of e.  This is decided in float64 with bounds; for states
-whose branch floats cannot tell, such as those on x = w, in exact rationals.
+and w - x changes by at most P + Q before an impact, and by at most alpha (P + (n + 2) Q) n periods
+after one.  Where the orbit of e meets the conditions of its word with that much to spare, z keeps
+to the word for ever, and tends to the orbit of e.  This is decided in float64 with bounds; for
+states whose branch floats cannot tell, such as those on x = w, in exact rationals.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ Report = Callable[[int, int], None]  # how many orbits are done, of how many
 
 
 class Slack(NamedTuple, Generic[F]):
-    """What an orbit and all that follows it have to spare: at each impact of its word, and in the
+    """What an orbit and all that follow it have to spare: at each impact of its word, and in the
     first and in the last period of the flight after it; the latter two mean nothing where the
     flight is of one period.
     """
@@ -65,7 +65,7 @@ def slack(
     alpha: F, x: F, w: F, word: Sequence[F] | Sequence[int], longest: F | int, zero: F
 ) -> Slack[F]:
     """The least slack of the orbit from this state, just before the impact that begins the word: it
-    keeps to the word for ever, where the slack is > 0 at impacts and >= 0 in flights.
+    keeps to the word for ever if the slack is > 0 at impacts and >= 0 in flights.
 
     >>> half, two = fmpq(1, 2), fmpq(2)
     >>> held = slack(half, fmpq(4, 9), fmpq(8, 3), [two], two, fmpq(0))
@@ -93,7 +93,7 @@ def slack(
 
 
 def repeats(flights: NDArray[np.int64], m: int) -> Booleans:
-    """Which rows end twice with the same m flights, which are no repetition of fewer.
+    """Which rows end with the same m flights twice, if these are no repetition of fewer.
 
     >>> [repeats(np.array([[3, 2, 2, 3, 2, 2], [2, 2, 2, 2, 2, 2]]), m).tolist() for m in (1, 2, 3)]
     [[True, True], [False, False], [True, False]]
@@ -108,7 +108,7 @@ def repeats(flights: NDArray[np.int64], m: int) -> Booleans:
 
 
 def least_rotation(word: Word) -> Word:
-    """The word as it is named: beginning so that it is least.
+    """The name of a word: the least of its rotations.
 
     >>> least_rotation((2, 3, 1))
     (1, 2, 3)
@@ -121,7 +121,7 @@ def least_rotation(word: Word) -> Word:
 
 MOST_STATES = 4 * 10**6
 CHUNK = 1 << 14  # states that move together
-# how many impacts have passed when the flights are compared; the last are all that are allowed
+# how many impacts have passed when the flights are compared; the last number is the most allowed
 TESTS = tuple(16 << k for k in range(9))
 MEMORY = 2 * LONGEST  # flights that are kept of an orbit
 MOST_EXACT = 64  # impacts in exact numbers
@@ -159,7 +159,7 @@ class Limits:
 
 
 def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = None) -> Limits:
-    """What the orbits of all starts tend to at all alpha; SceneError for too many.
+    """What the orbits of all starts tend to at all alpha; raises SceneError for too many.
 
     >>> from juggleproof.scenes.juggler import listed
     >>> found = limits([Fraction(1, 4), Fraction(1, 2)], listed([(0, 1), ("4/9", "8/3")]))
@@ -213,7 +213,7 @@ class _Chunk:
         self.unsure: list[int] = []
 
     def run(self, report: Report | None) -> list[int]:
-        """Follows them; the places of those whose branch floats cannot tell."""
+        """Follows them; returns the places of those whose branch floats cannot tell."""
         for count in range(TESTS[-1] + 1):
             if not len(self.at):
                 break
@@ -224,8 +224,8 @@ class _Chunk:
         return self.unsure
 
     def _round(self, test: bool) -> None:
-        """One impact of each orbit, of most of them after a flight; before it the limit of those
-        that can be told.
+        """Carries out one impact of each orbit, of most of them after a flight; before it, if
+        `test`, the orbits whose limit is proved leave.
         """
         map_ = formulas()
         flies = map_.margin(self.x, self.w).is_negative()
@@ -258,7 +258,7 @@ class _Chunk:
         self.w.put(strikes, w)
 
     def _settled(self, strikes: Booleans) -> Booleans:
-        """Those, about to be struck, whose limit is proved, which is recorded."""
+        """Which of the orbits about to be struck have a proved limit; the limits are recorded."""
         known = np.zeros(len(self.at), np.bool_)
         rows = np.flatnonzero(strikes)
         back = np.arange(-MEMORY, 0)
@@ -291,8 +291,8 @@ class _Chunk:
 
 
 def _exactly(found: Limits, at: int, start: Place) -> Place | None:
-    """Records the limit of the orbit with this place, in exact rationals; where some dozens of
-    impacts do not tell it, the state after them.
+    """Records the limit of the orbit with this place, in exact rationals.  If some dozens of
+    impacts do not decide it, returns the state after them.
     """
     alpha_at = found.alphas[at // found.which.shape[1]]
     map_, numbers, alpha = formulas(), Exact(alpha_at), lifted(alpha_at)

@@ -60,7 +60,7 @@ def _formulas() -> tuple[Callable[..., Fraction], ...]:
 
 def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heights]:
     """The heights of ball and table at times >= 0, in the units of r and g, for the start of this
-    number; SceneError for a time or a number out of range.
+    number; raises SceneError for a time or a number out of range.
 
     The table is at its lowest at time 0, as at every sample.  Source: (1), the table's launch of
     section 3.1, (6) and (8).
@@ -163,7 +163,7 @@ class Orbits:
 
     @property
     def followed(self) -> int:
-        """How many orbits have been begun at least; the others have no row."""
+        """How many orbits have at least been begun; the others have no row."""
         return self.ensemble.done if self.ensemble is not None else len(self.tracks)
 
     def run(self, report: Report | None = None) -> Orbits:
@@ -226,7 +226,7 @@ class Orbits:
             track.samples = track.samples and [exact.finished(sample) for sample in track.samples]
 
     def row(self, index: int) -> Row:
-        """Where the orbit of this number stands; SceneError where it was not followed."""
+        """Where the orbit of this number stands; raises SceneError where it was not followed."""
         if (
             isinstance(index, bool)
             or not isinstance(index, (int, np.integer))
@@ -259,7 +259,7 @@ class Orbits:
 
     def history(self, index: int) -> list[Row]:
         """All states of the orbit of this number that were kept: one a period, or one after each
-        impact; SceneError where none were.
+        impact; raises SceneError where none were.
 
         In fast arithmetic only that one is counted, and the other count is -1.
         """
@@ -317,8 +317,8 @@ def _finished(value: Unfinished) -> Value:
 
 
 def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:
-    """SceneError for more orbits or kept states than can be held as single numbers; fast arithmetic
-    has limits of its own.
+    """Raises SceneError for more orbits or kept states than can be held as single numbers; fast
+    arithmetic has limits of its own.
     """
     if arithmetic == "fast":
         return
@@ -346,8 +346,8 @@ def prepare(
     radius: Number = bounded.RADIUS,
     most_bits: int | None = None,
 ) -> Orbits:
-    """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what
-    cannot be.
+    """The orbits that `orbit` follows, before anything is followed; raises SceneError, one line,
+    for what cannot be followed.
     """
     if not isinstance(scene, Scene):
         raise SceneError(f"scene = {brief(scene)} is no scene; give scene(alpha, starts)")

@@ -193,7 +193,7 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
 # K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
 # that is not longer.  So for one alpha and one number of impacts the search is complete.
 
-# numbers that divide; python-flint has no types, so that floats with bounds are of its kind here
+# numbers that divide; python-flint has no types, so that floats with bounds pass as its numbers
 F = TypeVar("F", Fraction, float, fmpq)
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]
@@ -225,7 +225,7 @@ class Orbit:
 
 
 def valid_word(word: Sequence[int]) -> Word:
-    """The word: flights of at least one period each; SceneError for others."""
+    """The word: flights of at least one period each; raises SceneError for others."""
     if isinstance(word, str) or not isinstance(word, Sequence):
         raise SceneError(f"{brief(word)} is no word; give the lengths of flights, such as (1, 2)")
     if not 1 <= len(word) <= LONGEST_WORD:
@@ -364,8 +364,8 @@ def _sign_of(expression: Expr) -> Expr:
 
 
 def words(longest: int, most: int) -> Iterator[Word]:
-    """The words of up to so many flights of up to so many periods, one of each cycle, no repetition
-    of a shorter one.
+    """The words of at most `longest` flights of at most `most` periods each: one of each cycle, and
+    no repetition of a shorter one.
 
     >>> list(words(2, 2)), len(list(words(4, 3)))
     ([(1,), (2,), (1, 2)], 32)
@@ -386,8 +386,8 @@ def longest_flight(at: Fraction) -> int:
 
 
 def search_words(alpha: Number, longest: int, flight: int | None = None) -> list[Orbit]:
-    """All periodic orbits at this alpha with at most so many impacts; flights of up to so many
-    periods, or as long as they can be.
+    """All periodic orbits at this alpha with at most `longest` impacts; their flights have at most
+    `flight` periods, or are as long as they can be.
 
     >>> [orbit.word for orbit in search_words(Fraction(1, 4), 4)]
     [(1,)]

@@ -68,8 +68,8 @@ def _setting(scene: Scene, units: str) -> str:
 
 
 def _on_white(draw: Callable[[], Figure], slug: str) -> bytes:
-    """The picture as SVG, on white, so that it can be read on a dark page; SceneError for what is
-    beyond the floats.
+    """The picture as SVG, on white, so that it can be read on a dark page; raises SceneError for
+    numbers beyond the floats.
     """
     with style():
         try:
@@ -84,8 +84,8 @@ def _on_white(draw: Callable[[], Figure], slug: str) -> bytes:
 
 
 def orbit(scene: Scene, periods: int, units: str) -> bytes:
-    """Table and balls, six at most, over so many periods, 40 at most, as SVG; exact heights at 32
-    times a period.  SceneError for more.
+    """Table and balls, six at most, over 40 periods at most, as SVG, by exact heights at 32 times
+    in a period.  Raises SceneError for more.
     """
     if not 1 <= periods <= MOST_PERIODS:
         raise SceneError(f"{periods} periods cannot be drawn; give from 1 to {MOST_PERIODS}")
@@ -144,7 +144,7 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
 
 
 def grid_of(scene: Scene) -> Grid:
-    """The starts; SceneError where they are no grid of at least two by two states."""
+    """The starts; raises SceneError if they are no grid of at least two by two states."""
     grid = scene.starts
     if not isinstance(grid, Grid) or min(len(grid.heights), len(grid.speeds)) < 2:
         raise SceneError("basins are of a grid of at least 2 by 2 states; give --grid")
@@ -152,8 +152,8 @@ def grid_of(scene: Scene) -> Grid:
 
 
 def basin(scene: Scene, found: Limits, units: str) -> bytes:
-    """The states of a grid, coloured by what their orbits tend to, as SVG; SceneError for states
-    that are no grid of at least two by two.
+    """The states of a grid, coloured by what their orbits tend to, as SVG; raises SceneError for
+    states that are no grid of at least two by two.
     """
     return _on_white(lambda: _basin(scene, grid_of(scene), found, units), "basin")
 
@@ -210,9 +210,9 @@ def how(found: Limits) -> str:
 def palette(
     words: Sequence[Word], counts: Counter[int], apart: Sequence[str] = UNEQUAL
 ) -> tuple[list[str], list[tuple[str, str]]]:
-    """The colour of each word, and of what is undecided behind them; and the entries of a legend,
-    with the part of the orbits that tend there.  Orbits of unequal flights have the colours
-    `apart`, and the rest of them one.
+    """The colour of each word, and after these the colour of undecided orbits; and the entries of a
+    legend, with the share of the orbits that tend there.  Words of unequal flights have the colours
+    `apart`; when these are used up, all others have one colour.
     """
     colours = [OTHERS] * len(words) + [NOT_KNOWN]
     titles = {BEYOND: f"$e_K$, $K > {len(OF_FLIGHT)}$", NOT_KNOWN: "undecided"}
@@ -259,7 +259,7 @@ SHARES = 60.0  # the height of the panel below, in points
 
 def bifurcation(scene: Scene, found: Limits, units: str) -> bytes:
     """Closing speeds at the impacts of the orbits that any start tends to, against alpha, and below
-    the share of the starts, as SVG; SceneError for fewer than two alpha.
+    the share of the starts, as SVG; raises SceneError for fewer than two alpha.
     """
     if len(found.alphas) < 2:
         raise SceneError("one alpha makes no picture; give two at least")

@@ -28,8 +28,8 @@ from juggleproof.scenes.juggler.compiled_map import (
 # -------------------------------------------------------------------------------------------------
 # Starting states by number.
 #
-# Listed, on a grid, on the boundary of R, random, in arrays; each an exact rational state, in
-# floats on demand.
+# They are listed, on a grid, on the boundary of R, random, or in arrays.  Each is an exact rational
+# state, in floats on demand.
 #
 # All in normal form: x the height in units of r T, w the closing speed in units of r; x >= 0.
 # Whatever the number of states, only those asked for are made.
@@ -49,7 +49,7 @@ class Starts(Protocol):
         """The state (x, w) of this number."""
 
     def block(self, low: int, high: int) -> tuple[Floats, Floats, Floats, Floats]:
-        """x, w as floats and bounds on what their rounding missed, each of shape (high - low,)."""
+        """x, w as floats and bounds on their rounding, each of shape (high - low,)."""
 
 
 def _converted(
@@ -79,8 +79,8 @@ class Listed:
 
 @dataclass(frozen=True)
 class Even:
-    """So many numbers from the first to the last, equally far apart, each made when it is asked
-    for.
+    """Numbers from the first to the last, `count` of them, equally far apart; each is made when it
+    is asked for.
     """
 
     first: Fraction
@@ -97,7 +97,7 @@ class Even:
         return map(self.__getitem__, range(self.count))
 
     def floats(self, places: NDArray[np.int64]) -> tuple[Floats, Floats]:
-        """The numbers at these places as floats, and bounds on what their rounding missed."""
+        """The numbers at these places as floats, and bounds on their rounding."""
         some, back = np.unique(places, return_inverse=True)
         pairs = np.array([nearest(self[place]) for place in some.tolist()])[back]
         return pairs[:, 0].copy(), pairs[:, 1].copy()
@@ -153,8 +153,8 @@ class OnBoundary:
 
 @dataclass(frozen=True)
 class Drawn:
-    """Floats of a seeded generator, uniform over a box; state i comes of draws 2 i and 2 i + 1,
-    whatever block it is asked in.
+    """Floats of a seeded generator, uniform over a box; state i comes from draws 2 i and 2 i + 1,
+    whatever block it is asked for in.
     """
 
     count: int
@@ -216,7 +216,7 @@ class Scene:
 
 def scene(alpha: Number, starts: Starts, r: Number = 1, g: Number = 1) -> Scene:
     """A scene: 0 < alpha < 1, r > 0 and g > 0; numbers are exact, floats the binary numbers that
-    they are.  SceneError for others.
+    they are.  Raises SceneError for other numbers.
 
     >>> from juggleproof.scenes.juggler import point
     >>> scene("1/3", point(0, 3)).alpha
@@ -232,8 +232,8 @@ def scene(alpha: Number, starts: Starts, r: Number = 1, g: Number = 1) -> Scene:
 
 @dataclass(frozen=True)
 class Goal:
-    """How far an orbit is followed: so many periods, or impacts; or until it is in the trap, if
-    that comes first.
+    """How far an orbit is followed: for a number of periods, or of impacts; or until it is in the
+    trap, if that comes first.
     """
 
     steps: int
@@ -241,12 +241,12 @@ class Goal:
     until_trap: bool = False
 
     def left(self, periods: int, impacts: int) -> int:
-        """How many of its steps are left."""
+        """The number of its steps that are left."""
         return self.steps - (periods if self.unit == "periods" else impacts)
 
 
 def goal(steps: int, impacts: bool = False, until_trap: bool = False) -> Goal:
-    """The goal; SceneError for a number of steps below 0."""
+    """The goal; raises SceneError for a number of steps below 0."""
     return Goal(
         counted(steps, "steps", 0, MOST_STEPS), "impacts" if impacts else "periods", until_trap
     )
@@ -264,7 +264,7 @@ MOST = 10**8  # starts of one scene
 
 
 def point(x: Number, w: Number) -> Listed:
-    """One state; SceneError for x < 0 and for what is no number.
+    """One state; raises SceneError for x < 0 and for what is no number.
 
     >>> point(0, "3/2").exact(0)
     (Fraction(0, 1), Fraction(3, 2))
@@ -273,7 +273,7 @@ def point(x: Number, w: Number) -> Listed:
 
 
 def listed(states: Sequence[tuple[Number, Number]]) -> Listed:
-    """States (x, w) one by one, at least one; SceneError for others."""
+    """States (x, w) one by one, at least one; raises SceneError for others."""
     if not isinstance(states, (Sequence, np.ndarray)) or len(states) == 0:
         raise SceneError("no states are given; give one at least, as a list of pairs (x, w)")
     for pair in states:
@@ -299,7 +299,7 @@ def physical(beta: Number, v: Number, r: Number, g: Number) -> Listed:
 
 
 def axis(low: Number, high: Number, count: int, name: str) -> Even:
-    """So many numbers from low to high, equally far apart; SceneError where there are none."""
+    """Numbers from low to high, `count` of them, equally far apart; raises SceneError for none."""
     first, last = rational(low, name), rational(high, name)
     counted(count, f"the number of {name}", 1, MOST)
     if count > 1 and last <= first:
@@ -322,14 +322,15 @@ def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> Grid:
 
 
 def _refuse_other_parts(given: object, count: int, name: str) -> None:
-    """SceneError for what is not from, to, and for an axis how many."""
+    """Raises SceneError unless the parts are from and to, and for an axis how many."""
     if not isinstance(given, (tuple, list)) or len(given) != count:
         wanted = "an axis has from, to and how many" if count == 3 else "a side has from and to"
         raise SceneError(f"{name} = {brief(given)} has not {count} parts; {wanted}")
 
 
 def grid(x: Axis, w: Axis) -> Grid:
-    """A grid of heights (from, to, how many) and closing speeds (likewise); SceneError for others.
+    """A grid of heights (from, to, how many) and closing speeds (likewise); raises SceneError for
+    others.
 
     >>> grid((0, 1, 3), (-1, 1, 2)).exact(3)
     (Fraction(1, 2), Fraction(1, 1))
@@ -358,8 +359,8 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
 
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
-    """So many states, uniform over a box of heights and closing speeds, whose ends are the floats
-    next to those given; SceneError for a box or a number out of range.
+    """This many states, uniform over a box of heights and closing speeds, whose ends are the floats
+    next to those given; raises SceneError for a box or a number out of range.
     """
     counted(count, "the number of states", 1, MOST)
     counted(seed, "seed", 0, 2**64 - 1)
@@ -397,8 +398,8 @@ def physical_box(beta: Side, v: Side, r: Number, g: Number) -> tuple[Side, Side]
 
 
 def arrays(x: Floats, w: Floats) -> Array:
-    """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; SceneError for
-    others.
+    """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; raises
+    SceneError for others.
     """
     try:
         xs, ws = np.asarray(x), np.asarray(w)
@@ -423,8 +424,8 @@ def arrays(x: Floats, w: Floats) -> Array:
 
 
 def boundary(alpha: Number, count: int) -> OnBoundary:
-    """So many exact states, from 2 to 10^6, on the boundary of R (23): half of them on its energy
-    level, half on the side x = 0 (the odd one on the level).
+    """Exact states on the boundary of R (23), from 2 to 10^6 of them: half on its energy level,
+    half on the side x = 0; if the number is odd, one more on the level.
 
     On the level w runs over rationals within it, and x = (E - (1 - w)^2/2)/2 is rational too.
 

@@ -28,11 +28,11 @@ from juggleproof.scenes.juggler.starts import Scene, point, scene
 
 UNITS = ("normal", "physical")
 NAMES = {"normal": ("x", "w"), "physical": ("beta", "v")}
-LONG_BITS, DIGITS = 4000, 40  # exact numbers beyond are written as balls of so many digits
+LONG_BITS, DIGITS = 4000, 40  # longer exact numbers are written as balls of this many digits
 
 
 def checked_units(units: str) -> str:
-    """The name of the units; SceneError where there are none of that name."""
+    """The name of the units; raises SceneError where there are none of that name."""
     if units not in UNITS:
         raise SceneError(f"units = {brief(units)!r} is not one of {', '.join(UNITS)}")
     return units
@@ -146,8 +146,8 @@ def _as_float(value: Value, error: Error | None) -> tuple[float, float]:
 
 
 def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Column]:
-    """Arrays of shape (n,), one entry a row: start, periods, impacts, the state and bounds on its
-    error as float64, end as its place in ENDS.
+    """Arrays of shape (n,), one entry for each row: start, periods, impacts, the state and bounds
+    on its error as float64, end as its place in ENDS.
 
     In fast arithmetic the history, if kept, has the shape (starts, steps + 1) instead, nan where an
     orbit has no such state.
@@ -239,8 +239,8 @@ FLIGHT = 1000  # periods that plain floats are followed for where a case counts 
 
 @dataclass(frozen=True)
 class Case:
-    """An exact start, followed for so many periods (or impacts); in exact numbers up to so many
-    bits.
+    """An exact start, followed for `steps` periods (or impacts); exact numbers have at most
+    `most_bits` bits.
     """
 
     name: str
@@ -258,8 +258,8 @@ class Case:
 
 
 class Finding(NamedTuple):
-    """What each arithmetic comes to: where plain floats first took a wrong branch (None: nowhere),
-    and the rows of exact, fast and enclosed.
+    """The results of each arithmetic: the last state in plain floats, the period at which they
+    first took a wrong branch (None: nowhere), and the rows of exact, fast and enclosed.
     """
 
     case: Case
@@ -309,10 +309,10 @@ CASES = (
 
 
 def plain_floats(case: Case, most: int = 10**5) -> tuple[tuple[float, float], int | None]:
-    """The orbit of plain float64, period by period up to so many, and the first period whose branch
-    is not that of the exact orbit.
+    """The last state of the orbit in plain float64, followed for at most `most` periods, and the
+    first period whose branch is not that of the exact orbit.
 
-    Floats are followed without an eye on their error: alpha and start are rounded, a state strikes
+    Floats are followed without regard to their error: alpha and start are rounded, a state strikes
     where x < w as floats.  The exact orbit is followed beside them up to numbers of 5000 bits.
 
     >>> plain_floats(_case("", "3/7", "4/3", "3", 50))[1]

@@ -60,7 +60,7 @@ class Stop(Exception):
 
 
 class Sample(NamedTuple, Generic[N]):
-    """A state of an orbit: after so many periods and impacts."""
+    """A state of an orbit, with the numbers of periods and impacts before it."""
 
     periods: int
     impacts: int
@@ -146,8 +146,8 @@ def advance(
 
 
 def _fly(track: Track[N], arithmetic: Arithmetic[N], most: int | None) -> None:
-    """Flies on: as many periods as are certain to have no impact, at most so many; one, where only
-    the present is certain.
+    """Flies on for as many periods as are certain to have no impact, `most` of them at most; for
+    one if only the present one is certain.
     """
     map_ = formulas()
     periods, impacts, x, w = track.here

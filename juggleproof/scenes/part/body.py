@@ -13,10 +13,10 @@ from typing import Any, Protocol, TypeVar
 # -------------------------------------------------------------------------------------------------
 # The compiler: numba where it is installed, and the same functions in plain Python where it is not.
 #
-# By itself numba optimizes every function, and makes machine code of it, and does so again with all
-# that it calls for each of its callers: that was most of what compiling took.  Here one kernel is
-# compiled.  All that it calls are its parts: numba translates them one by one, and optimizes them
-# and makes machine code of them once, with the kernel.
+# By itself numba optimizes every function and makes machine code of it, and does so again for each
+# of its callers: this took most of the time of compiling.  Here one kernel is compiled.  The
+# functions that it calls are its parts: numba translates them one by one, and optimizes them and
+# makes machine code of them once, with the kernel.
 
 try:
     import numba
@@ -32,8 +32,9 @@ if numba is not None:
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 COMPILED = numba is not None
 KERNELS = ("body", "flight", "strike", "rest", "motion")  # the files that are compiled
-# Sums keep their order and nothing is contracted, so that results are the same wherever sin and cos
-# are.  No array is made: references to arrays are not counted, which saves a tenth.
+# Sums keep their order and nothing is contracted, so that results are the same on all machines with
+# the same sin and cos.  Kernels make no arrays: references to arrays are not counted, which saves a
+# tenth of the time.
 OPTIONS = {"error_model": "numpy", "_nrt": False}
 
 
@@ -72,7 +73,7 @@ FOLDER = _folder() if COMPILED else None
 
 def kernel(function: Kernel) -> Kernel:
     """The function compiled for floats when it is first called, without the interpreter's lock, and
-    kept on disk; as it is where numba is absent.
+    kept on disk; if numba is absent, the function itself.
     """
     if numba is None:
         return function
@@ -93,8 +94,8 @@ def compiled(function: Kernel) -> Kernel:
 
 
 def inlined(function: Kernel) -> Kernel:
-    """The same, put in wherever it is called, which saves another tenth where many events pass
-    through it.
+    """The same, but inlined wherever it is called; this saves another tenth of the time in a
+    function that many events pass through.
     """
     return _part(function, forceinline=True)
 
@@ -110,12 +111,12 @@ def _part(function: Kernel, **options: bool) -> Kernel:
 if numba is not None:
 
     class _Part(types.Dispatcher):  # type: ignore[misc]
-        """What the compiler takes a part for: a function that is compiled once for each set of
+        """The type of a part for the compiler: a function that is compiled once for each set of
         types, whatever constants it is called with.
         """
 
         def __init__(self, part: object) -> None:
-            self.part = part  # the base class lets go of it
+            self.part = part  # the base class does not keep it
             super().__init__(part)
 
         def get_call_type(self, context: object, args: Iterable[object], kws: object) -> object:
@@ -167,8 +168,8 @@ if numba is not None:
 # The block and the table as numbers for the kernels: what their parameters, states and counts are
 # called, and where corners and table are.
 #
-# Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta =
-# 0 is as corners are given, a rectangle upright; it grows counterclockwise.  A state is (t, X, Y,
+# Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  At theta
+# = 0 corners are as given, a rectangle upright; theta grows counterclockwise.  A state is (t, X, Y,
 # theta, V_X, V_Y, omega) of the centre of mass in the resting frame, X along the table and Y away
 # from it, then how the block is in contact.
 
@@ -316,7 +317,7 @@ def lowest(p: Floats, i: int, c: float, s: float, omega: float) -> int:
 
 @compiled
 def face_angle(p: Floats, turn: int) -> float:
-    """The angle, in radians, of this number."""
+    """The angle with this number, in radians."""
     count = int(p[CORNERS])
     around = turn // count
     return (around + p[int(p[AT_FACES]) + turn - around * count]) * TURN
@@ -324,7 +325,7 @@ def face_angle(p: Floats, turn: int) -> float:
 
 @compiled
 def first_angle(p: Floats, i: int, theta: float) -> int:
-    """The number of the angle near theta from which on, up to the next, corner i is the lowest."""
+    """The number of the angle near theta between which and the next one corner i is the lowest."""
     count, at = int(p[CORNERS]), int(p[AT_FACES])
     turn = (int(p[FIRST]) - i) % count
     end = p[at + turn + 1] if turn + 1 < count else p[at] + 1
@@ -342,8 +343,8 @@ def flat_angle(p: Floats, i: int, theta: float) -> float:
 
 @inlined
 def turned(c: float, s: float, step: float) -> tuple[float, float]:
-    """Cosine and sine of an angle after a step of at most SMALL_TURN, by series, of half of
-    it where it is not tiny; to a rounding, and faster than sine and cosine.
+    """The cosine and sine of an angle after a step of at most SMALL_TURN, up to rounding: by series
+    in the step if it is tiny, else in half of it.  This is faster than sin and cos.
     """
     if abs(step) < TINY_TURN:
         q = step * step
@@ -373,8 +374,8 @@ def turned(c: float, s: float, step: float) -> tuple[float, float]:
 # The table: at (A_x sin(W_x t + phase_x), A_y sin(W_y t + phase_y)), or along each axis a sum of
 # such.
 #
-# For both A W^k bounds the derivatives from the second to the fourth.  A sum stands from AT_DRIVE
-# on as the count of its terms and A, W, phase of each, first along, then up.
+# For both A W^k bounds the derivatives from the second to the fourth.  A sum is stored from
+# AT_DRIVE on: the number of its terms, then A, W and phase of each; first along, then up.
 
 
 @compiled

@@ -1,5 +1,5 @@
-"""How the table moves where it is no single sine: a sum of harmonics along each axis, with bounds
-of the derivatives, which flights rely on.
+"""The motion of a table that is no single sine: a sum of harmonics along each axis, with bounds of
+the derivatives, on which flights rely.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Sine = tuple[float, float, float]  # metres, hertz, radians
 Pair = tuple[float, float]
 MOST_SINES = 32
 LARGEST, FASTEST, MOST_PHASE = 1.0, 1e4, 100.0  # metres, hertz, radians
-UP = 1 + 1e-12  # by which bounds are rounded up
+UP = 1 + 1e-12  # the factor by which bounds are rounded up
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,8 @@ class Harmonics:
         return found
 
     def bounds(self) -> tuple[Pair, Pair]:
-        """(A, W) of each axis such that A W^k bounds the derivatives from the second on: W the
-        highest frequency, A W^2 the sum of the accelerations.
+        """(A, W) of each axis such that A W^k bounds the derivatives from the second on: W is the
+        highest frequency, and A W^2 the sum of the accelerations.
 
         >>> along, away = harmonics([(1e-3, 10, 0)], [(1e-3, 10, 0), (1e-3, 20, 0)]).bounds()
         >>> round(along[0], 9), round(away[0], 9), round(away[1] / along[1], 9)
@@ -52,17 +52,17 @@ class Harmonics:
         return UP * sum(abs(A) * (f / top) ** 2 for A, f, _ in axis), 2 * math.pi * top
 
     def highest(self) -> float:
-        """How far from 0 the table's height is at most, in metres."""
+        """The greatest distance of the table's height from 0, in metres."""
         return sum(abs(A) for A, _, _ in self.away)
 
     def rounded(self, until: float) -> float:
-        """By how much the table's height is rounded up to a time, in metres."""
+        """A bound of the rounding of the table's height until a time, in metres."""
         return sum(
             abs(A) * (2 * math.pi * f * until + abs(phase)) for A, f, phase in self.away
         ) * float(np.finfo(float).eps)
 
     def in_words(self) -> str:
-        """The drive in a line."""
+        """The drive in words, in one line."""
         return "; ".join(
             f"{' + '.join(f'{f:g} Hz {1e3 * A:g} mm' for A, f, _ in axis) or 'still'} {way}"
             for axis, way in ((self.away, "up and down"), (self.along, "along"))

@@ -42,8 +42,8 @@ R = TypeVar("R")  # its result
 
 @dataclass(frozen=True)
 class Run:
-    """Where blocks are after a run, shape (n, 10), and what was noted of them, shape (n, 16);
-    columns are named in `juggleproof.scenes.part.body`.  `checked`: whether guarantees were.
+    """The states of blocks after a run, shape (n, 10), and their notes, shape (n, 16); columns are
+    named in `juggleproof.scenes.part.body`.  `checked`: whether guarantees were checked.
     """
 
     states: Array
@@ -52,7 +52,8 @@ class Run:
 
     def violations(self) -> dict[str, int]:
         """How often an impact broke a guarantee of the impact law, and a flight ended with a corner
-        deeper in the table than the tolerance: all are to be 0; SceneError where none was checked.
+        deeper in the table than the tolerance: all have to be 0.  Raises SceneError if guarantees
+        were not checked.
         """
         if not self.checked:
             raise SceneError("a run that is not checked tells of no violations; give check=True")
@@ -88,8 +89,8 @@ class Job(NamedTuple):
 
 
 def advanced(job: Job) -> tuple[Array, Array]:
-    """A chunk of blocks, moved on: states and notes; SceneError where a counted bound on the work
-    is reached.
+    """The states and notes of a chunk of blocks that is moved on; raises SceneError where a counted
+    bound on the work is reached.
     """
     states, notes = job.states.copy(), job.notes.copy()
     _refuse_failed(states, follow_all(job.parameters, states, job.until, notes), job.first)
@@ -97,8 +98,8 @@ def advanced(job: Job) -> tuple[Array, Array]:
 
 
 def advanced_once(job: Job, keep: Path) -> tuple[Array, Array]:
-    """The same; kept in a file of the folder `keep`, and read from there where it was computed
-    before, from the same numbers and by the same kernels.
+    """The same; it is kept in a file of the folder `keep`, and read from there if it was computed
+    before from the same numbers by the same kernels.
     """
     digest = hashlib.sha256(kernel_digest().encode())
     for part in (job.parameters, job.states, np.float64(job.until), job.notes):
@@ -121,8 +122,8 @@ def advanced_once(job: Job, keep: Path) -> tuple[Array, Array]:
 
 
 def worker(keep: Path | None) -> Callable[[Job], tuple[Array, Array]]:
-    """What moves chunks on, and keeps them in a folder where there is one; SceneError for a folder
-    that cannot be made.
+    """The function that moves chunks on, and keeps them in a folder if there is one; raises
+    SceneError for a folder that cannot be made.
     """
     if keep is None:
         return advanced
@@ -134,7 +135,7 @@ def worker(keep: Path | None) -> Callable[[Job], tuple[Array, Array]]:
 
 
 def _refuse_failed(states: Array, codes: Array, first: int) -> None:
-    """SceneError for the first block whose run did not end as asked: where it is stuck."""
+    """Raises SceneError for the first block whose run did not end as asked: where it is stuck."""
     for k in np.flatnonzero(codes):
         t, X, Y, theta, V_X, V_Y, omega = states[k, :7]
         raise SceneError(
@@ -156,10 +157,10 @@ def run(
     keep: Path | None = None,
 ) -> Run:
     """Moves blocks on to the time `until`, in seconds; `states` of shape (n, 10) stay as they are.
-    SceneError for arrays of other shapes, and where a counted bound on the work is reached.
-    `check`: whether broken guarantees are counted; `report` is called with how many chunks are
-    done, and of how many; `keep`: a folder for what is done, from which a run that was ended goes
-    on.
+    Raises SceneError for arrays of other shapes, and where a counted bound on the work is reached.
+    `check`: whether broken guarantees are counted; `report` is called with the number of chunks
+    that are done, and that of all; `keep`: a folder for chunks that are done, so that a run that
+    was ended can go on.
 
     Without an executor the chunks are shared over the cores by threads; kernels do not hold the
     interpreter's lock.
@@ -198,8 +199,9 @@ def run_jobs(
     report: Callable[[int, int], None] | None = None,
     done: list[R] | None = None,
 ) -> list[R]:
-    """The work done on each job, in the order given; `report` is called with how many are done, and
-    of how many.  A list `done` is filled, and holds what was done where the run is interrupted.
+    """The results of the jobs, in the order given; `report` is called with the number of jobs that
+    are done, and that of all.  A list `done` is filled as they end, and holds the results so far
+    if the run is interrupted.
     """
     done = [] if done is None else done
     if len(jobs) == 1 and executor is None:
@@ -216,20 +218,20 @@ def run_jobs(
                 report(len(done), len(jobs))
     finally:
         for future in futures:
-            future.cancel()  # where one failed, or the user has had enough
+            future.cancel()  # if one failed, or the user interrupts
     return done
 
 
 # -------------------------------------------------------------------------------------------------
 # Frames.
 #
-# Many blocks at given times, for pictures: all of one orbit each, which is not stopped at them.
+# Many blocks at given times, for pictures; the orbit of a block is not stopped at these times.
 
 MOST_STATES = 5_000_000
 
 
 class FrameJob(NamedTuple):
-    """A chunk of blocks with the times at which they are at at."""
+    """A chunk of blocks, and the times at which their states are asked for."""
 
     parameters: Array
     states: Array
@@ -247,7 +249,7 @@ def frames(
     which do not fall: shape (len(times), n, 10).
 
     Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an
-    earlier one may round its last event otherwise. Without an executor threads share the chunks.
+    earlier one may round its last event differently.  Without an executor threads share the chunks.
     """
     at = np.asarray(times, dtype=float)
     if at.ndim != 1 or not len(at) or not np.isfinite(at).all() or (np.diff(at) < 0).any():
@@ -271,7 +273,9 @@ def frames(
 
 
 def sampled(job: FrameJob) -> Array:
-    """A chunk of blocks at its times; SceneError where a counted bound on the work is reached."""
+    """A chunk of blocks at its times; raises SceneError where a counted bound on the work is
+    reached.
+    """
     states = job.states.copy()
     seen = np.zeros((len(states), len(job.times), body.STATE))
     notes = fresh_notes(len(states))
@@ -283,11 +287,11 @@ def sampled(job: FrameJob) -> Array:
 # -------------------------------------------------------------------------------------------------
 # A still table.
 #
-# Blocks on a still table: on which face each comes to rest, and at which starting angle the two are
-# parted.
+# Blocks on a still table: on which face each comes to rest, and the starting angle that separates
+# the two faces.
 #
 # Both are decided by geometry: a block that starts at rest on a corner falls to the side on which
-# its centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27
+# its centre is, and the sides meet at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27
 # to 90 degrees to 90; so the sides that it shows are as 1 to 2.
 
 DEGREES = tuple(range(91))
@@ -299,8 +303,8 @@ LONGEST_SPLIT = 64.0  # seconds until all are at rest
 
 @dataclass(frozen=True)
 class Split:
-    """Where blocks end that start at 0 to 90 degrees; starting angles, in degrees, that end at 0
-    and at 90; and atan(a/b), which parts them.
+    """The angles, in degrees, at which blocks end that start at 0 to 90 degrees; a starting angle
+    that ends at 0 and one that ends at 90; and atan(a/b), which separates them.
     """
 
     ends: tuple[int, ...]
@@ -348,7 +352,7 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
 
 def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = None) -> list[int]:
     """The angle, 0 or 90 degrees, at which blocks come to rest that start at these angles, in
-    degrees; SceneError where one does not.
+    degrees; raises SceneError if one does not come to rest.
     """
     states, notes, until = standing(still, [radians(start) for start in starts]), None, 1.0
     while until <= LONGEST_SPLIT:
@@ -364,7 +368,7 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
 
 
 def in_words(split: Split) -> str:
-    """Where blocks end on a still table, and where they part.
+    """Where blocks end on a still table, and the angle that separates them.
 
     >>> split = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
     >>> print(in_words(split))  # doctest: +NORMALIZE_WHITESPACE

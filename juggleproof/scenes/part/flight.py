@@ -5,13 +5,13 @@ A block turns in a step by no more than its sharpest turn from edge to edge, so 
 corners can be the lowest: the one that is, and the next as it turns, where it turns so far.  The
 gap of a corner at time s of a flight is accelerated by -M at least, where M = g + A_y W_y^2 +
 omega^2 rho, and by push + jerk s - K s^2/2 at least, where push and jerk are derivatives now and K
-= A_y W_y^4 + omega^4 rho bounds the next. Each step goes no further than to the first root of a
-parabola below the gap, raised by 9/10 of the tolerance; so no gap falls below the tolerance's
+= A_y W_y^4 + omega^4 rho bounds the next one.  Each step goes no further than to the first root of
+a parabola below the gap, raised by 9/10 of the tolerance; so no gap falls below the tolerance's
 negative, rounding included.  Where a corner comes down so near to the table that its derivatives
-tell to a hundredth of the tolerance when it is there, the flight ends there.  Where a corner in the
-table comes down so slowly that they do not, it is below the height from which it set out, if that
-was in the table, or below 0: the flight ends where it came through that, so that a corner that
-rattles, with hops below the tolerance, does not sink with every one of them.
+tell to a hundredth of the tolerance when it is there, the flight ends there.  If a corner in the
+table comes down so slowly that they do not tell this, the flight ends where it comes down through
+the height from which it set out, if that was in the table, else through 0.  So a corner that
+rattles, with hops below the tolerance, does not sink with every hop.
 """
 
 from __future__ import annotations
@@ -96,8 +96,9 @@ def sure_step(
     bend: float,
     step: float,
 ) -> float:
-    """How long, at most `step`, a gap stays at least 0 for sure that is value >= 0, changes by
-    `rate`, and is accelerated by -fall at least, and by push + jerk s - bend s^2/2 at least.
+    """A time, at most `step`, for which a gap surely stays at least 0.  The gap is value >= 0 now,
+    changes by `rate`, and is accelerated by at least -fall, and by at least
+    push + jerk s - bend s^2/2.
 
     >>> sure_step(1.0, 0.0, -2.0, 0.0, 10.0, 0.0, 5.0), sure_step(1.0, 0.0, 0.0, 1.0, 2.0, 9.0, 5.0)
     (1.0, 1.0)
@@ -116,8 +117,8 @@ def sure_step(
 def lands_after(
     gap: float, rate: float, push: float, jerk: float, bend: float, close: float
 ) -> float:
-    """When a gap is 0 that is near it and falls, from now on, in seconds; 1e300 where its terms to
-    the third order do not tell that to `close`.
+    """The time in seconds, from now on, at which a gap near 0 that falls is 0; 1e300 if its terms
+    up to the third order do not give the gap to within `close`.
 
     >>> lands_after(0.01, -1.0, 0.0, 0.0, 0.0, 1e-9), lands_after(1.0, -1.0, -2.0, 0.0, 0.0, 1e-9)
     (0.01, 1e+300)
@@ -135,12 +136,12 @@ def lands_after(
 
 @compiled
 def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
-    """A time of the flight from which on corner i is below the table, or where it set out if that
-    was in the table, but for a rounding by which it rises, and comes down; at most `late`, by which
-    it does.  A hop that is lost in rounding ends where it is highest.
+    """The time of the flight at which corner i comes down through the table, or through the height
+    from which it set out if that was in the table, up to rounding; at most `late`, when it has come
+    down.  A hop that is lost in rounding ends where it is highest.
 
-    By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that
-    side; half of the bracket where one leaves it.
+    It is found by Newton's steps from the later end of a bracket; for a concave gap they stay on
+    that side.  If a step leaves the bracket, the bracket is halved.
     """
     start = z[Y] + corner_y(p, i, cos(z[THETA]), sin(z[THETA])) - table_height(p, z[TIME])
     height = min(start + ROUNDED * p[SIZE], 0.0)
@@ -190,8 +191,8 @@ Landing = tuple[int, float, float, float, float, float]
 
 @compiled
 def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why
-    it gave up.
+    """Moves a flying block on until a corner meets the table, or to the time `until`; returns DONE,
+    or why it gave up.
 
     The first step is taken even where a corner touches: the last impact made it leave, and the gap
     cannot fall below the tolerance's negative.
@@ -201,8 +202,8 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 @inlined
 def land(p: Floats, z: Floats, until: float, notes: Floats) -> Landing:
-    """The same; with cosine and sine of theta, and the height of the table, its speed and its
-    acceleration upwards, where the flight ends.  CORNER is the lowest corner there.
+    """The same; also returns cosine and sine of theta, and the height of the table, its speed and
+    its acceleration upwards, where the flight ends.  CORNER is the lowest corner there.
     """
     t, y, theta, rise, omega = z[TIME], z[Y], z[THETA], z[V_Y], z[OMEGA]
     tolerance, W, sine = p[TOLERANCE], p[W_Y], p[DRIVE] == SINE

@@ -31,7 +31,7 @@ def place(k: int) -> tuple[int, int]:
 
 
 def rows(count: int) -> int:
-    """How many rows so many blocks take; SceneError where that is none, or too many to see.
+    """How many rows this many blocks take; raises SceneError for none, or for too many to see.
 
     >>> rows(91)
     10
@@ -45,15 +45,15 @@ def rows(count: int) -> int:
 
 
 def pitch(setting: Scene) -> float:
-    """How far apart the places are, in metres: a block that turns does not reach its
-    neighbours'.
+    """The distance from one place to the next, in metres: a block that turns does not reach its
+    neighbours.
     """
     return PITCH * geometry(setting.polygon()).reach
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
     """Which blocks are nearer to lying than to upright, as table I distinguishes them
-    (`juggleproof.scenes.part.rest`); of states (..., 10) the shape is (...).
+    (`juggleproof.scenes.part.rest`): for states of shape (..., 10) an array of shape (...).
     """
     return np.isin(faces_below(setting, states[..., body.THETA]), setting.lying())
 
@@ -64,7 +64,7 @@ def noun(setting: Scene) -> str:
 
 
 def ways(setting: Scene) -> tuple[str, str]:
-    """What a block is called that does not lie, and one that does."""
+    """The names for a block that does not lie and for one that does."""
     if setting.shape is None:
         return "nearer to upright", "nearer to lying"
     return "over a higher face", "over a lowest face"

@@ -31,7 +31,7 @@ Rows = NDArray[np.float64]
 #
 # The orbit of one block: flights, impacts and contact in turn; and of many, one after another.
 
-# of one block, in any second of its run: chatter that does not end is told, and not followed
+# the most in a second of a block's run: chatter that does not end is reported, not followed
 MOST_EVENTS, MOST_STEPS = 1_000_000, 10_000_000
 SECOND = 1.0
 
@@ -39,7 +39,7 @@ SECOND = 1.0
 @compiled
 def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the
-    time `until`; DONE, or why it gave up.
+    time `until`; returns DONE, or why it gave up.
     """
     if z[MODE] == FACE:
         return lie(p, z, until, notes)
@@ -55,8 +55,8 @@ def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 @compiled
 def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave
-    up.
+    """Moves one block on to the time `until`, its state z and notes in place; returns DONE, or why
+    it gave up.
     """
     begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
     while z[TIME] < until:
@@ -74,8 +74,8 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 # -------------------------------------------------------------------------------------------------
 # Places at given times.
 #
-# Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos
-# soon makes another orbit of that.
+# The states of blocks at given times of an orbit that is not stopped there: a stop adds a rounding,
+# and chaos soon turns that into another orbit.
 
 
 @compiled
@@ -95,12 +95,12 @@ def sample(
     earlier: Floats,
     spare: Floats,
 ) -> int:
-    """One block at times that do not fall, a row of `samples` each, while it is moved on, event by
-    event, to the last; DONE, or why it gave up.  `earlier`, a state, and `spare` notes are room to
-    work in.
+    """Moves one block on, event by event, to the last of the times, which do not fall, and fills a
+    row of `samples` with its state at each of them.  Returns DONE, or why it gave up.  The state
+    `earlier` and the notes `spare` are room to work in.
 
-    Between two events the block is where a copy comes to that sets out from the earlier one; the
-    block itself does not stop.
+    For a time between two events a copy is moved on from the earlier event to that time; the block
+    itself does not stop.
     """
     last, k = len(samples) - 1, 0
     begun, events, most = z[TIME], 0, notes[STEPS] + MOST_STEPS
@@ -133,9 +133,10 @@ def sample(
 def move_all(
     p: Floats, states: Rows, times: Floats, notes: Rows, samples: Rows, room: Rows, codes: Rows
 ) -> None:
-    """Moves n blocks on to the last of `times`, a row of `states` (n, 10) and of `notes` (n, 16)
-    each; `samples` (n, len(times), 10) is where they are at each of these, or has the shape
-    (n, 0, 10), and `room` (2, 16) is to work in.  `codes` (n,) tells how each run ended.
+    """Moves n blocks on to the last of `times`; each has a row of `states` (n, 10) and of `notes`
+    (n, 16).  `samples` (n, len(times), 10) is filled with their states at each of the times, unless
+    it has the shape (n, 0, 10); `room` (2, 16) is room to work in.  `codes` (n,) is filled with how
+    each run ended.
     """
     for k in range(len(states)):
         if samples.shape[1] == 0:
@@ -145,8 +146,8 @@ def move_all(
 
 
 def follow_all(p: Floats, states: Rows, until: float, notes: Rows) -> Rows:
-    """Moves n blocks on to a time, a row of `states` (n, 10) and of `notes` (n, 16) each; how each
-    run ended, shape (n,).
+    """Moves n blocks on to a time; each has a row of `states` (n, 10) and of `notes` (n, 16).
+    Returns how each run ended, shape (n,).
     """
     return sample_all(
         p, states, np.array([until], dtype=float), notes, np.empty((len(states), 0, STATE))
@@ -155,7 +156,7 @@ def follow_all(p: Floats, states: Rows, until: float, notes: Rows) -> Rows:
 
 def sample_all(p: Floats, states: Rows, times: Floats, notes: Rows, samples: Rows) -> Rows:
     """The same to the last of the times, which do not fall; `samples`, of shape (n, len(times),
-    10), is filled with where the blocks are at each of these.
+    10), is filled with the states at each of these.
     """
     codes = np.zeros(len(states))
     move_all(p, states, times, notes, samples, np.zeros((2, NOTES)), codes)

@@ -26,9 +26,9 @@ from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, 
 #
 # Onset of an ensemble: the last time at which any of its blocks is nearer to upright than to lying.
 # An ensemble is chaotic if in the second half of the run blocks pass both ways, from upright to
-# lying and from lying to upright; a row is, if more than half of its ensembles are.  An ensemble
-# with a block nearer to upright at the end, and not chaotic, is censored: its onset is later than
-# the run is long.
+# lying and from lying to upright; a row is chaotic if more than half of its ensembles are.  An
+# ensemble that is not chaotic and has a block nearer to upright at the end is censored: its onset
+# is later than the end of the run.
 
 # frequency in hertz, amplitude in metres, and the onset in seconds that the paper prints; None:
 # "chaotic"
@@ -70,17 +70,15 @@ class Row:
     horizon: float
 
     def quantile(self, part: float) -> float:
-        """The onset that this part of the ensembles has reached; inf where that is after the end of
-        the run.
-        """
+        """The onset of this quantile of the ensembles; inf if that is after the end of the run."""
         return float(np.sort(self.onsets)[max(0, int(np.ceil(part * len(self.onsets))) - 1)])
 
     def is_chaotic(self) -> bool:
-        """Whether more than half of the ensembles are."""
+        """Whether more than half of the ensembles are chaotic."""
         return 2 * sum(self.chaotic) > len(self.chaotic)
 
     def censored(self) -> int:
-        """How many ensembles, not chaotic, have not settled at the end."""
+        """How many ensembles are not chaotic and have not settled at the end."""
         return int(np.isinf(self.onsets).sum()) - sum(self.chaotic)
 
 
@@ -103,10 +101,10 @@ def jittered(ensembles: int, seed: int) -> Array:
 
 
 def jittered_phases(ensembles: int, seed: int) -> Array:
-    """By how much the phase along the table of each ensemble is moved, in radians, shape
-    (ensembles,): at most a millionth of a degree.
+    """The shift of each ensemble's phase along the table, in radians, shape (ensembles,): at most a
+    millionth of a degree.
 
-    A block that comes to lie forgets at which angle it started; the phase it meets again.
+    A block that comes to lie forgets the angle at which it started, but not the phase.
     """
     moves = np.random.default_rng((seed, 1)).uniform(-JITTER, JITTER, ensembles)
     return np.radians(moves)
@@ -127,11 +125,11 @@ def table_one(
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the
     table is replaced by that of each row.
 
-    `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak
-    to peak.  `report` is called with how many ensembles are done, and of how many.  `check`:
+    The amplitude is `peak` times the printed one: 1, or 1/2 if prints are from peak to peak.
+    `report` is called with the number of ensembles that are done, and that of all.  `check`:
     whether broken guarantees are counted; `keep`: a folder for what is done, as in `run`.
-    SceneError for numbers out of range, and without numba; `Interrupted`, with the rows that are
-    done, where it is interrupted.
+    Raises SceneError for numbers out of range, and without numba; `Interrupted`, with the rows that
+    are done, if it is interrupted.
     """
     refuse_long(setting, horizon, "horizon")
     if horizon == 0:
@@ -195,7 +193,7 @@ def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: 
 
 def discrepancies(rows: tuple[Row, ...]) -> list[str]:
     """Where the rows differ from the paper's: a row is chaotic on one side only, or the paper's
-    onset is outside of the 16 to 84 percent.
+    onset is outside of the range from 16 to 84 percent of the ensembles.
     """
     lines = []
     for row in rows:
@@ -217,7 +215,7 @@ def discrepancies(rows: tuple[Row, ...]) -> list[str]:
 # -------------------------------------------------------------------------------------------------
 # Files.
 #
-# Table I as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
+# Table I as files: CSV with a line for each ensemble, and NumPy arrays; the same to the byte
 # from run to run.
 
 HEADS = ("f_x [Hz]", "A_x [m]", "paper [s]", "ensemble", "onset [s]", "chaotic", "censored")

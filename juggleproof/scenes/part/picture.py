@@ -66,15 +66,15 @@ FORMS = {"svg": as_svg, "pdf": pdf}
 
 
 def as_in_figure_two(setting: Scene, peak: float = 1.0) -> Scene:
-    """The scene with the vibration along the table of the paper's figure 2: 30 Hz and 1 mm, of
-    which the part `peak` is the amplitude.
+    """The scene with the vibration along the table of the paper's figure 2: 30 Hz, and `peak` times
+    1 mm as the amplitude.
     """
     return replace(setting, f_x=FREQUENCY, A_x=peak * AMPLITUDE)
 
 
 def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
     """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's
-    vibration.  SceneError for another form.
+    vibration.  Raises SceneError for another form.
     """
     if form not in FORMS:
         raise SceneError(f"form = {form[:40]!r}: choose from {', '.join(FORMS)}")
@@ -82,7 +82,7 @@ def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
 
 
 def caption(setting: Scene, seen: Array) -> str:
-    """What stands below the figure."""
+    """The caption below the figure."""
     counts = "; ".join(
         f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are"
         f" {ways(setting)[1]}"
@@ -255,8 +255,8 @@ def shares(
     names: Mapping[float, str] | None = None,
     mark: tuple[float, str] | None = None,
 ) -> bytes:
-    """Shares, with the low and the high end of their intervals, over places, which have names or
-    are numbers; and a mark at one of them.
+    """A picture of shares, with the low and the high end of their intervals, over places, which
+    have names or are numbers; with a mark at one of them.
     """
     step = min(np.diff(places), default=1.0)
     across = (places[0] - step, places[-1] + step)

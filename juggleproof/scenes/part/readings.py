@@ -84,7 +84,7 @@ def likelihood(rows: Sequence[Row]) -> float:
 
 
 def most_likely(paper: float | None, count: int, horizon: float) -> float:
-    """The most that `row_likelihood` can be, for so many ensembles."""
+    """The greatest possible value of `row_likelihood`, for this number of ensembles."""
     onsets = np.full(count, math.inf if paper is None else paper)
     return row_likelihood(Row(0.0, 0.0, paper, onsets, (paper is None,) * count, horizon))
 
@@ -93,16 +93,16 @@ def most_likely(paper: float | None, count: int, horizon: float) -> float:
 # Readings.
 #
 # A reading takes "magnitude" as the peak or from peak to peak, and lets the table start at a phase
-# on each axis.  Its onset has three: the last time at which a block is nearer to upright; the first
-# at which, looking each tenth of a second, none is; and the same where the run is stopped then, so
-# that only a run that never comes to that can be called chaotic.
+# on each axis.  An onset has three readings: the last time at which a block is nearer to upright;
+# the first at which, looking each tenth of a second, none is; and the same where the run is stopped
+# then, so that only a run that never comes to that can be called chaotic.
 
 Rule = Literal["last", "first", "stopped"]
 ONSETS: tuple[Rule, ...] = ("last", "first", "stopped")
 # half sides in metres of the block's face in the plane
 FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}
 AMPLITUDES = {"peak": 1.0, "peak-to-peak": 0.5}
-ORDER = (0, 2, 4, 5, 3, 1)  # of the rows: those with an onset part readings soonest
+ORDER = (0, 2, 4, 5, 3, 1)  # of the rows: those with an onset tell readings apart soonest
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class Reading:
 
     @property
     def peak(self) -> float:
-        """How much of a printed amplitude is the amplitude."""
+        """The factor from a printed amplitude to the amplitude."""
         return AMPLITUDES[self.amplitudes]
 
     def scene(
@@ -130,9 +130,9 @@ class Reading:
         drive: Harmonics | None = None,
         **numbers: float,
     ) -> Scene:
-        """The scene with the vertical vibration of table I, and none along the table but for what
-        is given; a shape in place of the face, a drive in place of both vibrations.  SceneError for
-        numbers that make none.
+        """The scene with the vertical vibration of table I, and with none along the table unless it
+        is given.  A shape replaces the face, a drive both vibrations.  Raises SceneError for
+        numbers that make no scene.
 
         >>> Reading("1x2", "peak-to-peak", 0, 0, 0.7, 0.08).scene().A_y
         0.0001
@@ -148,10 +148,10 @@ class Reading:
 
 @dataclass(frozen=True)
 class Point:
-    """Table I under one reading: each row's median onset in seconds by the last time, None where
-    that is late or chaotic; by the first time; chaotic ensembles; the logarithm of the likelihood
-    by each of `ONSETS`.  All are empty where the reading was given up as unlikely; `impacts` were
-    computed.
+    """Table I under one reading: each row's median onset in seconds by the last time, None if that
+    is late or chaotic; the same by the first time; its number of chaotic ensembles; the logarithm
+    of the likelihood by each of `ONSETS`.  All are empty if the reading was given up as unlikely.
+    `impacts` is the number of impacts that were computed.
     """
 
     reading: Reading
@@ -163,7 +163,7 @@ class Point:
 
     @property
     def likelihood(self) -> float:
-        """The largest of the three; minus infinity where the reading was given up."""
+        """The largest of the three likelihoods; minus infinity if the reading was given up."""
         return max(self.likelihoods, default=-math.inf)
 
 
@@ -181,7 +181,7 @@ class Task(NamedTuple):
 
 
 def point(task: Task) -> Point:
-    """Table I under one reading.  SceneError where a block is stuck."""
+    """Table I under one reading.  Raises SceneError where a block is stuck."""
     starts = list(
         zip(jittered(task.ensembles, task.seed), jittered_phases(task.ensembles, task.seed))
     )
@@ -252,8 +252,8 @@ def sweep(
     report: Callable[[int, int], None] | None = None,
     done: list[Point] | None = None,
 ) -> list[Point]:
-    """The points of tasks, in their order, on any executor; `report` and `done` as of `run_jobs`.
-    SceneError for none or too many, for a horizon out of range, and without numba.
+    """The points of tasks, in their order, on any executor; `report` and `done` as in `run_jobs`.
+    Raises SceneError for no tasks or too many, for a horizon out of range, and without numba.
     """
     if not 0 < len(tasks) <= MOST_POINTS:
         raise SceneError(f"a sweep of {len(tasks)} points is outside 1 .. {MOST_POINTS}")
@@ -269,10 +269,10 @@ def sweep(
 # -------------------------------------------------------------------------------------------------
 # The search.
 #
-# One ensemble of 6 s a reading screens the grid, and gives up what is sure to be unlikely, mostly
-# after two rows; four look nearer at the likeliest and at the phases about a reading known to fit.
-# The likeliest of these, and the stated, are then followed for 24 ensembles of 12 s.  Each stage
-# has a seed of its own.
+# First the grid is screened with one ensemble of 6 s for each reading; a reading that is sure to be
+# unlikely is given up, mostly after two rows.  Then four ensembles are run for the likeliest and
+# for the phases around a reading that is known to fit.  At last the likeliest of these, and the
+# stated ones, are followed for 24 ensembles of 12 s.  Each stage has a seed of its own.
 
 RECORD = Path(__file__).with_name("sweep.json")
 PHASES = (-90, 0, 90)
@@ -287,7 +287,7 @@ SCREEN = (1, 0, 6.0, -7.0)  # ensembles, seed, horizon in seconds, and when to g
 NEARER = (4, 3, 6.0, -7.0)
 FINAL = (24, 2, 12.0)
 KEPT, FINALISTS = 60, 8  # of the stage before
-SCATTER = 1.0  # of the logarithm of a likelihood by 24 ensembles: less is not told apart
+SCATTER = 1.0  # of the logarithm of a likelihood by 24 ensembles: smaller differences say nothing
 
 
 @dataclass(frozen=True)
@@ -305,7 +305,7 @@ class Stage:
 
 
 def stage(tasks: Sequence[Task], points: Sequence[Point]) -> Stage:
-    """What was done of some tasks."""
+    """The stage of some tasks, from their points."""
     first = tasks[0]
     kept = tuple(one for one in points if one.likelihoods)
     impacts = sum(one.impacts for one in points)
@@ -313,7 +313,7 @@ def stage(tasks: Sequence[Task], points: Sequence[Point]) -> Stage:
 
 
 def screened() -> list[Task]:
-    """All that is screened: restitutions, frictions, both faces, amplitudes and the phases on each
+    """The tasks of the screen: all restitutions, frictions, faces, amplitudes and phases on each
     axis.
     """
     readings = (
@@ -325,8 +325,8 @@ def screened() -> list[Task]:
 
 
 def nearer(screened: Sequence[Point]) -> list[Task]:
-    """All that is looked at nearer: the likeliest of the screen, and the phases at restitution and
-    friction about the first stated reading.
+    """The tasks of the nearer look: the likeliest of the screen, and the phases at restitutions and
+    frictions around the first stated reading.
     """
     about = (
         replace(STATED[0], phase_x=along, phase_y=up, e=e, mu=mu)
@@ -337,19 +337,19 @@ def nearer(screened: Sequence[Point]) -> list[Task]:
 
 
 def finals(looked_at: Sequence[Point]) -> list[Task]:
-    """The stated readings, and the likeliest of those looked at nearer, as they are followed."""
+    """The tasks of the last stage: the stated readings, and the likeliest of the nearer look."""
     readings = dict.fromkeys((*STATED, *likeliest(looked_at, FINALISTS)))
     return [Task(one, one.scene(), *FINAL) for one in readings]
 
 
 def likeliest(points: Sequence[Point], count: int) -> list[Reading]:
-    """The readings of at most so many points that were not given up, the likeliest first."""
+    """The readings of at most `count` points that were not given up, the likeliest first."""
     kept = sorted((one for one in points if one.likelihoods), key=lambda one: -one.likelihood)
     return [one.reading for one in kept[:count]]
 
 
 def as_json(stages: Sequence[Stage]) -> str:
-    """A record of a sweep: its stages, a line a point."""
+    """A record of a sweep: its stages, with a line for each point."""
     kept = []
     for one in stages:
         head = {name: value for name, value in asdict(one).items() if name != "points"}
@@ -365,7 +365,7 @@ def _results(one: Point) -> dict[str, object]:
 
 
 def read(text: str) -> tuple[Stage, ...]:
-    """The stages of a record; ValueError, KeyError or TypeError for any other text."""
+    """The stages of a record; raises ValueError, KeyError or TypeError for any other text."""
     return tuple(
         Stage(**{**kept, "points": tuple(map(_point, kept["points"]))}) for kept in json.loads(text)
     )
@@ -382,7 +382,7 @@ def _point(kept: dict[str, object]) -> Point:
 @cache
 def recorded() -> tuple[Stage, ...]:
     """The search that is stored beside this file; the reading of the scene comes from it.
-    SceneError where it cannot be read.
+    Raises SceneError where it cannot be read.
 
     >>> chosen(recorded()) in as_good(recorded())
     True
@@ -434,8 +434,8 @@ class Assumption:
 
 
 def assumptions(setting: Scene, amplitudes: str) -> list[Assumption]:
-    """All that a run of table I assumes; what is as in the reading that is chosen of the stored
-    search is inferred, all else chosen.
+    """All that a run of table I assumes.  A value is inferred if it is that of the reading which
+    the stored search suggests, else it is chosen.
     """
     try:
         likely = chosen(recorded()).reading

@@ -66,12 +66,12 @@ from juggleproof.scenes.part.strike import foot, hold, stay, strike
 # -------------------------------------------------------------------------------------------------
 # Which way up.
 #
-# On which face a block would come to lie from where it is, as it is noted: on a lowest one or on
-# another, since when, and how often that changed.
+# What is noted of a block: whether the face on which it would come to lie from its present angle is
+# a lowest one, since when, and how often that changed.
 #
-# Two faces are parted where a block, tilted on a corner, has its centre above that corner: a
-# rectangle at atan(a/b) from upright.  From AT_SIDES on stand these angles, from -pi on, and for
-# the side below each whether its face is a lowest one.
+# The sides of two faces meet at the angle at which a block, tilted on a corner, has its centre
+# above that corner: for a rectangle, at atan(a/b) from upright.  These angles are stored from
+# AT_SIDES on, beginning at -pi; then, for the side below each, whether its face is a lowest one.
 
 
 @compiled
@@ -138,8 +138,8 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
 # A block whose face lies on the table: it sticks or slides, until the table falls away, friction
 # fails, sliding stops, or the block tips.
 #
-# All in closed form but for the times at which friction fails or sliding stops; these come, like
-# the end of a flight, from below.
+# All is in closed form except the times at which friction fails or sliding stops; these are
+# approached from below, like the end of a flight.
 
 MOST_STEPS = 1_000_000  # of one call; a pivot goes on in the next
 SPEED_RESOLUTION, FORCE_RESOLUTION = 1e-12, 1e-9  # of a stop, in m/s, and of a slip, in m/s^2
@@ -149,8 +149,8 @@ LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of
 
 @compiled
 def lift_off(p: Floats, t: float, end: float, notes: Floats) -> float:
-    """The time (s) at which the table next falls faster than g, t where it does; 1e300 where it
-    does not up to `end`, -1 where that took too many steps.
+    """The time (s) at which the table next falls faster than g: t if it does so then, 1e300 if it
+    does not up to `end`, -1 if that took too many steps.
     """
     if p[G] + table_lift(p, t) <= 0:
         return t
@@ -178,8 +178,8 @@ def lift_off(p: Floats, t: float, end: float, notes: Floats) -> float:
 
 @compiled
 def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, float]:
-    """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
-    how fast that changes.
+    """The margin by which friction `grip` N exceeds what sticking needs against a push to the side
+    `way`, and the rate at which it changes.
     """
     value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
     if p[DRIVE] != SINE:
@@ -196,8 +196,8 @@ def slip_time(
     p: Floats, t: float, end: float, left: float, right: float, notes: Floats
 ) -> tuple[float, float]:
     """The first time up to `end` at which sticking needs more than `right` times the normal force
-    to the right, or `left` times it to the left, and to which side, 1 or -1; `end` where there is
-    none, -1 where it took too many steps.
+    to the right, or `left` times it to the left, and the side, 1 or -1.  The time is `end` if there
+    is none, -1 if it took too many steps.
     """
     grip = max(abs(left), abs(right))
     fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
@@ -230,8 +230,8 @@ def slip_time(
 
 @compiled
 def stop_time(p: Floats, t: float, end: float, slide: float, S: float, notes: Floats) -> float:
-    """The first time up to `end` at which a face that slides at S stops; `end` where there is
-    none, -1 where it took too many steps.
+    """The first time up to `end` at which a face that slides at S stops; `end` if there is none, -1
+    if it took too many steps.
     """
     mu, wy, wx = p[FRICTION], p[W_Y], p[W_X]
     fall = mu * abs(p[A_Y]) * wy**3 + abs(p[A_X]) * wx**3 + LEAST_FALL
@@ -257,8 +257,8 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float, notes: Fl
 
 @compiled
 def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a block that lies on a face on until it leaves it, or to the time `until`; DONE, or why
-    it gave up.
+    """Moves a block that lies on a face on until it leaves it, or to the time `until`; returns
+    DONE, or why it gave up.
     """
     t, x, vx, slide = z[TIME], z[X], z[V_X], z[SLIDE]
     left, tall, right = foot(p, int(z[CORNER]))
@@ -378,8 +378,8 @@ def pivoted(
 
 @compiled
 def step_factor(p: Floats, theta: float, i: int, slide: float) -> float:
-    """The part of the usual step that is right here: near jamming the force at a sliding corner
-    changes as fast as 1/(B2 +- mu B3) is large.
+    """The share of the usual step that is taken here: near jamming the force at a sliding corner
+    changes at a rate in proportion to 1/(B2 +- mu B3).
     """
     if slide == 0:
         return 1.0
@@ -415,7 +415,7 @@ def margin(
 def ending(
     p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: int
 ) -> int:
-    """What no longer holds of the phase: LASTS where everything does."""
+    """The way in which the phase has ended; LASTS if it has not."""
     if margin(p, LANDS, t, vx, theta, omega, i, slide, turn) < 0:
         return LANDS
     if margin(p, LETS_GO, t, vx, theta, omega, i, slide, turn) <= 0:
@@ -438,12 +438,11 @@ def end_of_phase(
     h: float,
     ended: int,
 ) -> tuple[float, float, int]:
-    """Two lengths of a step, TIME_RESOLUTION apart, between which the phase first ends, the first 0
-    where it ends at once; and how it ends.
+    """Two lengths of a step, TIME_RESOLUTION apart, between which the phase first ends, and how it
+    ends; the first is 0 if it ends at once.  After a step of h it has ended.
 
-    Of a step of h, after which it has ended.  Guesses by the Illinois method (Dowell and Jarratt,
-    1971); halves instead where the bracket is longer than a third as many halvings would have left
-    it.
+    Guesses are made by the Illinois method (Dowell and Jarratt, 1971).  The bracket is halved
+    instead if it is longer than a third as many halvings would have left it.
     """
     early, late, allowed, side = 0.0, h, 8 * h, 0
     above = margin(p, ended, t, vx, theta, omega, i, slide, turn)
@@ -485,14 +484,14 @@ def end_of_phase(
 # to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the next corner
 # comes down) is looked for at the end of every step and then bracketed.
 
-# A phase that ends at once, after one that did so, lasts a MOMENT, so that time passes; no longer,
-# since a friction that goes on where sliding has stopped would add energy.
+# A phase that ends at once, after one that did so, lasts a MOMENT, so that time passes; it lasts no
+# longer, since friction that goes on after sliding has stopped would add energy.
 
 
 @compiled
 def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
-    `until`; DONE, or why it gave up.
+    `until`; returns DONE, or why it gave up.
     """
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]

@@ -1,9 +1,9 @@
-"""On which face parts come to rest: probabilities for a distribution of starts, with intervals;
-and from where on a drive leaves no part on stated faces.
+"""The faces on which parts come to rest: probabilities for a distribution of starts, with
+intervals; and the least drive that leaves no part on stated faces.
 
 Parts start with their lowest corner on the table, are shaken for some time, and then the table
 stops at once: each part goes on as fast as it was, and falls on a still table until it lies.  So
-every part has a face on which it rests, also where the vibration never lets it lie.
+every part has a face on which it rests, even if the vibration never lets it lie.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ MOVING = -1  # instead of a face, for a part that does not lie by then
 
 
 class Column(NamedTuple):
-    """One column: its name, its unit, "" where it has none, and its values, one a row."""
+    """One column: its name, its unit ("" if it has none), and its values, one for each row."""
 
     name: str
     unit: str
@@ -58,7 +58,7 @@ class Column(NamedTuple):
 
 
 def write_csv(columns: Sequence[Column], file: BinaryIO) -> None:
-    """Writes a line a row, with floats to the last bit."""
+    """Writes a line for each row, with floats to the last bit."""
     text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
     lines = csv.writer(text, lineterminator="\n")
     lines.writerow([one.head() for one in columns])
@@ -85,7 +85,7 @@ def resting_faces(
     still = replace(setting, A_x=0.0, A_y=0.0, drive=None)
     p = setting.parameters().tolist()
     after = states.copy()
-    after[:, body.MODE :] = 0.0  # in flight: what lies is as fast as the table was
+    after[:, body.MODE :] = 0.0  # in flight: a block that lies is as fast as the table was
     for k, t in enumerate(states[:, body.TIME].tolist()):
         after[k, body.Y] -= body.table_height(p, t)
         after[k, body.X] -= body.table_place(p, t)
@@ -111,7 +111,9 @@ class Starts:
     even: bool
 
     def drawn(self, parts: int, seed: int) -> Array:
-        """So many angles, in radians, drawn independently; SceneError for another number."""
+        """Angles in radians, one for each part, drawn independently; raises SceneError for a
+        number of parts out of range.
+        """
         if not 1 <= parts <= MOST_PARTS:
             raise SceneError(f"parts = {parts} is outside 1 .. {MOST_PARTS}")
         draws = np.random.default_rng(seed)
@@ -136,7 +138,7 @@ class Starts:
 
 
 def between(low: float, high: float) -> Starts:
-    """Angles that are even over an interval, in degrees; SceneError for one without width."""
+    """Angles that are even over an interval, in degrees; raises SceneError if it has no width."""
     if not -360 <= low < high <= 360:
         raise SceneError(
             f"angles from {low:g} to {high:g}: give ends that grow, within -360 .. 360"
@@ -145,7 +147,9 @@ def between(low: float, high: float) -> Starts:
 
 
 def listed(angles: Sequence[float]) -> Starts:
-    """Angles of a list, in degrees, each as probable as the others; SceneError for an empty one."""
+    """Angles of a list, in degrees, each as probable as the others; raises SceneError for an empty
+    one.
+    """
     if not angles or not all(-360 <= one <= 360 for one in angles):
         raise SceneError("angles: give at least one, within -360 .. 360 degrees")
     return Starts(tuple(map(float, angles)), False)
@@ -155,8 +159,8 @@ ANY_ANGLE = between(0, 360)
 
 
 def wilson(hits: int, count: int, confidence: float = CONFIDENCE) -> Interval:
-    """The interval of Wilson (1927) for a probability of which `hits` of `count` independent trials
-    tell: (p + z^2/2n -+ z sqrt(p (1 - p)/n + z^2/4n^2))/(1 + z^2/n), with p = hits/n.
+    """The interval of Wilson (1927) for a probability, from `hits` in n = `count` independent
+    trials: (p + z^2/2n -+ z sqrt(p (1 - p)/n + z^2/4n^2))/(1 + z^2/n), with p = hits/n.
 
     >>> [round(end, 4) for end in wilson(8, 10)], [round(end, 4) for end in wilson(0, 100)]
     ([0.4902, 0.9433], [0.0, 0.037])
@@ -174,7 +178,7 @@ def wilson(hits: int, count: int, confidence: float = CONFIDENCE) -> Interval:
 
 @dataclass(frozen=True)
 class Orientation:
-    """On how many of the parts each face is below at the end; and how many lie on none."""
+    """The number of parts that lie on each face at the end, and of those that lie on none."""
 
     setting: Scene
     starts: Starts
@@ -198,7 +202,7 @@ class Orientation:
         )
 
     def columns(self) -> Sequence[Column]:
-        """Return a row a face: its side, the angle at which it lies, and its share."""
+        """Return columns with a row for each face: its side, its angle when it lies, its share."""
         around = np.array(self.setting.polygon().corners)
         sides = np.hypot(*(np.roll(around, -1, axis=0) - around).T)
         found = np.array([self.share(face) for face in range(len(self.counts))])
@@ -241,8 +245,8 @@ def orientation(
     report: Report | None = None,
 ) -> Orientation:
     """How often parts, drawn from a distribution of starts, come to rest on each face after being
-    shaken for so many seconds, none at all for 0; `report` as in `run`.  SceneError for numbers out
-    of range.
+    shaken for `shaken` seconds, or not at all if that is 0; `report` as in `run`.  Raises
+    SceneError for numbers out of range.
 
     >>> from juggleproof.scenes.part.setting import scene
     >>> orientation(scene(e=0.5, mu=0.3), listed([90]), parts=4, shaken=0.0).counts
@@ -262,8 +266,8 @@ def orientation(
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of a scene that is swept: its name there, its unit, and how much of it one such unit
-    is.
+    """A number of a scene that is swept: its name there, its unit, and the factor from this unit to
+    the scene's.
     """
 
     field: str
@@ -271,15 +275,16 @@ class Parameter:
     scale: float
 
     def set_in(self, setting: Scene, value: float) -> Scene:
-        """Return the scene with another value, given in the unit; SceneError for one out of
+        """Return the scene with another value, given in the unit; raises SceneError for one out of
         range.
         """
         return changed(setting, **{self.field: self.scale * value})
 
 
 def parameters(peak: float = 1.0) -> Mapping[str, Parameter]:
-    """Return what can be swept, by name: of the motion along the table, and `-up`; `peak` is how
-    much of an amplitude is the scene's, 1/2 where it is from peak to peak.
+    """Return the numbers that can be swept, by name: those of the motion along the table, and with
+    `-up` those of the motion up.  The scene's amplitude is `peak` times the value: 1/2 if values
+    are from peak to peak.
     """
     return {
         "e": Parameter("e", "", 1.0),
@@ -336,8 +341,8 @@ class Clearing:
     shaken: float
 
     def least(self) -> float | None:
-        """The least value of the grid from which on, there and at every larger one, no part is left
-        on the faces; None where parts are left at the largest.
+        """The least value of the grid such that at this value and all larger ones no part is left
+        on the faces; None if parts are left at the largest.
         """
         clear = None
         for value, left in zip(reversed(self.values), reversed(self.left)):
@@ -347,7 +352,7 @@ class Clearing:
         return clear
 
     def islands(self) -> list[float]:
-        """Values that leave none, though a larger one does: clearing is not monotone there."""
+        """Values that leave no part though a larger one leaves some: clearing is not monotone."""
         least = self.least()
         return [
             value
@@ -398,7 +403,7 @@ class Clearing:
         )
 
     def columns(self) -> Sequence[Column]:
-        """Return a row a value: how many parts are left, and their share."""
+        """Return columns with a row for each value: how many parts are left, and their share."""
         found = np.array(self.shares())
         return (
             Column(self.name, self.unit, np.array(self.values)),
@@ -441,8 +446,8 @@ def clearing(
 ) -> Clearing:
     """How many parts of a distribution of starts are left on the faces at each value of one
     parameter, the rest as in the scene; a part that lies on no face at the end counts as left.
-    Every value has the same starts.  SceneError for a face that there is not, and numbers out of
-    range.
+    Every value has the same starts.  Raises SceneError for a face that does not exist, and for
+    numbers out of range.
     """
     known = parameters(peak)
     if len(grid) != 1 or set(grid) - set(known):

@@ -29,7 +29,7 @@ LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
 LONGEST = 1e5  # seconds of a run
 COARSEST = 0.01  # of half the short side: the largest tolerance
 ROUNDING = 0.05  # of the tolerance: the most by which a gap may be rounded
-HOP = 4.0  # by which a hop is to surpass what is lost in rounding
+HOP = 4.0  # the factor by which a hop has to exceed what is lost in rounding
 LEAST_LOSS = 1e-6  # of energy in an impact: below, it counts as lossless
 FASTEST, FASTEST_TURN = 1e3, 1e5  # m/s and rad/s of a start
 RANGES = {
@@ -88,13 +88,13 @@ class Scene:
     drive: Harmonics | None = None
 
     def polygon(self) -> Polygon:
-        """The block's corners, of a rectangle from the lower left one on."""
+        """The block as a polygon; the corners of a rectangle begin at the lower left."""
         a, b = self.a, self.b
         return self.shape or Polygon(((-a, -b), (a, -b), (a, b), (-a, b)))
 
     def lying(self) -> tuple[int, ...]:
-        """The edges on which a block counts as lying: those above which its centre is lowest when
-        at rest, of a rectangle the long ones.
+        """The edges on which a block counts as lying: of those on which it can rest, those above
+        which its centre is lowest; for a rectangle the long ones.
 
         >>> scene(e=0.7, mu=0.08).lying()
         (1, 3)
@@ -144,14 +144,14 @@ class Scene:
 
     def shaken(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(A, W) along the table and away from it, such that A W^k bounds the derivatives of its
-        place from the second to the fourth; the amplitude and the frequency of a sine.
+        place from the second to the fourth; for a single sine, its amplitude and frequency.
         """
         if self.drive is not None:
             return self.drive.bounds()
         return (self.A_x, 2 * math.pi * self.f_x), (self.A_y, 2 * math.pi * self.f_y)
 
     def highest(self) -> float:
-        """How far from 0 the table's height is at most, in metres."""
+        """The greatest distance of the table's height from 0, in metres."""
         return self.A_y if self.drive is None else self.drive.highest()
 
     def least_rest_speed(self) -> float:
@@ -170,8 +170,8 @@ class Scene:
         return max(HOP * fall * body.MOMENT, math.sqrt(HOP * fall * rounded / lost))
 
     def step(self) -> float:
-        """The length of a step of Runge and Kutta, in seconds, by its error term: fifth derivatives
-        of table and fall, times h^5/120, make the tolerance.
+        """The length h of a step of Runge and Kutta, in seconds, by its error term: the fifth
+        derivatives of table and fall, times h^5/120, equal the tolerance.
         """
         (along, fast), (high, quick) = self.shaken()
         size = max(max(map(abs, corner)) for corner in self.polygon().corners)
@@ -198,8 +198,8 @@ def scene(
     shape: Polygon | Sequence[Sequence[float]] | None = None,
     drive: Harmonics | None = None,
 ) -> Scene:
-    """A scene; SceneError, one line, for numbers that make none.  `shape`: the corners of a convex
-    polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
+    """A scene; raises SceneError, one line, for numbers that make none.  `shape`: the corners of a
+    convex polygon, (x, y) in metres, instead of a and b; `drive` instead of A, f and phase.
 
     >>> scene(e=0.7, mu=0.08).b
     0.02
@@ -262,8 +262,8 @@ def scene(
 
 
 def _refuse_block(made: Scene) -> None:
-    """SceneError for friction with which the block can jam, and for a tolerance that is coarse
-    beside it.
+    """Raises SceneError for friction with which the block can jam, and for a tolerance that is
+    coarse beside it.
     """
     block = geometry(made.polygon())
     if made.mu >= block.jams:
@@ -281,7 +281,7 @@ def _refuse_block(made: Scene) -> None:
 
 
 def changed(setting: Scene, **numbers: float) -> Scene:
-    """The same scene but for some of its numbers; SceneError for numbers that make none.
+    """The same scene but for some of its numbers; raises SceneError for numbers that make none.
 
     >>> changed(scene(e=0.7, mu=0.08), e=0.5).e
     0.5
@@ -337,7 +337,7 @@ def moving(
     t: float = 0.0,
 ) -> Array:
     """One state, shape (1, 10), of the centre of mass in the resting frame, in m, rad, m/s, rad/s
-    and s; SceneError for numbers out of range, and where the block and the table overlap.
+    and s; raises SceneError for numbers out of range, and where the block and the table overlap.
     """
     given = {"t": t, "X": X, "Y": Y, "theta": theta, "V_X": V_X, "V_Y": V_Y, "omega": omega}
     numbers = [_finite(value, name) for name, value in given.items()]
@@ -392,8 +392,8 @@ def faces_below(setting: Scene, theta: Array) -> NDArray[np.int64]:
 
 
 def refuse_turned(setting: Scene, theta: Array) -> None:
-    """SceneError where an angle is so large that its rounding moves corners by more than a part of
-    the tolerance.
+    """Raises SceneError where an angle is so large that its rounding moves corners by more than a
+    part of the tolerance.
     """
     rounded = float(np.abs(theta).max()) * geometry(setting.polygon()).reach * EPSILON
     if rounded > ROUNDING * setting.tolerance:
@@ -404,8 +404,8 @@ def refuse_turned(setting: Scene, theta: Array) -> None:
 
 
 def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
-    """SceneError for a time that is out of range, or so late that its rounding moves the table by
-    more than a part of the tolerance.
+    """Raises SceneError for a time that is out of range, or so late that its rounding moves the
+    table by more than a part of the tolerance.
     """
     if not 0 <= until <= LONGEST:
         raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")

@@ -30,8 +30,8 @@ class Polygon:
 
 
 def polygon(corners: Sequence[Sequence[float | Fraction]]) -> Polygon:
-    """The convex polygon with these corners, in metres, (x, y) each, in order around it either way;
-    the first stays the first.  SceneError, one line, where they make none.
+    """The convex polygon with these corners (x, y), in metres, in order around it either way; the
+    first stays the first.  Raises SceneError, one line, if they make none.
 
     >>> polygon([(0, 0), (2, 0), (2, 4), (0, 4)]).corners
     ((-1.0, -2.0), (1.0, -2.0), (1.0, 2.0), (-1.0, 2.0))
@@ -172,7 +172,7 @@ class Geometry:
 
 @lru_cache(maxsize=256)
 def geometry(shape: Polygon) -> Geometry:
-    """What follows from a polygon.
+    """The geometry of a polygon.
 
     >>> block = geometry(polygon([(0, 0), (2, 0), (2, 4), (0, 4)]))
     >>> block.heights, block.turns, block.jams
@@ -228,7 +228,7 @@ def root_below(square: Fraction) -> float:
 
 
 def jamming(shape: Polygon) -> Fraction:
-    """The square of the least friction with which a corner jams, or the middle of a face, at an
+    """The square of the least friction with which a corner, or the middle of a face, jams at an
     angle at which the polygon meets the table there.
 
     A place (x, y) of the polygon, from its centre, jams where B_2 - mu |B_3| <= 0: with k^2 the
@@ -247,7 +247,7 @@ def jamming(shape: Polygon) -> Fraction:
     edges = [_less(other, one) for one, other in pairs(corners)]
     for here, before, after in zip(corners, [edges[-1], *edges[:-1]], edges):
         q = k2 / dot(here, here)
-        # how far to the right of the centre, in units of how far below it, at either end
+        # the distance to the right of the centre over that below it, at either end of the range
         low, high = (dot(here, edge) / cross(here, edge) for edge in (after, before))
         for first, last in ((low, high), (-high, -low)):
             least += [_least_on(q, max(first, Fraction(0)), last)] if last > 0 else []
@@ -270,8 +270,8 @@ def _least_on(q: Fraction, first: Fraction, last: Fraction) -> Fraction:
 # -------------------------------------------------------------------------------------------------
 # Rest.
 #
-# A face holds a block where the vertical through the centre meets it between its ends.  Two faces
-# that hold are parted by a corner that has the centre above it.
+# A face holds a block where the vertical through the centre meets it between its ends.  Between two
+# faces that hold there is an angle at which the centre is above a corner.
 
 
 def stable_faces(shape: Polygon) -> tuple[int, ...]:
@@ -284,8 +284,8 @@ def stable_faces(shape: Polygon) -> tuple[int, ...]:
 
 
 def balances(shape: Polygon) -> list[tuple[float, int]]:
-    """The angles in [-pi, pi) at which a polygon, at rest, can fall either way, in order; with each
-    the edge that it falls on to from below that angle.
+    """The angles in [-pi, pi) at which a polygon at rest can fall either way, in order; each with
+    the edge on to which it falls from just below that angle.
 
     >>> [edge for _, edge in balances(polygon([(0, 0), (2, 0), (2, 4), (0, 4)]))]
     [2, 1, 0, 3]

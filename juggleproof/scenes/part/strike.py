@@ -80,8 +80,8 @@ JAMMING = -1
 def mode_of(
     S0: float, C0: float, B1: float, B2: float, B3: float, e: float, mu: float, sigma: int
 ) -> int:
-    """The mode of an impact in which the corner slides in the direction sigma at first; C0 < 0.
-    JAMMING where friction keeps it from leaving.
+    """The mode of an impact in which the corner slides in the direction sigma at first; C0 < 0.  It
+    is JAMMING if friction keeps the corner from leaving.
 
     P_d and P_q are the closing rate times sigma S0, and the stopping rate times -C0.
     """
@@ -181,9 +181,9 @@ def hold(
 # lands flat, one impulse acts midway between them, so that the mirror image of an orbit is an
 # orbit.  A corner slower than the rest speed v is struck without restitution and stays.  A face
 # whose two corners are slower than v comes to lie: turning and closing are taken away, and sliding
-# if it is slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length, where
-# the centre is above the face; none is added. Coming to rest moves a corner by at most two
-# tolerances.
+# if it is slower than v.  This takes at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half the
+# face's length, if the centre is above the face, and adds none.  Coming to rest moves a corner by
+# at most two tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
 ROUNDED_HOP = 1e-7  # of the speed of a corner that turns: its hops are lost in rounding
@@ -201,8 +201,8 @@ def energy(p: Floats, across: float, up: float, omega: float) -> float:
 
 @inlined
 def rest_speed(p: Floats, omega: float) -> float:
-    """Below which speed (m/s) a corner stays: the scene's, but where the block turns fast at least
-    so much that hops are not lost in rounding (see `Scene.least_rest_speed`).
+    """The speed (m/s) below which a corner stays: the scene's, or a greater one if the block turns
+    so fast that hops would be lost in rounding (see `Scene.least_rest_speed`).
     """
     turning = abs(omega) * p[REACH]
     return max(p[REST_SPEED], turning * max(ROUNDED_HOP, 4 * abs(omega) * MOMENT))
@@ -212,8 +212,8 @@ def rest_speed(p: Floats, omega: float) -> float:
 def strike_at(
     p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats
 ) -> int:
-    """One impact at a place of the block; DONE, or JAMMED.  Counts what the impact law excludes: it
-    must stay 0.
+    """Carries out one impact at a place of the block; returns DONE, or JAMMED.  Counts what the
+    impact law excludes; the count must stay 0.
     """
     k2, mu = p[GYRATION], p[FRICTION]
     S0, C0 = z[V_X] - z[OMEGA] * y - glide, z[V_Y] + z[OMEGA] * x - rise
@@ -241,8 +241,8 @@ def strike_at(
 
 @compiled
 def strike(p: Floats, z: Floats, notes: Floats) -> int:
-    """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at
-    rest.  DONE, or why it gave up.
+    """Carries out impacts at all corners that touch, until none approaches; then the block flies,
+    pivots, or rests on a face.  Returns DONE, or why it gave up.
     """
     t = z[TIME]
     c, s = cos(z[THETA]), sin(z[THETA])
@@ -263,7 +263,7 @@ def strike_all(
     """The same, with cosine and sine of theta, and the table's height, its speed and its
     acceleration upwards.
 
-    Of two corners: the lowest, and the other end of the face that is nearest to the table.
+    Two corners may touch: the lowest, and the other end of the face that is nearest to the table.
     """
     t = z[TIME]
     glide, carried, touch = table_glide(p, t), p[G] + lift > 0, 2 * p[TOLERANCE]
@@ -292,7 +292,7 @@ def strike_all(
                 nearer = still1 and (not still2 or gap1 <= gap2)
                 stay(p, z, first if nearer else second)
                 if z[MODE] == FLIGHT:
-                    # a corner without speed, any deeper, would end the next flight at once
+                    # a corner without speed that is deeper would end the next flight at once
                     z[Y] += max(-p[TOLERANCE] / 2 - (gap1 if nearer else gap2), 0.0)
             return DONE
         if closing1 and closing2 and C1 == C2:

@@ -91,8 +91,8 @@ def stable_phase(alpha: float, gamma: float) -> float:
 
 
 def top_speed(alpha: Floats, gamma: Floats) -> Floats:
-    """The closing speed that no motion keeps above: impacts that follow s are not faster than rho +
-    sqrt((rho + alpha s)^2 + 2 rho/pi) with rho = Gamma/(2 pi), and this is s itself.
+    """The closing speed s above which no motion stays: the impact after one at s is at most as fast
+    as rho + sqrt((rho + alpha s)^2 + 2 rho/pi) with rho = Gamma/(2 pi), and this is s itself.
     """
     rho = gamma / (2 * pi)
     half = rho * (1 + alpha)
@@ -100,8 +100,8 @@ def top_speed(alpha: Floats, gamma: Floats) -> Floats:
 
 
 def find_fates(balls: Floats) -> tuple[NDArray[np.int64], int]:
-    """(BOUNCES, RESTS or GOES_ON for each ball; flights): what comes first, at the bounce two
-    impacts in a row, or rest, or neither within MOST flights.
+    """(BOUNCES, RESTS or GOES_ON for each ball; flights): what comes first, two impacts in a row at
+    the bounce, or rest, or neither within MOST flights.
 
     balls: alpha, Gamma, phase of the stable bounce or nan, and phase and closing speed of the
     impact that it begins with, shape (5, n).

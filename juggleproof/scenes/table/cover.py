@@ -155,7 +155,7 @@ def _outline(box: Box) -> list[Place]:
 
 
 def _outlines(boxes: Sequence[Box]) -> list[Arc]:
-    """Those of all boxes."""
+    """The outlines of all boxes."""
     return [arc for box in boxes for arc in joined(_outline(box))]
 
 
@@ -166,8 +166,8 @@ def _draw_curve(
     curve: Callable[[float], float],
     dashes: tuple[float, ...],
 ) -> list[Entry]:
-    """One of the curves, where it is within the plane and parts from those before it; what a key
-    says of it, if there is any of it.
+    """Draws one of the curves, where it is within the plane and parts from those before it; returns
+    its entry in a key, if any of it is seen.
     """
     low, high = plane.across
     drawn: list[Place] = []

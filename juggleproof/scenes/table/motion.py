@@ -20,7 +20,7 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.table.curves import birth
 
 CLOSE = 1e-13  # a height above the table that counts as an impact
-FAST = 30.0  # the square of a speed, or an acceleration: in proportion to more, CLOSE is raised
+FAST = 30.0  # a squared speed, or an acceleration; above it, CLOSE is raised in proportion
 NEAR = 0.01  # what counts as at the bounce, in phase and speed
 REST = 1e-9  # of velocities: slower, a ball rests, or is launched where the table falls away
 LEAVE = 1e-3  # how long after a launch floats see the ball above the table
@@ -88,11 +88,11 @@ def landing(
     """(durations, closing speeds) of the flights that leave the table with these velocities, each
     shape (n,); drive: how many times as far the table moves under each ball.
 
-    Conservative advancement: from a time with F > 0 on by the least time in which F can vanish,
-    since F'' >= -fall; above all of the table, to where the ball comes down to its top.  So no zero
-    is passed over, and steps shrink as Newton's before one.  The height at the end is at most
-    CLOSE, raised for what is fast, so that the time is wrong by about CLOSE/speed.  A ball that
-    leaves with the velocity of a table that falls away is looked at after LEAVE.
+    By conservative advancement: from a time with F > 0 a step is the least time in which F can
+    vanish, since F'' >= -fall; a ball above the whole table goes to where it comes down to its top.
+    So no zero is passed over, and steps before a zero shrink as Newton's do.  The height at the end
+    is at most CLOSE, raised for fast balls, so that the time is wrong by about CLOSE/speed.  A ball
+    that leaves with the velocity of a table that falls away is looked at after LEAVE.
     """
     times = np.broadcast_to(drive, start.shape)
     slope = velocity - times * table.derivative(start, 1)
@@ -126,7 +126,7 @@ def landing(
 
 
 def rested(table: Table, time: Floats, velocity: Floats) -> tuple[NDArray[np.bool_], Floats]:
-    """(which balls rest, when each is launched: inf for never; its own time where it flies)."""
+    """(which balls rest; when each is launched: inf for never, its own time if it flies)."""
     rests = (velocity - table.derivative(time, 1) < REST) & ~table.falls(time)
     if not len(table.launches):
         return rests, np.where(rests, inf, time)
@@ -164,7 +164,7 @@ def events(table: Table, start: float, velocity: float) -> Iterator[Event]:
 
 
 def bounce_phase(alpha: float, gamma: float) -> float:
-    """The phase of a sine at the impacts of the bounce; SceneError where there is no bounce."""
+    """The phase of a sine at the impacts of the bounce; raises SceneError if there is no bounce."""
     least = birth(alpha)
     if gamma < least:
         raise SceneError(

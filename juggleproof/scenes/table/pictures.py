@@ -44,7 +44,7 @@ Start = tuple[float, float]  # phase, closing speed at the impact it begins with
 
 
 def orbit(table: Table, starts: Sequence[Start], periods: int) -> bytes:
-    """Table and balls over so many periods, as SVG; dots are impacts, and squares launches after a
+    """Table and balls over some periods, as SVG; dots are impacts, and squares launches after a
     rest.
     """
     if not 1 <= periods <= 60 or not 1 <= len(starts) <= len(BALLS):
@@ -155,7 +155,7 @@ def _ranks(beside: Plane, certified: Certified, top: float, bounce: float) -> Pl
 
 
 def _shaded(counts: NDArray[np.int64], there: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Dark for few, light for many, another colour for what does not arrive."""
+    """Colours: dark for few flights, light for many, another one for states that do not arrive."""
     most = max(1, int(counts[there].max())) if there.any() else 1
     part = np.clip(counts / most, 0, 1)[..., None]
     colours = np.where(there[..., None], DARK + (LIGHT - DARK) * part, NEVER)
