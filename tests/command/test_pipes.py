@@ -30,7 +30,7 @@ FILES = (
     "explain mine pipe.py",
     "export coq pipe.py",
     "export coq pipe.smt2",
-    "simulate part --e 0.7 --mu 0.08 --trajectory --state theta=1 --drive pipe.csv",
+    "simulate part --e 0.7 --mu 0.08 --orientation --shape pipe.csv",
 )
 FOLDERS = (
     ("check own.certificates", STATEMENTS),
