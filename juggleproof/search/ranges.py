@@ -470,7 +470,6 @@ class Lines:
         parameter: str,
         domain: ast.expr,
         budget: Budget,
-        more: Sequence[AlgebraicNumber] = (),
     ) -> None:
         self.parameter, self.budget = parameter, budget
         context = checker.Context()
@@ -485,7 +484,6 @@ class Lines:
         numbers = candidate_numbers(
             [*(p.project_to_context(allowed.ring) for p in borders), *allowed.polys], parameter
         )
-        numbers = sorted([*numbers, *(n for n in more if n not in numbers)])
         separate(numbers)
         self.inner = [n for n in numbers if allowed.univariate_truth(parameter, n, cells)]
         asked = [value for violation in violations for value in violation.verdicts]

@@ -9,7 +9,6 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_poly
 
-from juggleproof.algebra.conditions import Condition, candidate_numbers, evaluate
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     exact,
@@ -441,58 +440,6 @@ def find_nowhere(
     return None
 
 
-def search_sharp(
-    statement: checker.Statement,
-    known: Known,
-    statements: Mapping[str, checker.Statement],
-    budget: Budget,
-    roles: Roles = NO_ROLES,
-) -> Sharp | None:
-    """A certificate for a sharp range that is already stated, in one parameter; None where none was
-    found, or the budget ended.
-    """
-    (names,), (over,), (domain,), (condition,) = (
-        statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
-    )
-    if len(over) != 1 or any(name not in statements for name in names):
-        return None
-    chosen = [statements[name] for name in names]
-    context = checker.Context()
-    context.declare(over[0])
-    claimed = Condition.of(context, context.formula(condition))
-    own = candidate_numbers(claimed.polys, over[0])
-    roles = among(roles, {over[0]: ()})
-    try:
-        for line, verdicts in Lines(
-            [Violation.of(s, domain, roles) for s in chosen], over[0], domain, budget, own
-        ).guesses():
-            if _agrees(line, claimed, over[0]):
-                search = LineSearch(chosen, known, roles, over[0])
-                return search.certified(statement, line, verdicts, budget)[0]
-    except (Exhausted, Undecided):
-        pass
-    return None
-
-
 def read(statement: SharpRange) -> checker.Statement:
     """The statement as the checker reads it."""
     return next(iter(checker.read_statements(statement.text()).values()))
-
-
-def _agrees(line: Line, claimed: Condition, parameter: str) -> bool:
-    """Whether a stated condition has the verdicts of the line."""
-    if isinstance(claimed.tree, bool):
-        return all(verdict == claimed.tree for verdict in line.verdicts)
-    polys = claimed.in_one_variable(parameter)
-    for number, verdict in zip(line.numbers, line.verdicts[1::2]):
-        if claimed.univariate_truth(parameter, number, polys) != verdict:
-            return False
-    gaps = zip(line.numbers, line.numbers[1:], line.verdicts[2::2])
-    for left, right, verdict in gaps:
-        middle = simplest_between(left._high, right._low)
-        if (
-            evaluate(claimed.tree, {k: (p(middle) > 0) - (p(middle) < 0) for k, p in polys.items()})
-            != verdict
-        ):
-            return False
-    return True
