@@ -55,8 +55,8 @@ def _formula(formula: Formula, short: Mapping[str, str]) -> str:
     if isinstance(formula, Atom):
         relation = RELATIONS.get(formula.relation, formula.relation)
         return f"{_polynomial(formula.poly, short)} {relation} 0"
-    sign = " /\\ " if formula.op == "and" else " \\/ "
-    return f"[{sign.join(_formula(part, short) for part in formula.parts)}]"
+    sign = " /\\ " if formula[0] == "and" else " \\/ "
+    return f"[{sign.join(_formula(part, short) for part in formula[1])}]"
 
 
 def _polynomial(poly: fmpz_mpoly, short: Mapping[str, str]) -> str:

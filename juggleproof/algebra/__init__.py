@@ -2,6 +2,7 @@
 
 In reading order:
 
+- `trees`: what formulas of all kinds have in common, which are trees of joins;
 - `numbers`: real algebraic numbers, signs of polynomials at them, polynomials in one variable;
 - `number_field`: several algebraic numbers as polynomials in one of them;
 - `polynomials`: between the checker's polynomials, FLINT's, and arrays;

@@ -4,12 +4,13 @@ folded; and where its truth can change as a parameter moves.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Literal, Union
+from typing import Union
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
+from juggleproof.algebra import trees
 from juggleproof.algebra.numbers import AlgebraicNumber, fraction, real_roots, sign
 from juggleproof.algebra.polynomials import monomials
 from juggleproof.certificates import checker
@@ -21,14 +22,14 @@ from juggleproof.statements.work import Budget, Exhausted
 
 ZERO = fmpq(0)
 Relation = tuple[int, str]  # (number of a polynomial, ">", ">=", "=" or "!=")
-Op = Literal["and", "or"]
-Tree = Union[bool, Relation, tuple[Op, Sequence["Tree"]]]
+Tree = Union[bool, Relation, tuple[trees.Op, Sequence["Tree"]]]
 HOLDS: Mapping[str, Callable[[int], bool]] = {  # of the sign of the polynomial
     ">": lambda s: s > 0,
     ">=": lambda s: s >= 0,
     "=": lambda s: s == 0,
     "!=": lambda s: s != 0,
 }
+OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 
 
 def ring_of(context: checker.Context, *more: str) -> fmpq_mpoly_ctx:
@@ -102,54 +103,33 @@ class Condition:
         numbers: dict[frozenset[tuple[int, int]], int] = {}  # of equal polynomials, one
         size = len(context.index)
 
-        def convert(node: checker.Formula) -> Tree:
-            if isinstance(node, bool):
-                return node
-            if node[0] != "atom":
-                return (node[0], [convert(part) for part in node[1]])
-            _, poly, relation = node
+        def numbered(atom: checker.Atom) -> Relation:
+            _, poly, relation = atom
             key = frozenset(poly.terms.items()) | {(-1, poly.den)}
             if key not in numbers:
                 numbers[key] = len(polys)
                 polys.append(to_flint(poly, ring, size))
-            return (numbers[key], relation)
+            return numbers[key], relation
 
-        tree = convert(formula)
-        return Condition(ring, polys, tree)
+        return Condition(ring, polys, trees.mapped(formula, numbered))
 
     def conjoined(self, other: Condition) -> Condition:
         """Both conditions."""
         shift = len(self.polys)
-
-        def moved(tree: Tree) -> Tree:
-            if isinstance(tree, bool):
-                return tree
-            if isinstance(tree[0], int):
-                return (tree[0] + shift, tree[1])
-            return (tree[0], [moved(part) for part in tree[1]])
-
-        return Condition(
-            self.ring, self.polys + other.polys, _join("and", [self.tree, moved(other.tree)])
-        )
+        moved: Tree = trees.mapped(other.tree, lambda one: (one[0] + shift, one[1]))
+        both = trees.join("and", [self.tree, moved])
+        return Condition(self.ring, self.polys + other.polys, both)
 
     def negated(self) -> Condition:
         """The negation; the opposites of the polynomials follow them."""
         size = len(self.polys)
 
-        def turned(tree: Tree) -> Tree:
-            if isinstance(tree, bool):
-                return not tree
-            if isinstance(tree[0], int):
-                k, relation = tree
-                return {
-                    ">": (k + size, ">="),
-                    ">=": (k + size, ">"),
-                    "=": (k, "!="),
-                    "!=": (k, "="),
-                }[relation]
-            return ("or" if tree[0] == "and" else "and", [turned(part) for part in tree[1]])
+        def opposite(one: Relation) -> Relation:
+            k, relation = one
+            return k + size * (relation in (">", ">=")), OPPOSITE[relation]
 
-        return Condition(self.ring, [*self.polys, *(-p for p in self.polys)], turned(self.tree))
+        tree: Tree = trees.negated(self.tree, opposite)
+        return Condition(self.ring, [*self.polys, *(-p for p in self.polys)], tree)
 
     def substituted(self, values: Mapping[str, fmpq]) -> Condition:
         """The condition with numbers in place of variables, folded."""
@@ -185,7 +165,7 @@ class Condition:
     def used(self) -> list[int]:
         """The numbers of the polynomials that still occur in the tree, sorted."""
         if self._used is None:
-            self._used = sorted(set(_indices(self.tree)))
+            self._used = sorted({k for k, _ in trees.leaves(self.tree)})
         return self._used
 
     def variables(self) -> set[str]:
@@ -222,7 +202,10 @@ class Condition:
                     whole = whole * factor
                 polys[k] = whole
         if len(top_atoms(self.tree)) != len({k for k, _ in top_atoms(self.tree)}) or any(
-            polys[k] is not self.polys[k] for k in _below(self.tree)
+            polys[k] is not self.polys[k]
+            for part in trees.conjuncts(self.tree)
+            if trees.is_join(part)
+            for k, _ in trees.leaves(part)
         ):
             return self
         return Condition(self.ring, polys, fold(self.tree, polys.__getitem__))
@@ -244,79 +227,33 @@ class Condition:
         return {k: univariate(self.polys[k], name) for k in self.used()}
 
 
-def _indices(tree: Tree) -> Iterator[int]:
-    if isinstance(tree, bool):
-        return
-    if isinstance(tree[0], int):
-        yield tree[0]
-    else:
-        for part in tree[1]:
-            yield from _indices(part)
-
-
 def top_atoms(tree: Tree) -> list[Relation]:
     """The relations that a tree asserts on their own."""
-    if isinstance(tree, bool) or tree[0] == "or":
-        return []
-    if isinstance(tree[0], int):
-        return [tree]
-    return [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)]
-
-
-def _below(tree: Tree) -> list[int]:
-    """The numbers of the polynomials of relations that a tree does not assert on their own."""
-    if isinstance(tree, bool) or isinstance(tree[0], int):
-        return []
     return [
-        k
-        for part in tree[1]
-        if tree[0] == "or" or isinstance(part, bool) or not isinstance(part[0], int)
-        for k in _indices(part)
+        one
+        for part in trees.conjuncts(tree)
+        if not trees.is_join(part)
+        for one in trees.leaves(part)
     ]
-
-
-def _join(op: Op, parts: Sequence[Tree]) -> Tree:
-    flat: list[Tree] = []
-    for part in parts:
-        if isinstance(part, bool):
-            if part is (op == "or"):
-                return part
-        elif part[0] == op:
-            flat.extend(part[1])
-        else:
-            flat.append(part)
-    return op == "and" if not flat else flat[0] if len(flat) == 1 else (op, flat)
 
 
 def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
     """The tree with relations between constants decided; polynomials are asked for only as long as
     they matter.
     """
-    if isinstance(tree, bool):
-        return tree
-    if isinstance(tree[0], int):
-        poly = poly_of(tree[0])
+
+    def decided(one: Relation) -> Tree:
+        poly = poly_of(one[0])
         if poly.total_degree() > 0:
-            return tree
-        return HOLDS[tree[1]](sign(poly.coefficient(0)) if poly else 0)
-    parts = []
-    for part in tree[1]:
-        folded = fold(part, poly_of)
-        if folded is (tree[0] == "or"):
-            return folded
-        parts.append(folded)
-    return _join(tree[0], parts)
+            return one
+        return HOLDS[one[1]](sign(poly.coefficient(0)) if poly else 0)
+
+    return trees.mapped(tree, decided)
 
 
 def evaluate(tree: Tree, signs: Mapping[int, int]) -> bool:
     """The truth of a tree where the polynomials of these numbers have these signs."""
-    if isinstance(tree, bool):
-        return tree
-    if isinstance(tree[0], int):
-        return HOLDS[tree[1]](signs[tree[0]])
-    if tree[0] == "and":
-        return all(evaluate(part, signs) for part in tree[1])
-    return any(evaluate(part, signs) for part in tree[1])
+    return trees.truth(tree, lambda one: HOLDS[one[1]](signs[one[0]])) is True
 
 
 def univariate(poly: fmpq_mpoly, name: str) -> fmpq_poly:

@@ -9,7 +9,7 @@ without a root in a closed interval has positive Bernstein coefficients on short
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import comb
@@ -28,6 +28,7 @@ from juggleproof.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.algebra.trees import leaves
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import State
@@ -66,7 +67,7 @@ def close_in_one_variable(state: State, budget: Budget) -> Node | None:
         return None
     (name,) = state.context.index
     factors: dict[tuple[int, ...], fmpq_poly] = {}
-    for poly in _polynomials(state):
+    for _, poly, _ in (atom for formula in state.formulas for atom in leaves(formula)):
         for factor, _ in integer_polynomial(dense_poly(state.context, poly, name)).factor()[1]:
             factors[tuple(int(c) for c in factor.coeffs())] = fmpq_poly(factor)
     degree = sum(int(factor.degree()) for factor in factors.values())
@@ -77,21 +78,6 @@ def close_in_one_variable(state: State, budget: Budget) -> Node | None:
     for factor in factors.values():
         whole *= factor
     return Line(name, budget).whole(state, real_roots(whole), *_bounds(whole))
-
-
-def _polynomials(state: State) -> Iterator[checker.Poly]:
-    """All polynomials in facts and disjunctions."""
-
-    def of(formulas: Iterable[checker.Formula]) -> Iterator[checker.Poly]:
-        for formula in formulas:
-            if isinstance(formula, bool):
-                continue
-            if formula[0] == "atom":
-                yield formula[1]
-            else:
-                yield from of(formula[1])
-
-    yield from of(state.formulas)
 
 
 def _bounds(poly: fmpq_poly) -> tuple[fmpq, fmpq]:

@@ -15,6 +15,7 @@ from juggleproof.algebra.conditions import (
     to_flint,
 )
 from juggleproof.algebra.polynomials import Ring
+from juggleproof.algebra.trees import leaves
 from juggleproof.certificates import checker
 from juggleproof.search.psatz.facts import Scaling, Weight
 from juggleproof.search.terms import Root, Sample
@@ -96,7 +97,7 @@ class Normal:
         choices = [
             to_flint(part[1], own, size).project_to_context(self.ring)
             for choice in state.choices
-            for part in _atoms(("or", list(choice)))
+            for part in leaves(("or", choice))
         ]
         polys = [p for p in [*condition.polys, *choices, *(p for p, _ in facts)] if p != 0]
         self.scaling = Scaling(Ring(names), polys, positive)
@@ -206,16 +207,6 @@ class Normal:
                 exponents[place] += weight[k] - have
             terms[tuple(exponents)] = c
         return self.ring.from_dict(terms)
-
-
-def _atoms(formula: checker.Formula) -> list[tuple[str, checker.Poly, str]]:
-    if isinstance(formula, bool):
-        return []
-    return (
-        [formula]
-        if formula[0] == "atom"
-        else [atom for part in formula[1] for atom in _atoms(part)]
-    )
 
 
 def _linear(poly: fmpq_mpoly, name: str) -> list[tuple[fmpq_mpoly, fmpq]]:

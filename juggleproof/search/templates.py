@@ -14,6 +14,7 @@ from juggleproof.algebra.conditions import (
     replace,
     valued,
 )
+from juggleproof.algebra.trees import leaves
 from juggleproof.search.candidates import (
     favourites,
     solutions,
@@ -29,7 +30,6 @@ from juggleproof.search.terms import (
     Sample,
     Trial,
     among,
-    atoms,
     between,
     insert,
     partly,
@@ -514,7 +514,7 @@ class CornerSearch(TemplateSearch):
         if forced:
             yield from self._follow(partial, unknowns, chosen, forced)
             return
-        for k, relation in sorted(set(atoms(partial.condition.tree))):
+        for k, relation in sorted(set(leaves(partial.condition.tree))):
             onward = chosen | {k}
             if relation in (">=", "=") and onward not in self.seen and self.steps > 0:
                 self.seen.add(onward)

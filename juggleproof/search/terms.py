@@ -9,10 +9,12 @@ from math import isqrt
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
+from juggleproof.algebra import trees
 from juggleproof.algebra.conditions import (
     HOLDS,
     ZERO,
     Condition,
+    Relation,
     Tree,
     coefficients_in,
     places,
@@ -276,7 +278,11 @@ class Trial:
                 )
             return signs[k]
 
-        return _decided(self.tree, sign_of) is False
+        def decide(one: Relation) -> bool | None:
+            found = None if one[0] == OPEN else sign_of(one[0])
+            return None if found is None else HOLDS[one[1]](found)
+
+        return trees.truth(self.tree, decide) is False
 
     def _prepared(self) -> Tree:
         """Sets apart the polynomials that the variable decides; what does not speak of it is left
@@ -316,22 +322,6 @@ class Trial:
         if isinstance(tree, bool) or isinstance(tree[0], str):
             return 2
         return 3 if tree[0] == OPEN else int(self.alone[tree[0]] is None)
-
-
-def _decided(tree: Tree, sign_of: Callable[[int], int | None]) -> bool | None:
-    """The truth of a tree where the signs decide it; None where they do not."""
-    if isinstance(tree, bool):
-        return tree
-    if isinstance(tree[0], int):
-        found = None if tree[0] == OPEN else sign_of(tree[0])
-        return None if found is None else HOLDS[tree[1]](found)
-    whole: bool | None = tree[0] == "and"
-    for part in tree[1]:
-        truth = _decided(part, sign_of)
-        if truth is not None and truth == (tree[0] == "or"):
-            return truth
-        whole = None if truth is None else whole
-    return whole
 
 
 def partly(poly: fmpq_mpoly, given: Sample) -> fmpq_mpoly:
@@ -411,14 +401,3 @@ class Partial:
     def condition(self) -> Condition:
         """The condition on base and unknowns."""
         return self.make()
-
-
-def atoms(tree: Tree) -> Iterator[tuple[int, str]]:
-    """The relations of a tree, each as (number of its polynomial, relation)."""
-    if isinstance(tree, bool):
-        return
-    if isinstance(tree[0], int):
-        yield tree
-    else:
-        for part in tree[1]:
-            yield from atoms(part)

@@ -298,12 +298,12 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
     Formula: the infimum is taken over all points that meet the premises.
     """
     formula = join("or", [denial.formula for denial in question.denials])
-    parts = (
+    parts: Sequence[Formula] = (
         (formula,)
         if isinstance(formula, Atom)
         else ()
-        if isinstance(formula, bool) or formula.op == "and"
-        else formula.parts
+        if isinstance(formula, bool) or formula[0] == "and"
+        else formula[1]
     )
     denied = [part for part in parts if isinstance(part, Atom) and part.relation in (">", ">=")]
     if not denied or len(denied) < len(parts):

@@ -13,6 +13,7 @@ from math import prod
 
 from flint import Ordering, fmpz_mpoly
 
+from juggleproof.algebra import trees
 from juggleproof.algebra.intervals import Box
 from juggleproof.algebra.polynomials import (
     Ring,
@@ -22,7 +23,7 @@ from juggleproof.algebra.polynomials import (
     value_at,
 )
 from juggleproof.search.psatz.facts import Reduction, Signed, Step
-from juggleproof.votes.questions import Atom, Formula, atom, branches, truth
+from juggleproof.votes.questions import Atom, Formula, atom, branches
 from juggleproof.votes.spans import (
     ZERO,
     Bounds,
@@ -271,7 +272,7 @@ class Region:
 
 def holds_at(formula: Formula, point: Sequence[Fraction]) -> bool:
     """The exact truth value of the formula at a rational point."""
-    return truth(formula, lambda fact: fact.holds_at(point)) is True
+    return trees.truth(formula, lambda fact: fact.holds_at(point)) is True
 
 
 @lru_cache(maxsize=16)  # one vote asks about the same part of the space again

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -11,6 +11,7 @@ from typing import Union
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
+from juggleproof.algebra import trees
 from juggleproof.algebra.polynomials import (
     Ring,
     constant_of,
@@ -59,56 +60,18 @@ class Atom:
         return f"{self.poly} {self.relation} 0"
 
 
-@dataclass(frozen=True)
-class Join:
-    """The conjunction ("and") or disjunction ("or") of formulas."""
-
-    op: str
-    parts: tuple[Formula, ...]
+Formula = Union[bool, Atom, tuple[trees.Op, Sequence["Formula"]]]
 
 
-Formula = Union[bool, Atom, Join]
-
-
-def conjuncts(formula: Formula) -> tuple[Formula, ...]:
-    """The parts of a top-level conjunction; a formula of another kind alone."""
-    if formula is True:
-        return ()
-    return formula.parts if isinstance(formula, Join) and formula.op == "and" else (formula,)
-
-
-def atoms(formula: Formula) -> Iterator[Atom]:
-    """Every atom in the formula, from left to right."""
-    if isinstance(formula, Atom):
-        yield formula
-    elif isinstance(formula, Join):
-        for part in formula.parts:
-            yield from atoms(part)
-
-
-def map_atoms(formula: Formula, change: Callable[[Atom], Formula]) -> Formula:
-    """The same formula with `change` applied to every atom."""
-    if isinstance(formula, Atom):
-        return change(formula)
-    if isinstance(formula, Join):
-        return join(formula.op, [map_atoms(part, change) for part in formula.parts])
-    return formula
-
-
-def join(op: str, formulas: Sequence[Formula]) -> Formula:
+def join(op: trees.Op, formulas: Sequence[Formula]) -> Formula:
     """The conjunction or disjunction, without constants, repetitions and joins of the same kind
     inside.
     """
-    flat: list[Formula] = []
-    for formula in formulas:
-        if isinstance(formula, bool):
-            if formula is (op == "or"):
-                return formula
-            continue
-        for part in formula.parts if isinstance(formula, Join) and formula.op == op else (formula,):
-            if part not in flat:
-                flat.append(part)
-    return op == "and" if not flat else flat[0] if len(flat) == 1 else Join(op, tuple(flat))
+    whole = trees.join(op, formulas)
+    if not trees.is_join(whole):
+        return whole
+    parts = tuple(dict.fromkeys(whole[1]))
+    return parts[0] if len(parts) == 1 else (whole[0], parts)
 
 
 def atom(poly: fmpz_mpoly, relation: str) -> Formula:
@@ -124,27 +87,12 @@ def atom(poly: fmpz_mpoly, relation: str) -> Formula:
     return Atom(poly / content if content != 1 else poly, relation)
 
 
-def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | None:
-    """The truth value of the formula from those of its atoms; None where they leave it open."""
-    if isinstance(formula, bool):
-        return formula
-    if isinstance(formula, Atom):
-        return decide(formula)
-    decisive, unsure = formula.op == "or", False
-    for part in formula.parts:
-        value = truth(part, decide)
-        if value is decisive:
-            return value
-        unsure = unsure or value is None
-    return None if unsure else not decisive
-
-
 def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
     """The disjunctive normal form: each branch a conjunction of atoms; None where it has more than
     `limit` branches.
 
     >>> (x,) = ring_of(("x",)).gens()
-    >>> either = Join("or", (Atom(x, ">"), Atom(x, "=")))
+    >>> either = "or", (Atom(x, ">"), Atom(x, "="))
     >>> [[str(fact) for fact in b] for b in branches(either, 4) or []]
     [['x > 0'], ['x = 0']]
     """
@@ -152,12 +100,13 @@ def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
         return [()] if formula else []
     if isinstance(formula, Atom):
         return [(formula,)]
-    disjuncts: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
-    for part in formula.parts:
+    op, parts = formula
+    disjuncts: list[tuple[Atom, ...]] = [] if op == "or" else [()]
+    for part in parts:
         inner = branches(part, limit)
         if inner is None:
             return None
-        if formula.op == "or":
+        if op == "or":
             disjuncts += inner
         else:
             disjuncts = [
@@ -244,7 +193,7 @@ class Question:
     def occurring(self) -> tuple[str, ...]:
         """The names of the variables that occur, in order."""
         formulas = [*self.assumed, *(denial.formula for denial in self.denials)]
-        used = {i for formula in formulas for fact in atoms(formula) for i in fact.used}
+        used = {i for formula in formulas for fact in trees.leaves(formula) for i in fact.used}
         return tuple(name for i, name in enumerate(self.names) if i in used)
 
     def matrix(self) -> Formula:
@@ -420,8 +369,10 @@ def changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
     """The question with `change` applied to every atom."""
     return replace(
         question,
-        assumed=flat([map_atoms(formula, change) for formula in question.assumed]),
-        denials=tuple(replace(d, formula=map_atoms(d.formula, change)) for d in question.denials),
+        assumed=flat([trees.mapped(formula, change, join) for formula in question.assumed]),
+        denials=tuple(
+            replace(d, formula=trees.mapped(d.formula, change, join)) for d in question.denials
+        ),
     )
 
 
@@ -435,7 +386,7 @@ def scale_variables(question: Question) -> tuple[str, ...]:
     """
     ring = Ring(question.names, Ordering.lex)
     formulas = [*question.assumed, *(denial.formula for denial in question.denials)]
-    polys = [fact.poly for formula in formulas for fact in atoms(formula)]
+    polys = [fact.poly for formula in formulas for fact in trees.leaves(formula)]
     polys += [x + 1 for x, name in zip(ring.gens, question.names) if name in question.integers]
     positive = sorted(
         fact.used[0]
@@ -454,16 +405,12 @@ def with_scales_one(question: Question, names: tuple[str, ...]) -> Question:
 
 def flat(formulas: Sequence[Formula]) -> tuple[Formula, ...]:
     """The formulas with top-level conjunctions taken apart, each once."""
-    return tuple(dict.fromkeys(part for formula in formulas for part in conjuncts(formula)))
+    return tuple(dict.fromkeys(part for formula in formulas for part in trees.conjuncts(formula)))
 
 
 def formula_of(formula: checker.Formula, own: tuple[str, ...], names: tuple[str, ...]) -> Formula:
     """The checker's formula, whose variables are `own` in order, over the variables `names`."""
-    if isinstance(formula, bool):
-        return formula
-    if formula[0] == "atom":
-        return atom(polynomial_of(formula[1], own, names), formula[2])
-    return join(formula[0], [formula_of(part, own, names) for part in formula[1]])
+    return trees.mapped(formula, lambda one: atom(polynomial_of(one[1], own, names), one[2]), join)
 
 
 def polynomial_of(poly: checker.Poly, own: tuple[str, ...], names: tuple[str, ...]) -> fmpz_mpoly:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from flint import fmpz_mpoly
 
+from juggleproof.algebra import trees
 from juggleproof.algebra.polynomials import used_in
 from juggleproof.certificates import checker
 from juggleproof.statements.formulas import ClaimError
@@ -256,15 +257,12 @@ def _sort(question: Question, name: str) -> str:
 
 def write_formula(formula: Formula, integers: frozenset[str] = frozenset()) -> str:
     """The formula as an s-expression."""
-    if isinstance(formula, bool):
-        return "true" if formula else "false"
-    if isinstance(formula, Atom):
-        text = (
-            f"({'=' if formula.relation == '!=' else formula.relation}"
-            f" {write_polynomial(formula.poly, integers)} 0)"
-        )
-        return f"(not {text})" if formula.relation == "!=" else text
-    return f"({formula.op} {' '.join(write_formula(part, integers) for part in formula.parts)})"
+
+    def text(fact: Atom) -> str:
+        poly = write_polynomial(fact.poly, integers)
+        return f"(not (= {poly} 0))" if fact.relation == "!=" else f"({fact.relation} {poly} 0)"
+
+    return trees.written(formula, text)
 
 
 def write_polynomial(poly: fmpz_mpoly, integers: frozenset[str] = frozenset()) -> str:

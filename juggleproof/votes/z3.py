@@ -11,6 +11,8 @@ from importlib import import_module
 from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
+from juggleproof.algebra import trees
+from juggleproof.algebra.conditions import OPPOSITE
 from juggleproof.algebra.numbers import AlgebraicNumber, root_number, sign_at
 from juggleproof.algebra.polynomials import with_value
 from juggleproof.certificates import checker
@@ -27,7 +29,6 @@ from juggleproof.votes.questions import (
     questions,
     ring_of,
     scale_variables,
-    truth,
     with_scales_one,
 )
 from juggleproof.votes.smtlib import question_text, symbol
@@ -264,16 +265,12 @@ def _truth_at(formula: Formula, point: Sequence[Exact]) -> bool | None:
         sign = sign_at(fact.poly, point)
         return None if sign is None else fact.holds(sign)
 
-    return truth(formula, decide)
+    return trees.truth(formula, decide)
 
 
 def negation(formula: Formula) -> Formula:
     """The negated formula, with `not` driven down to the atoms."""
-    if isinstance(formula, bool):
-        return not formula
-    if isinstance(formula, Atom):
-        return atom(-formula.poly, {">": ">=", ">=": ">", "=": "!=", "!=": "="}[formula.relation])
-    return join("or" if formula.op == "and" else "and", [negation(part) for part in formula.parts])
+    return trees.negated(formula, lambda one: atom(-one.poly, OPPOSITE[one.relation]), join)
 
 
 def decide(session: Session, question: Question) -> Reply:

@@ -19,6 +19,7 @@ from juggleproof.algebra.intervals import (
 )
 from juggleproof.algebra.numbers import root_number, sign_at
 from juggleproof.algebra.polynomials import factorization, value_at, with_value
+from juggleproof.algebra.trees import truth
 from juggleproof.votes.branches import (
     Region,
     reduce_factors,
@@ -27,13 +28,11 @@ from juggleproof.votes.branches import (
 )
 from juggleproof.votes.questions import (
     Atom,
-    Join,
     Question,
     branches,
     questions,
     read_statement,
     scale_variables,
-    truth,
     with_scales_one,
 )
 from juggleproof.votes.spans import (
@@ -105,9 +104,9 @@ def test_a_rational_root_that_looks_algebraic_is_zero() -> None:
 def test_three_valued_truth() -> None:
     a, b = facts("forall x y", "given x > 0", "given y > 0")
     known = {a: True, b: None}
-    assert truth(Join("or", (a, b)), known.__getitem__) is True
-    assert truth(Join("and", (a, b)), known.__getitem__) is None
-    assert truth(Join("and", (b, a)), {a: False, b: None}.__getitem__) is False
+    assert truth(("or", (a, b)), known.__getitem__) is True
+    assert truth(("and", (a, b)), known.__getitem__) is None
+    assert truth(("and", (b, a)), {a: False, b: None}.__getitem__) is False
 
 
 def test_branches_drop_contradictions_and_stop_at_the_limit() -> None:

@@ -14,7 +14,8 @@ from weakref import WeakKeyDictionary
 import z3
 from flint import fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
-from juggleproof.algebra.conditions import Condition, Tree
+from juggleproof.algebra import trees
+from juggleproof.algebra.conditions import Condition
 from juggleproof.algebra.numbers import AlgebraicNumber, exact
 from juggleproof.search.candidates import Value
 from juggleproof.statements.work import Budget
@@ -58,7 +59,7 @@ def ask(
     solver.set("rlimit", resources)
     rows = [f"(declare-const |{name}| {_sort(name, whole)})" for name in names]
     written = partial(_term, integers=whole)
-    rows.append(f"(assert {formula_text(condition, condition.tree, written)})")
+    rows.append(f"(assert {formula_text(condition, written)})")
     if unreachable is not None:
         goal = unreachable[0]
         inner = goal.variables()
@@ -67,7 +68,7 @@ def ask(
             f"(declare-const |{name}| {_sort(name, whole)})"
             for name in sorted(inner - set(names) - set(unreachable[1]))
         ]
-        text = f"(not {formula_text(goal, goal.tree, written)})"
+        text = f"(not {formula_text(goal, written)})"
         rows.append(
             f"(assert (forall ({' '.join(bound)}) {text}))" if bound else f"(assert {text})"
         )
@@ -146,13 +147,9 @@ def _sort(name: str, integers: frozenset[str]) -> str:
     return "Int" if name in integers else "Real"
 
 
-def formula_text(condition: Condition, tree: Tree, term: Callable[[fmpq_mpoly], str]) -> str:
+def formula_text(condition: Condition, term: Callable[[fmpq_mpoly], str]) -> str:
     """A condition as an s-expression, its polynomials written by `term`."""
-    if isinstance(tree, bool):
-        return "true" if tree else "false"
-    if isinstance(tree[0], int):
-        return _atom(term(condition.polys[tree[0]]), tree[1])
-    return f"({tree[0]} {' '.join(formula_text(condition, part, term) for part in tree[1])})"
+    return trees.written(condition.tree, lambda one: _atom(term(condition.polys[one[0]]), one[1]))
 
 
 def _atom(term: str, relation: str) -> str:

@@ -99,7 +99,7 @@ class Question:
                 f"(assert (=> {one} (= |{name}| {number(value)})))" for one, value in zip(own, few)
             ]
             self.rows.append(f"(assert (=> {self.guard(name)} (or false {' '.join(own)})))")
-        body = formula_text(condition, condition.tree, self.term)
+        body = formula_text(condition, self.term)
         self.rows.append(f"(assert {body})")
 
     def guard(self, name: str) -> str:

@@ -21,6 +21,7 @@ from typing import Union
 from flint import fmpq, fmpz_mat
 
 from juggleproof.algebra.numbers import fraction
+from juggleproof.algebra.trees import leaves, truth
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Certificate, Counterexample, Node, Point
 from juggleproof.statements.states import State, state_of
@@ -56,21 +57,16 @@ def row_of(poly: checker.Poly) -> Row | None:
 
 def is_linear(formula: checker.Formula) -> bool:
     """Whether every atom of a formula is linear."""
-    if isinstance(formula, bool):
-        return True
-    if formula[0] == "atom":
-        return row_of(formula[1]) is not None
-    return all(map(is_linear, formula[1]))
+    return all(row_of(poly) is not None for _, poly, _ in leaves(formula))
 
 
 def holds_at(formula: checker.Formula, point: Mapping[int, Fraction]) -> bool:
     """Whether a formula of linear atoms holds at a point, which is 0 where it says nothing."""
-    if isinstance(formula, bool):
-        return formula
-    if formula[0] == "atom":
-        return holds(value_at(row_of(formula[1]) or {}, point), formula[2])
-    parts = (holds_at(part, point) for part in formula[1])
-    return all(parts) if formula[0] == "and" else any(parts)
+
+    def decide(atom: checker.Atom) -> bool:
+        return holds(value_at(row_of(atom[1]) or {}, point), atom[2])
+
+    return truth(formula, decide) is True
 
 
 def value_at(row: Row, point: Mapping[int, Fraction]) -> Fraction:

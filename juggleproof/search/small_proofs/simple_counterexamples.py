@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 
+from juggleproof.algebra.trees import truth
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Certificate, Counterexample, Node
 from juggleproof.statements.work import Budget, Exhausted, unfolded
@@ -60,10 +61,9 @@ def holds_at(
     budget: Budget,
 ) -> bool:
     """Whether a formula holds at a point; `known` keeps the terms of polynomials."""
-    if isinstance(formula, bool):
-        return formula
-    if formula[0] == "atom":
-        _, poly, relation = formula
+
+    def decide(atom: checker.Atom) -> bool:
+        _, poly, relation = atom
         if id(poly) not in known:
             known[id(poly)] = [(c, powers(m)) for m, c in poly.terms.items()]
         budget.spend(1 + len(poly.terms) // 4)
@@ -78,8 +78,8 @@ def holds_at(
             or (value == 0 and relation in ("=", ">="))
             or (value < 0 and relation == "!=")
         )
-    parts = (holds_at(part, point, known, budget) for part in formula[1])
-    return all(parts) if formula[0] == "and" else any(parts)
+
+    return truth(formula, decide) is True
 
 
 def powers(monomial: int) -> list[tuple[int, int]]:
