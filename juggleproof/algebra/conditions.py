@@ -10,9 +10,10 @@ from typing import Union
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from juggleproof.algebra import trees
+from juggleproof.algebra import numbers, polynomials, trees
 from juggleproof.algebra.numbers import AlgebraicNumber, fraction, real_roots, sign
 from juggleproof.algebra.polynomials import monomials
+from juggleproof.algebra.trees import HOLDS, OPPOSITE
 from juggleproof.certificates import checker
 from juggleproof.statements.work import Budget, Exhausted
 
@@ -23,13 +24,6 @@ from juggleproof.statements.work import Budget, Exhausted
 ZERO = fmpq(0)
 Relation = tuple[int, str]  # (number of a polynomial, ">", ">=", "=" or "!=")
 Tree = Union[bool, Relation, tuple[trees.Op, Sequence["Tree"]]]
-HOLDS: Mapping[str, Callable[[int], bool]] = {  # of the sign of the polynomial
-    ">": lambda s: s > 0,
-    ">=": lambda s: s >= 0,
-    "=": lambda s: s == 0,
-    "!=": lambda s: s != 0,
-}
-OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 
 
 def ring_of(context: checker.Context, *more: str) -> fmpq_mpoly_ctx:
@@ -140,7 +134,7 @@ class Condition:
         given = {place[name]: value for name, value in values.items()}
         return self.mapped(lambda p: p.subs(given))
 
-    def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Condition:
+    def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly | int = 1) -> Condition:
         """The condition with top/bottom in place of a variable, every polynomial times a positive
         power of the bottom.
         """
@@ -258,13 +252,7 @@ def evaluate(tree: Tree, signs: Mapping[int, int]) -> bool:
 
 def univariate(poly: fmpq_mpoly, name: str) -> fmpq_poly:
     """A polynomial in one variable of its ring, as a dense one."""
-    place = places(poly.context())[name]
-    if len(poly) == poly.total_degree() + 1:  # no power is missing, so they stand in falling order
-        return fmpq_poly(poly.coeffs()[::-1])
-    coefficients: dict[int, fmpq] = {
-        powers[place]: c for powers, c in zip(poly.monoms(), poly.coeffs())
-    }
-    return fmpq_poly([coefficients.get(k, 0) for k in range(max(coefficients, default=0) + 1)])
+    return numbers.univariate(poly, places(poly.context())[name])
 
 
 def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly:
@@ -280,21 +268,13 @@ def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly
 
 
 def coefficients_in(poly: fmpq_mpoly, name: str) -> list[fmpq_mpoly]:
-    """The coefficients of a polynomial as one in this variable, from the constant up, by Taylor's
-    formula.
-    """
-    place = places(poly.context())[name]
-    degree = poly.degrees()[place] if poly else 0
-    coefficients, rest, factorial = [], poly, 1
-    for k in range(degree + 1):
-        if k:
-            rest, factorial = rest.derivative(place), factorial * k
-        c = rest if k == degree else rest.subs({place: 0})
-        coefficients.append(c / factorial if factorial > 1 else c)
-    return coefficients
+    """The coefficients of a polynomial as one in this variable, from the constant up."""
+    return polynomials.coefficients_in(poly, places(poly.context())[name])
 
 
-def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> fmpq_mpoly:
+def replace(
+    poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly | int = 1
+) -> fmpq_mpoly:
     """The polynomial at top/bottom, times the least even power of the bottom that clears it."""
     place = places(poly.context())[name]
     if not poly or not poly.degrees()[place]:

@@ -4,14 +4,12 @@ point all its values.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz_mpoly
 
-from juggleproof.algebra.numbers import (
-    AlgebraicNumber,
-    real_roots,
-)
+from juggleproof.algebra.numbers import AlgebraicNumber, exact, real_roots
 from juggleproof.statements.work import Budget
 
 MOST = 64  # the degree of a product of fields
@@ -164,3 +162,35 @@ def composed(poly: fmpq_poly, inner: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly
     for c in reversed(poly.coeffs()):
         result = (result * inner + c) % modulus
     return result
+
+
+def at_elements(
+    poly: fmpq_mpoly | fmpz_mpoly, values: Sequence[fmpq_poly], modulus: fmpq_poly
+) -> fmpq_poly:
+    """A polynomial in several variables at elements of a field."""
+    total = fmpq_poly()
+    for powers, c in zip(poly.monoms(), poly.coeffs()):
+        term = fmpq_poly([c])
+        for value, e in zip(values, powers):
+            for _ in range(e):
+                term = term * value % modulus
+        total += term
+    return total % modulus
+
+
+WORK = 10**9  # units, for the field of one point
+
+
+def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> int | None:
+    """The sign (-1, 0 or 1) of a polynomial at a point of rational and algebraic numbers; None
+    where one number with all of them in its field would have too high a degree.
+    """
+    values = {
+        str(k): exact(value) if isinstance(value, Fraction) else value
+        for k, value in enumerate(point)
+    }
+    field = common_field(values, Budget(WORK))
+    if field is None:
+        return None
+    number = field[1] or AlgebraicNumber.rational(0)
+    return number.sign_of(at_elements(poly, [*field[0].values()], fmpq_poly(number.poly)))

@@ -4,13 +4,13 @@ interval; all of it exact.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import total_ordering
-from math import comb, floor, lcm, prod
+from math import comb, floor
 from typing import TypeVar
 
-from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
+from flint import arb, fmpq, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
 
 # -------------------------------------------------------------------------------------------------
 # Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and
@@ -319,90 +319,16 @@ def simplest_between(low: fmpq, high: fmpq) -> fmpq:
     return fmpq(whole) + 1 / simplest_between(1 / (high - whole), 1 / (low - whole))
 
 
-MOST_BITS = 1 << 14  # of the enclosures by which a sign is decided
-
-
-def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> int | None:
-    """The sign (-1, 0 or 1) of the polynomial at a point of rational and algebraic numbers; None
-    where that takes too many bits.
-
-    Formula: with integer coefficients, L = prod lead_i^deg_i and M >= |P| at all conjugates, D the
-    product of the degrees: P(a) = 0 or |P(a)| >= (L M)^(1 - D) / L, because L P(a) is an algebraic
-    integer of degree at most D.  Source: Liouville's inequality.
-    """
-    roots = {
-        i: value
-        for i, value in enumerate(point)
-        if isinstance(value, AlgebraicNumber) and not value.is_rational
-    }
-    known = {
-        i: value if isinstance(value, Fraction) else value.as_fraction()
-        for i, value in enumerate(point)
-        if i not in roots
-    }
-    sums: dict[tuple[int, ...], Fraction] = {}
-    for monomial, coefficient in zip(poly.monoms(), poly.coeffs()):
-        exponents = tuple(int(monomial[i]) for i in roots)
-        part = int(coefficient) * prod(value ** int(monomial[i]) for i, value in known.items())
-        sums[exponents] = sums.get(exponents, Fraction(0)) + part
-    whole = lcm(*(c.denominator for c in sums.values()))
-    terms = {e: int(c * whole) for e, c in sums.items() if c}
-    return _sign(terms, list(roots.values()))
-
-
-def _sign(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNumber]) -> int | None:
-    """The sign of sum c * roots^e."""
-    if not any(any(e) for e in terms):
-        return sign(fmpq(sum(terms.values())))
-    if len(roots) == 1:
-        (root,) = roots
-        (degree,) = max(terms)
-        return root.sign_of(fmpq_poly([terms.get((k,), 0) for k in range(degree + 1)]))
-    leads = [abs(root.coefficients[-1]) for root in roots]
-    cauchy = [
-        1 + max(-(-abs(c) // lead) for c in root.coefficients[:-1])
-        for root, lead in zip(roots, leads)
-    ]
-    size = sum(abs(c) * prod(b**k for b, k in zip(cauchy, e)) for e, c in terms.items())
-    lead = prod(a ** max(e[i] for e in terms) for i, a in enumerate(leads))
-    degree = prod(int(root.poly.degree()) for root in roots)
-    bits, enough = 32, (lead * size).bit_length() * (degree - 1) + lead.bit_length() + 1
-    while bits <= MOST_BITS:
-        with ctx.workprec(2 * bits + size.bit_length()):
-            value = _enclosed(terms, [root.narrow(Fraction(1, 1 << bits)) for root in roots])
-            if value > 0 or value < 0:
-                return 1 if value > 0 else -1
-            if abs(value) * fmpz(1 << enough) < 1:
-                return 0
-        bits *= 2
-    return None
-
-
-def _enclosed(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNumber]) -> arb:
-    """A ball that holds sum c * roots^e."""
-    balls = [arb(root._low).union(arb(root._high)) for root in roots]
-    total = arb(0)
-    for exponents, c in terms.items():
-        part = arb(c)
-        for value, e in zip(balls, exponents):
-            for _ in range(e):
-                part = part * value
-        total = total + part
-    return total
-
-
 # -------------------------------------------------------------------------------------------------
 # Polynomials in one variable on an interval: Bernstein's coefficients.
 
 
-def univariate(poly: fmpz_mpoly, variable: int) -> fmpq_poly:
-    """A polynomial in one variable alone as such."""
-    return fmpq_poly(_coefficients(poly, variable))
-
-
-def _coefficients(poly: fmpz_mpoly, variable: int) -> list[int]:
-    by_power = {int(m[variable]): int(c) for m, c in zip(poly.monoms(), poly.coeffs())}
-    return [by_power.get(k, 0) for k in range(max(by_power, default=0) + 1)]
+def univariate(poly: fmpq_mpoly | fmpz_mpoly, variable: int) -> fmpq_poly:
+    """A polynomial in one variable of its ring, as a dense one."""
+    if len(poly) == poly.total_degree() + 1:  # no power is missing, so they stand in falling order
+        return fmpq_poly(poly.coeffs()[::-1])
+    by_power = {int(m[variable]): c for m, c in zip(poly.monoms(), poly.coeffs())}
+    return fmpq_poly([by_power.get(k, 0) for k in range(max(by_power, default=0) + 1)])
 
 
 def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> list[fmpq]:

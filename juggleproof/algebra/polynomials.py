@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import lcm, prod
+from typing import TypeVar
 
 import numpy as np
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpoly, fmpz_mpoly_ctx
@@ -23,6 +24,7 @@ from juggleproof.statements.formulas import Formula, Term, real, term
 # coefficients for linear programs.
 
 Monomial = tuple[int, ...]  # the exponent of each variable
+Mpoly = TypeVar("Mpoly", fmpq_mpoly, fmpz_mpoly)
 Keys = NDArray[np.int64]
 Row = tuple[Keys, NDArray[np.float64]]  # the keys of a polynomial's monomials, its coefficients
 # scales, weights of the variables, values of the scales, and gradings: a `Scaling`
@@ -196,24 +198,21 @@ def degree_in(poly: fmpz_mpoly, variable: int) -> int:
     return int(poly.degrees()[variable]) if poly else 0
 
 
-def coefficients_in(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly) -> list[fmpz_mpoly]:
-    """The coefficients of the powers of one variable, from the constant up, by derivatives.
+def coefficients_in(poly: Mpoly, variable: int) -> list[Mpoly]:
+    """The coefficients of the powers of one variable, from the constant up, by Taylor's formula.
 
-    >>> ring = Ring(("x", "y"))
-    >>> x, y = ring.gens
-    >>> [str(c) for c in coefficients_in(x**2 * y + 3 * x - y, 0, x)]
+    >>> x, y = Ring(("x", "y")).gens
+    >>> [str(c) for c in coefficients_in(x**2 * y + 3 * x - y, 0)]
     ['-y', '3', 'y']
     """
-    result, rest = [], poly
-    for k in range(degree_in(poly, variable), 0, -1):
-        top, factorial = rest, 1
-        for j in range(k):
-            top, factorial = top.derivative(variable), factorial * (j + 1)
-        top = top / factorial if factorial > 1 and top else top
-        result.append(top)
-        rest = rest - top * gen**k
-    result.append(rest)
-    return result[::-1]
+    degree = int(poly.degrees()[variable]) if poly else 0
+    coefficients, rest, factorial = [], poly, 1
+    for k in range(degree + 1):
+        if k:
+            rest, factorial = rest.derivative(variable), factorial * k
+        c = rest if k == degree else rest.subs({variable: 0})
+        coefficients.append(c / factorial if factorial > 1 and c else c)
+    return coefficients
 
 
 def pseudo_divide(
@@ -224,7 +223,7 @@ def pseudo_divide(
 
     Source: Knuth, The Art of Computer Programming 2, 4.6.1.
     """
-    coefficients = coefficients_in(poly, variable, gen)
+    coefficients = coefficients_in(poly, variable)
     degree = len(coefficients) - 1
     if degree == 0:
         return 0, poly * 0, poly

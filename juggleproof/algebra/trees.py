@@ -6,11 +6,18 @@ A leaf is whatever is no join: an atom of the checker, a relation of a numbered 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal, TypeGuard, TypeVar
 
 Op = Literal["and", "or"]
 Tree = TypeVar("Tree")  # a type of trees, of which each has one for its leaves
+HOLDS: Mapping[str, Callable[[Any], bool]] = {  # of a value, or only its sign
+    ">": lambda value: bool(value > 0),
+    ">=": lambda value: bool(value >= 0),
+    "=": lambda value: bool(value == 0),
+    "!=": lambda value: bool(value != 0),
+}
+OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 
 
 def is_join(tree: object) -> TypeGuard[tuple[Op, Sequence[Any]]]:

@@ -8,13 +8,13 @@ from fractions import Fraction
 
 from flint import fmpq_poly, fmpz_poly
 
-from juggleproof.algebra.conditions import HOLDS
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     fraction,
     polynomial_text,
     tree_below_zero,
 )
+from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.one_variable import dense_poly, dense_text
 from juggleproof.statements.nodes import Adjoined, Node

@@ -4,7 +4,7 @@ interval where a condition holds.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Union
@@ -112,15 +112,8 @@ class Cells:
         return roots
 
     def intervals(self) -> list[tuple[fmpq, fmpq]]:
-        """Rational ends strictly inside, or at, the ends of every open cell; the unbounded cells
-        are cut two units beyond.
-        """
-        if not self.roots:
-            return [(fmpq(-2), fmpq(2))]
-        outer = [(self.roots[0]._low - 2, self.roots[0]._low)]
-        for left, right in zip(self.roots, self.roots[1:]):
-            outer.append((left._high, right._low))
-        return [*outer, (self.roots[-1]._high, self.roots[-1]._high + 2)]
+        """The ends of the open cells, as `cells_between` has them."""
+        return cells_between(self.roots)
 
     def signs(self, at: Value) -> dict[int, int]:
         """The sign of every polynomial at a value, found where it is asked for."""
@@ -142,6 +135,17 @@ class Signs(dict[int, int]):
             else sign(self.polys[k](at))
         )
         return found
+
+
+def cells_between(roots: Sequence[AlgebraicNumber]) -> list[tuple[fmpq, fmpq]]:
+    """Rational ends strictly inside, or at, the ends of every open cell; the unbounded cells are
+    cut two units beyond.
+    """
+    if not roots:
+        return [(fmpq(-2), fmpq(2))]
+    inner = [(left._high, right._low) for left, right in zip(roots, roots[1:])]
+    first, last = roots[0]._low, roots[-1]._high
+    return [(first - 2, first), *inner, (last, last + 2)]
 
 
 def separate(roots: list[AlgebraicNumber]) -> None:

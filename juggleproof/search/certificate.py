@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from juggleproof.algebra.conditions import HOLDS
+from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.closing import SQUARED, Hints, search_closing
 from juggleproof.search.points import search_values

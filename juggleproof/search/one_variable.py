@@ -16,7 +16,6 @@ from math import comb
 
 from flint import fmpq, fmpq_poly
 
-from juggleproof.algebra.conditions import HOLDS
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     bernstein,
@@ -28,7 +27,7 @@ from juggleproof.algebra.numbers import (
     sign,
     simplest_between,
 )
-from juggleproof.algebra.trees import leaves
+from juggleproof.algebra.trees import HOLDS, leaves
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import State

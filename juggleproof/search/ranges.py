@@ -7,10 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from flint import fmpq, fmpq_mpoly, fmpq_poly
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from juggleproof.algebra.conditions import (
-    HOLDS,
     Condition,
     border_polynomials,
     candidate_numbers,
@@ -25,9 +24,10 @@ from juggleproof.algebra.numbers import (
     real_roots,
     simplest_between,
 )
-from juggleproof.algebra.polynomials import relation_of
+from juggleproof.algebra.polynomials import relation_of, term_of
+from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
-from juggleproof.search.candidates import FAVOURITE_PARAMETERS, separate
+from juggleproof.search.candidates import FAVOURITE_PARAMETERS, cells_between, separate
 from juggleproof.search.hints.asking import RESOURCES, ask
 from juggleproof.search.scales import with_scales
 from juggleproof.search.terms import ring_names
@@ -276,20 +276,8 @@ def _rational_sides(value: Fraction, parameter: str) -> tuple[Term, Term]:
 
 def polynomial_term(coefficients: Sequence[int], parameter: str) -> Term:
     """An integer polynomial, constant first, as a term with the highest power first."""
-    name, total = real(parameter), None
-    for power, c in reversed(list(enumerate(coefficients))):
-        if c:
-            size: Term = term(abs(c)) if power == 0 else name if power == 1 else name**power
-            if power and abs(c) != 1:
-                size = abs(c) * size
-            total = (
-                (size if c > 0 else -size)
-                if total is None
-                else total + size
-                if c > 0
-                else total - size
-            )
-    return term(0) if total is None else total
+    ring = fmpq_mpoly_ctx.get([parameter], Ordering.lex)
+    return term_of(multivariate(fmpq_poly(list(coefficients)), ring, parameter))
 
 
 def _bound(number: AlgebraicNumber, relation: str, domain: Formula, parameter: str) -> Formula:
@@ -567,15 +555,8 @@ def _cell_samples(
     """A simple rational in every open cell of the domain, which has to be one interval; one at
     which Z3 was asked before where there is one.
     """
-    borders = [(left._high, right._low) for left, right in zip(numbers, numbers[1:])]
-    if numbers:
-        borders = [
-            (numbers[0]._low - 2, numbers[0]._low),
-            *borders,
-            (numbers[-1]._high, numbers[-1]._high + 2),
-        ]
     samples = []
-    for bottom, top in borders or [(fmpq(-2), fmpq(2))]:
+    for bottom, top in cells_between(numbers):
         nice = [v for v in (*asked, *FAVOURITE_PARAMETERS) if bottom < v < top]
         value = nice[0] if nice else simplest_between(bottom, top)
         if allowed.univariate_truth(parameter, value, cells):

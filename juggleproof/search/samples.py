@@ -15,6 +15,7 @@ from juggleproof.algebra.conditions import (
     evaluate,
     fold,
     places,
+    replace,
     ring_of,
     univariate,
 )
@@ -120,7 +121,7 @@ class Sampler:
             self._spend(condition)
             if degree_after(condition, name, value) > MOST_DEGREE:
                 return
-            changed = condition.replaced(name, value, condition.ring.constant(1))
+            changed = condition.replaced(name, value)
             yield from self._descend(self._settled(changed, theta), [*steps, (name, value)], theta)
             return
         name = free[0]
@@ -268,11 +269,7 @@ class Sampler:
         }
         for name, value in reversed(steps):
             for other, known in values.items():
-                if value.degrees()[self._index(condition, other)]:
-                    coefficients = coefficients_in(value, other)
-                    value = coefficients[-1]
-                    for c in reversed(coefficients[:-1]):
-                        value = value * known + c
+                value = replace(value, other, known)
             values[name] = value
         if theta is None:
             dense = {name: fmpq_poly([constant_of(value)]) for name, value in values.items()}

@@ -14,6 +14,7 @@ from juggleproof.algebra.conditions import (
     ring_of,
     to_flint,
 )
+from juggleproof.algebra.conditions import replace as put
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.algebra.trees import leaves
 from juggleproof.certificates import checker
@@ -133,13 +134,13 @@ class Normal:
             if step is None:
                 return
             self.steps.append(step)
-            equations = [_put(poly, *step) for poly in equations]
+            equations = [put(poly, *step) for poly in equations]
 
     def dehomogenised(self, poly: fmpq_mpoly) -> fmpq_mpoly:
         """The polynomial in the variables that are left."""
         poly = self.at_scale_one(poly)
         for name, value in self.steps:
-            poly = _put(poly, name, value)
+            poly = put(poly, name, value)
         return poly
 
     def at_scale_one(self, poly: fmpq_mpoly) -> fmpq_mpoly:
@@ -215,13 +216,3 @@ def _linear(poly: fmpq_mpoly, name: str) -> list[tuple[fmpq_mpoly, fmpq]]:
     rest, slope = coefficients_in(poly, name)
     value = constant_of(slope)
     return [(rest, value)] if value is not None else []
-
-
-def _put(poly: fmpq_mpoly, name: str, value: fmpq_mpoly) -> fmpq_mpoly:
-    if poly == 0 or not poly.degrees()[poly.context().variable_to_index(name)]:
-        return poly
-    coefficients = coefficients_in(poly, name)
-    result = coefficients[-1]
-    for c in reversed(coefficients[:-1]):
-        result = result * value + c
-    return result

@@ -10,7 +10,6 @@ from itertools import combinations
 from flint import fmpq, fmpq_mpoly
 
 from juggleproof.algebra.conditions import (
-    HOLDS,
     Condition,
     border_polynomials,
     coefficients_in,
@@ -19,6 +18,7 @@ from juggleproof.algebra.conditions import (
 )
 from juggleproof.algebra.numbers import sign
 from juggleproof.algebra.polynomials import relation_of
+from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
 from juggleproof.search.hints.asking import ask

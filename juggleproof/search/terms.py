@@ -11,7 +11,6 @@ from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from juggleproof.algebra import trees
 from juggleproof.algebra.conditions import (
-    HOLDS,
     ZERO,
     Condition,
     Relation,
@@ -23,6 +22,7 @@ from juggleproof.algebra.conditions import (
     valued,
 )
 from juggleproof.algebra.numbers import sign
+from juggleproof.algebra.trees import HOLDS
 
 # -------------------------------------------------------------------------------------------------
 # Quotients of polynomials in base variables and adjoined roots: the terms that a search proposes

@@ -18,6 +18,7 @@ from juggleproof.algebra.conditions import (
     constant_of,
     fold,
     places,
+    replace,
     to_text,
     univariate,
 )
@@ -98,7 +99,7 @@ class Towers:
                 if slope:
                     value = rest * (-1 / slope)
                     yield from self.search(
-                        condition.replaced(name, value, condition.ring.constant(1)),
+                        condition.replaced(name, value),
                         roots,
                         (*steps, (name, value)),
                     )
@@ -207,15 +208,8 @@ class Towers:
         )
         for name, value in reversed(steps):
             for other in self.names:
-                if (
-                    other != name
-                    and value.degrees()[places(condition.ring)[other]] > 0
-                    and other not in {n for n, _, _ in roots}
-                ):
-                    parts = coefficients_in(value, other)
-                    value = parts[-1]
-                    for c in reversed(parts[:-1]):
-                        value = value * values[other] + c
+                if other != name and other not in {n for n, _, _ in roots}:
+                    value = replace(value, other, values[other])
             values[name] = value
         return Tower(roots, values)
 

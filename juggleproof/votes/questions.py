@@ -50,7 +50,7 @@ class Atom:
         """Whether the relation holds where the polynomial has this value (or a number of the same
         sign).
         """
-        return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[self.relation]
+        return trees.HOLDS[self.relation](value)
 
     def holds_at(self, point: Sequence[Fraction]) -> bool:
         """Whether the relation holds at a rational point, exactly."""

@@ -12,9 +12,10 @@ from itertools import islice, product
 from typing import TYPE_CHECKING, NamedTuple
 
 from juggleproof.algebra import trees
-from juggleproof.algebra.conditions import OPPOSITE
-from juggleproof.algebra.numbers import AlgebraicNumber, root_number, sign_at
+from juggleproof.algebra.number_field import sign_at
+from juggleproof.algebra.numbers import AlgebraicNumber, root_number
 from juggleproof.algebra.polynomials import with_value
+from juggleproof.algebra.trees import OPPOSITE
 from juggleproof.certificates import checker
 from juggleproof.statements.vote import Budget, Vote
 from juggleproof.votes.questions import (

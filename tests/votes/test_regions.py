@@ -17,7 +17,8 @@ from juggleproof.algebra.intervals import (
     split,
     surely,
 )
-from juggleproof.algebra.numbers import root_number, sign_at
+from juggleproof.algebra.number_field import sign_at
+from juggleproof.algebra.numbers import root_number
 from juggleproof.algebra.polynomials import factorization, value_at, with_value
 from juggleproof.algebra.trees import truth
 from juggleproof.votes.branches import (

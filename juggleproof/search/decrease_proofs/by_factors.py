@@ -17,6 +17,7 @@ from juggleproof.algebra.polynomials import (
     Ring,
     coefficients_in,
     total_degree,
+    used_in,
 )
 from juggleproof.certificates import checker
 from juggleproof.search.closing import sign_node
@@ -146,8 +147,8 @@ class Case:
     def identity(self, problem: Problem, goal: int, bound: int, value: int) -> Identity:
         """The remainder of the goal by the bound, as polynomials in the value."""
         gen, times = self.ring.gens[value], self.ring.zero
-        rest, slope = coefficients_in(problem.facts[bound].poly, value, gen)
-        parts = coefficients_in(problem.facts[goal].poly, value, gen)
+        rest, slope = coefficients_in(problem.facts[bound].poly, value)
+        parts = coefficients_in(problem.facts[goal].poly, value)
         below = self.ring.one
         while len(parts) > 1:
             top = parts.pop()
@@ -240,7 +241,7 @@ class Case:
         nothing where its degree is below 2.
         """
         gen = self.ring.gens[self.ring.names.index(self.sign)]
-        parts = coefficients_in(poly, self.ring.names.index(self.sign), gen)
+        parts = coefficients_in(poly, self.ring.names.index(self.sign))
         if len(parts) < 3 or not parts[2]:
             return []
         low, slope, bend, *more = parts
@@ -262,8 +263,8 @@ class Case:
     def by_squares(self, state: State, kept: list[int]) -> Node | None:
         """A node that the last fact is false, by sums of squares times facts in its variables."""
         ring = Ring(tuple(state.context.index))
-        inside = variables_of(ring.read(state.facts[kept[-1]][0]))
-        few = [k for k in kept if variables_of(ring.read(state.facts[k][0])) <= inside]
+        inside = set(used_in(ring.read(state.facts[kept[-1]][0])))
+        few = [k for k in kept if inside.issuperset(used_in(ring.read(state.facts[k][0])))]
         problem = Problem(with_facts(state, few), self.ring, True)
         try:
             part = self.budget.part(SQUARES)
@@ -282,8 +283,8 @@ class Case:
             return None
         last = firsts.index(len(kept) - 1)
         poly = problem.facts[last].poly
-        inside = variables_of(poly)
-        known = [k for k, fact in enumerate(problem.facts) if variables_of(fact.poly) <= inside]
+        inside = set(used_in(poly))
+        known = [k for k, fact in enumerate(problem.facts) if inside.issuperset(used_in(fact.poly))]
         others = independent(problem, [k for k in known if k != last])
         packing = Packing(self.ring, problem.polys())
         parts = [Products(problem, others, packing)]
@@ -323,11 +324,6 @@ class Case:
             c = Fraction(int(content.leading_coefficient()))
             used.append(((tuple(sorted(powers.items())), at), c))
         return lift(problem, used, [], roots)
-
-
-def variables_of(poly: fmpz_mpoly) -> set[int]:
-    """The variables that occur, by their numbers."""
-    return {v for v, power in enumerate(poly.degrees()) if power}
 
 
 def as_equation(node: Node, number: int, positive: bool, texts: Mapping[int, str]) -> Node | None:

@@ -14,6 +14,7 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_mat
 from flint import arb_mat as BallMatrix
 
 from juggleproof.algebra.conditions import Condition, places, valued
+from juggleproof.algebra.number_field import at_elements
 from juggleproof.algebra.numbers import determinant, real_roots
 from juggleproof.search.hints.models import approximate_points
 from juggleproof.search.samples import Assignment
@@ -125,7 +126,9 @@ def recognised(
                 break
             values[name] = fmpq_poly([fmpq(-c, relation[0]) for c in relation[1:]])
         else:
-            if all(vanishes(poly, values, modulus) for poly in equations):
+            names = places(equations[0].context())
+            at = [values.get(name, fmpq_poly()) for name in names]
+            if not any(at_elements(poly, at, modulus) for poly in equations):
                 if number.is_rational:
                     exact = {n: fmpq_poly([v(number.approximation())]) for n, v in values.items()}
                     return Assignment(exact)
@@ -158,16 +161,3 @@ def short_relation(values: Sequence[fmpq]) -> list[int] | None:
     reduced = fmpz_mat(rows).lll()
     first = [int(reduced[0, k]) for k in range(size + 1)]
     return first[:-1] if max(map(abs, first)) < 1 << SHORT else None
-
-
-def vanishes(poly: fmpq_mpoly, values: Mapping[str, fmpq_poly], modulus: fmpq_poly) -> bool:
-    """Whether a polynomial is 0 at elements of a field."""
-    names = list(places(poly.context()))
-    total = fmpq_poly()
-    for powers, c in zip(poly.monoms(), poly.coeffs()):
-        term = fmpq_poly([c])
-        for name, e in zip(names, powers):
-            for _ in range(e):
-                term = term * values[name] % modulus
-        total += term
-    return not total % modulus

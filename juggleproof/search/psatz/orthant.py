@@ -69,7 +69,7 @@ class Step:
         gen = poly.context().gens()[self.variable]
         value, size = (gen - self.rest) * self.sign, self.factor * self.sign
         whole = poly * 0
-        for i, part in enumerate(coefficients_in(poly, self.variable, gen)):
+        for i, part in enumerate(coefficients_in(poly, self.variable)):
             whole = whole + part * value**i * size ** (degree - i)
         return whole, (self.size[0] ** degree, power(self.size[1], degree))
 

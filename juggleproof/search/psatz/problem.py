@@ -19,6 +19,7 @@ from juggleproof.algebra.polynomials import (
     Row,
     constant_of,
     total_degree,
+    used_in,
 )
 from juggleproof.search.psatz.candidates import MOST, Pool, resultants, squares
 from juggleproof.search.psatz.facts import (
@@ -406,16 +407,11 @@ def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
     >>> high_facts([a**20 - 2, a**3 - 1, x - a**9]), high_facts([a**20 - 2, x - a**10])
     ({0}, set())
     """
-    high = {k: p for k, p in enumerate(polys) if total_degree(p) > HIGH and used_in(p) == 1}
+    high = {k: p for k, p in enumerate(polys) if total_degree(p) > HIGH and len(used_in(p)) == 1}
     if not high:  # as for nearly all states
         return set()
-    most = max((total_degree(p) for p in polys if used_in(p) > 1), default=0)
+    most = max((total_degree(p) for p in polys if len(used_in(p)) > 1), default=0)
     return {k for k, p in high.items() if total_degree(p) > 2 * most}
-
-
-def used_in(poly: fmpz_mpoly) -> int:
-    """How many variables occur in a polynomial."""
-    return sum(bool(degree) for degree in poly.degrees())
 
 
 # -------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from typing import Union
 from flint import fmpq, fmpz_mat
 
 from juggleproof.algebra.numbers import fraction
-from juggleproof.algebra.trees import leaves, truth
+from juggleproof.algebra.trees import HOLDS, leaves, truth
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Certificate, Counterexample, Node, Point
 from juggleproof.statements.states import State, state_of
@@ -64,7 +64,7 @@ def holds_at(formula: checker.Formula, point: Mapping[int, Fraction]) -> bool:
     """Whether a formula of linear atoms holds at a point, which is 0 where it says nothing."""
 
     def decide(atom: checker.Atom) -> bool:
-        return holds(value_at(row_of(atom[1]) or {}, point), atom[2])
+        return HOLDS[atom[2]](value_at(row_of(atom[1]) or {}, point))
 
     return truth(formula, decide) is True
 
@@ -73,11 +73,6 @@ def value_at(row: Row, point: Mapping[int, Fraction]) -> Fraction:
     """The value of a row at a point."""
     zero = Fraction(0)
     return sum((c * point.get(k, zero) for k, c in row.items() if k != ONE), zero) + row.get(ONE, 0)
-
-
-def holds(value: Fraction, relation: str) -> bool:
-    """Whether value relation 0."""
-    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -165,7 +160,7 @@ def vertex(facts: Sequence[tuple[Row, str]], ray: Values) -> Vertex | None:
     if scale <= 0:
         return None
     point = {place: value / scale for place, value in ray.items() if place != ONE}
-    fits = all(holds(value_at(row, point), relation) for row, relation in facts)
+    fits = all(HOLDS[relation](value_at(row, point)) for row, relation in facts)
     return Vertex(simplest(facts, point)) if fits else None
 
 
@@ -191,7 +186,7 @@ def simplest(facts: Sequence[tuple[Row, str]], point: Values) -> Values:
     """A point with the same small denominator for all values where one is near, else this one."""
     for most in (1, 2, 10, 1000):
         near = {place: value.limit_denominator(most) for place, value in point.items()}
-        if all(holds(value_at(row, near), relation) for row, relation in facts):
+        if all(HOLDS[relation](value_at(row, near)) for row, relation in facts):
             return near
     return point
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 
-from juggleproof.algebra.trees import truth
+from juggleproof.algebra.trees import HOLDS, truth
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Certificate, Counterexample, Node
 from juggleproof.statements.work import Budget, Exhausted, unfolded
@@ -73,11 +73,7 @@ def holds_at(
             for place, exponent in factors:
                 part *= point[place] ** exponent
             value += part
-        return (
-            (value > 0 and relation != "=")
-            or (value == 0 and relation in ("=", ">="))
-            or (value < 0 and relation == "!=")
-        )
+        return HOLDS[relation](value)
 
     return truth(formula, decide) is True
 
