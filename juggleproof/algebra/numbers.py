@@ -351,6 +351,32 @@ def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> li
     ]
 
 
+End = tuple[Fraction, Fraction]  # where a fact linear in a variable is 0, and the size of its slope
+
+
+def by_ends(poly: fmpq_poly, degree: int, low: End | None, high: End | None) -> list[Fraction]:
+    """The coefficients c_k with poly = sum c_k l^k h^(n - k), where l = s (z - low), h = t (high -
+    z) and n is the degree given; with one of the ends, poly = sum c_k l^k, or sum c_k h^k.
+
+    >>> end = Fraction(1), Fraction(2)
+    >>> by_ends(fmpq_poly([0, 1]), 1, end, None)
+    [Fraction(1, 1), Fraction(1, 2)]
+    >>> by_ends(fmpq_poly([0, 1]), 1, end, (Fraction(3), Fraction(1)))
+    [Fraction(1, 2), Fraction(3, 4)]
+    """
+    if low is not None and high is not None:
+        width = high[0] - low[0]
+        return [
+            fraction(b) * comb(degree, k) / width**degree / low[1] ** k / high[1] ** (degree - k)
+            for k, b in enumerate(bernstein(poly, low[0], high[0], degree))
+        ]
+    end = low or high
+    if end is None:
+        raise ValueError("no end is given")
+    moved = poly(fmpq_poly([exact(end[0]), 1 if low else -1]))
+    return [fraction(moved[k]) / end[1] ** k for k in range(degree + 1)]
+
+
 def tree_below_zero(poly: fmpq_poly, low: Fraction, high: Fraction, deep: int = 60) -> str | None:
     """The box tree of one axis that shows that the polynomial is negative from low to high; None
     where it is not, or where that takes more halvings, one inside another, than `deep`.

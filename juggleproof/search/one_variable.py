@@ -12,13 +12,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import comb
 
 from flint import fmpq, fmpq_poly
 
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
-    bernstein,
+    by_ends,
     exact,
     fraction,
     integer_polynomial,
@@ -288,31 +287,24 @@ class Line:
         """
         degree = max(int(poly.degree()), 0)
         self.budget.spend(10 + degree**2)
-        ends = [end for end in (low, high) if end is not None]
-        scales = [abs(fraction(self.dense(state, end.fact)[1])) for end in ends]
-        if low is not None and high is not None:
-            width = fraction(high.at - low.at)
-            values = [
-                fraction(b) * comb(degree, k) / width**degree
-                for k, b in enumerate(bernstein(poly, fraction(low.at), fraction(high.at), degree))
-            ]
-            powers = [[(low.fact, k), (high.fact, degree - k)] for k in range(degree + 1)]
-            sizes = [scales[0] ** k * scales[1] ** (degree - k) for k in range(degree + 1)]
-        elif ends:
-            (end,) = ends
-            moved = poly(fmpq_poly([end.at, 1 if end is low else -1]))
-            values = [fraction(moved[k]) for k in range(degree + 1)]
-            powers = [[(end.fact, k)] for k in range(degree + 1)]
-            sizes = [scales[0] ** k for k in range(degree + 1)]
-        else:
-            values, powers, sizes = [fraction(poly[0])] if degree == 0 else [], [[]], [Fraction(1)]
-        if min(values, default=-1) < 0:
+        if low is None and high is None:
+            constant = fraction(poly[0])
+            return None if degree or constant < 0 else [(constant, [])] if constant else []
+
+        def scaled(end: End | None) -> tuple[Fraction, Fraction] | None:
+            if end is None:
+                return None
+            return fraction(end.at), abs(fraction(self.dense(state, end.fact)[1]))
+
+        def powers(k: int) -> list[tuple[int, int]]:
+            own = [(low.fact, k)] if low else []
+            own += [(high.fact, degree - k if low else k)] if high else []
+            return [(fact, power) for fact, power in own if power]
+
+        values = by_ends(poly, degree, scaled(low), scaled(high))
+        if min(values) < 0:
             return None
-        return [
-            (value / size, [(fact, power) for fact, power in pairs if power])
-            for value, size, pairs in zip(values, sizes, powers)
-            if value
-        ]
+        return [(value, powers(k)) for k, value in enumerate(values) if value]
 
 
 def _after(end: End | None, root: AlgebraicNumber, root_only: bool = True) -> bool:

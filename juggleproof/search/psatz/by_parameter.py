@@ -14,16 +14,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, islice
-from math import comb, prod
+from math import prod
 
 import numpy as np
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
-from juggleproof.algebra.numbers import bernstein, determinant, exact, fraction
-from juggleproof.algebra.polynomials import constant_of
-from juggleproof.search.psatz.facts import Factors, merge
+from juggleproof.algebra.numbers import determinant, exact, fraction
+from juggleproof.search.psatz.facts import Bounded, Factors, merge
 from juggleproof.search.psatz.lifting import lift
-from juggleproof.search.psatz.parameters import Axis, bounds
+from juggleproof.search.psatz.parameters import bounds
 from juggleproof.search.psatz.problem import Problem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
@@ -52,42 +51,15 @@ def search_by_parameter(problem: Problem, budget: Budget) -> Node | None:
 
     Raises Exhausted where the budget ends.
     """
-    bounded = [interval(problem, axis) for axis in bounds(problem).values()]
-    axes = [one for one in bounded if one is not None]
+    axes = [axis for axis in bounds(problem).values() if isinstance(axis, Bounded)]
     if problem.reduction.left or len(axes) != 1:
         return None
     (between,) = axes
-    rows = linear_rows(problem, between.axis.variable)
+    rows = linear_rows(problem, between.variable)
     if rows is None:
         return None
     used, roots = contradiction(problem, between, rows, budget) or ([], [])
     return lift(problem, used, [], roots) if used else None
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A parameter with its bounds: their ends, and their slopes but for the sign."""
-
-    axis: Axis
-    low: Fraction
-    high: Fraction
-    slopes: tuple[int, int]
-
-    def part(self, k: int, degree: int, coefficient: fmpq, power: int) -> Part:
-        """The k-th term of a Bernstein form of this degree."""
-        number = fraction(coefficient) * comb(degree, k) / (self.high - self.low) ** degree
-        number /= self.slopes[0] ** k * self.slopes[1] ** (degree - k)
-        return Part(number, self.axis.factors(k, degree), power)
-
-
-def interval(problem: Problem, axis: Axis) -> Interval | None:
-    """The bounds of a parameter that has two."""
-    if axis.low is None or axis.high is None:
-        return None
-    v, facts = axis.variable, (problem.facts[axis.low], problem.facts[axis.high])
-    low, high = (fact.end(v) for fact in facts)
-    lower, upper = (abs(constant_of(fact.poly.derivative(v)) or 1) for fact in facts)
-    return Interval(axis, low, high, (lower, upper))
 
 
 def linear_rows(problem: Problem, parameter: int) -> dict[int, Coefficients] | None:
@@ -130,16 +102,17 @@ Used = list[tuple[tuple[Factors, int], Fraction]]
 
 
 def contradiction(
-    problem: Problem, between: Interval, rows: dict[int, Coefficients], budget: Budget
+    problem: Problem, between: Bounded, rows: dict[int, Coefficients], budget: Budget
 ) -> tuple[Used, list[fmpz_mpoly]] | None:
     """A sum of products that vanishes, by as few facts as there are."""
-    inside = [exact(between.low + (between.high - between.low) * part) for part in INSIDE]
+    low, high = (problem.facts[k].end(between.variable) for k in (between.low, between.high))
+    inside = [exact(low + (high - low) * part) for part in INSIDE]
     left = MOST_SETS
     sets: list[tuple[tuple[int, ...], bool]] = []
     for size in range(2, len(next(iter(rows.values()), ())) + 1):
         some = [*islice(combinations(rows, size), left)]
         left -= len(some)
-        sets += zip(some, seen_to_contradict(rows, some, between) if some else ())
+        sets += zip(some, seen_to_contradict(rows, some, inside) if some else ())
     for chosen, seen in sets:
         budget.spend(1)
         if not seen:
@@ -161,17 +134,17 @@ def contradiction(
                 )
                 for own, part in parts
             ]
-            return used, [problem.ring.ctx.gen(between.axis.variable) ** power for power in powers]
+            return used, [problem.ring.ctx.gen(between.variable) ** power for power in powers]
     return None
 
 
 def seen_to_contradict(
-    rows: dict[int, Coefficients], sets: Sequence[tuple[int, ...]], between: Interval
+    rows: dict[int, Coefficients], sets: Sequence[tuple[int, ...]], inside: Sequence[fmpq]
 ) -> list[bool]:
     """For each of these sets of as many facts, whether floats see multiples that are positive, with
     a sum that is a number and not positive, at the middle of the parameter: exact minors take long.
     """
-    middle = exact((between.low + between.high) / 2)
+    middle = inside[len(inside) // 2]
     values = np.array([[float(fraction(one(middle))) for one in row] for row in rows.values()])
     values /= np.abs(values).max(axis=1, keepdims=True)
     place = {fact: k for k, fact in enumerate(rows)}
@@ -224,7 +197,7 @@ def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[f
 
 def identity(
     problem: Problem,
-    between: Interval,
+    between: Bounded,
     multiples: Sequence[tuple[fmpq_poly, int]],
     total: fmpq_poly,
 ) -> list[tuple[Factors, Part]] | None:
@@ -234,7 +207,8 @@ def identity(
     for least in (True, False):  # squares of powers of the parameter are not known to be > 0
         terms: list[tuple[Factors, Part]] = []
         for poly, fact in [*multiples, (-total, None)]:
-            parts = [*nonnegative(between, poly, least or fact is not None)] if poly else []
+            apart = least or fact is not None
+            parts = [*nonnegative(problem, between, poly, apart)] if poly else []
             if poly and not parts:
                 return None
             terms += [(() if fact is None else ((fact, 1),), part) for part in parts]
@@ -245,7 +219,7 @@ def identity(
     return None
 
 
-def nonnegative(between: Interval, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
+def nonnegative(problem: Problem, between: Bounded, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
     """A polynomial in the parameter as a sum of parts: an even power of it `apart`, in Bernstein's
     form; no parts where none of the degrees tried has one without negative numbers.
     """
@@ -253,9 +227,9 @@ def nonnegative(between: Interval, poly: fmpq_poly, apart: bool) -> Iterator[Par
     power = next(k for k, c in enumerate(coefficients) if c) // 2 if apart else 0
     rest = fmpq_poly(coefficients[2 * power :])
     for degree in range(rest.degree(), rest.degree() + HIGHER):
-        values = bernstein(rest, between.low, between.high, degree)
-        if all(value >= 0 for value in values):
+        values = between.coefficients(problem.facts, rest, degree)
+        if min(values) >= 0:
             for k, value in enumerate(values):
                 if value:
-                    yield between.part(k, degree, value, power)
+                    yield Part(value, between.factors(k, degree), power)
             return

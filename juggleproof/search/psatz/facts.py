@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
-from math import comb, prod
+from math import prod
 from operator import le, mul
 
-from flint import fmpz_mat, fmpz_mpoly
+from flint import fmpq_poly, fmpz_mat, fmpz_mpoly
 
-from juggleproof.algebra.numbers import bernstein, univariate
+from juggleproof.algebra.numbers import by_ends, univariate
 from juggleproof.algebra.polynomials import (
     Gradings,
     Ring,
@@ -426,25 +426,71 @@ class Fact:
         """The degree in one variable."""
         return int(self.poly.degrees()[variable])
 
+    def slope(self, variable: int) -> int:
+        """The slope a of a bound a*z + b."""
+        return constant_of(self.poly.derivative(variable)) or 1
+
     def end(self, variable: int) -> Fraction:
         """Where a bound a*z + b vanishes."""
-        slope = constant_of(self.poly.derivative(variable)) or 1
         rest = next(
             (c for monomial, c in zip(self.poly.monoms(), self.poly.coeffs()) if not any(monomial)),
             0,
         )
-        return Fraction(-int(rest), slope)
+        return Fraction(-int(rest), self.slope(variable))
 
 
 @dataclass(frozen=True)
-class Bounded:
+class Axis:
     """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z
-    that bounds it above.
+    that bounds it above; one of them may be missing.
     """
 
     variable: int
+    low: int | None
+    high: int | None
+
+    def factors(self, k: int, degree: int) -> Factors:
+        """The k-th of the products of powers of the bounds: a basis of the polynomials of at most
+        this degree.
+        """
+        powers = [(self.low, k), (self.high, degree - k if self.low is not None else k)]
+        return merge(tuple((fact, e) for fact, e in powers if fact is not None and e))
+
+    def coefficients(self, facts: Sequence[Fact], poly: fmpq_poly, degree: int) -> list[Fraction]:
+        """The coefficients of a polynomial in the variable, in this basis."""
+        low, high = (
+            None
+            if k is None
+            else (facts[k].end(self.variable), Fraction(abs(facts[k].slope(self.variable))))
+            for k in (self.low, self.high)
+        )
+        return by_ends(poly, degree, low, high)
+
+
+@dataclass(frozen=True)
+class Bounded(Axis):
+    """A variable that is bounded on both sides."""
+
     low: int
     high: int
+
+
+def sides_of(facts: Sequence[Fact]) -> tuple[dict[int, int], dict[int, int]]:
+    """The facts that alone bound variables below, and above: the tightest of each, by its
+    variable.
+    """
+    low: dict[int, int] = {}
+    high: dict[int, int] = {}
+    for k, fact in enumerate(facts):
+        degrees = [int(d) for d in fact.poly.degrees()]
+        if sum(degrees) == 1:
+            variable = degrees.index(1)
+            side, above = (low, True) if fact.slope(variable) > 0 else (high, False)
+            known = side.setdefault(variable, k)
+            ends = facts[known].end(variable), fact.end(variable)
+            if not facts[known].strict if ends[0] == ends[1] else (ends[1] > ends[0]) == above:
+                side[variable] = k
+    return low, high
 
 
 def times(a: Sum, b: Sum) -> Sum:
@@ -506,32 +552,12 @@ class Signs:
         bounded = self.bounded
         if bounded is None:
             return []
-        degree = int(poly.degrees()[bounded.variable])
+        degree, facts, v = int(poly.degrees()[bounded.variable]), self.facts, bounded.variable
         if not degree or degree != sum(map(int, poly.degrees())):
             return []
-        facts, ends = (
-            self.facts,
-            [self.facts[k].end(bounded.variable) for k in (bounded.low, bounded.high)],
-        )
-        width = ends[1] - ends[0]
-        slopes = [
-            abs(constant_of(facts[k].poly.derivative(bounded.variable)) or 1)
-            for k in (bounded.low, bounded.high)
-        ]
-        if width <= 0:
+        if facts[bounded.low].end(v) >= facts[bounded.high].end(v):
             return []
-        found: Sum = []
-        strict = False
-        for k, b in enumerate(
-            bernstein(univariate(poly, bounded.variable), ends[0], ends[1], degree)
-        ):
-            if b < 0:
-                return []
-            own = tuple(
-                (i, e) for i, e in sorted(((bounded.low, k), (bounded.high, degree - k))) if e
-            )
-            if b:
-                strict = strict or all(facts[i].strict for i, _ in own)
-                value = Fraction(int(b.p), int(b.q)) * comb(degree, k) / width**degree
-                found.append((value / slopes[0] ** k / slopes[1] ** (degree - k), own))
-        return found if strict else []
+        coefficients = bounded.coefficients(facts, univariate(poly, v), degree)
+        found = [(c, bounded.factors(k, degree)) for k, c in enumerate(coefficients) if c]
+        strict = any(all(facts[i].strict for i, _ in own) for _, own in found)
+        return found if min(coefficients) >= 0 and strict else []

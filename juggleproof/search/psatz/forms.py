@@ -19,7 +19,7 @@ from itertools import combinations
 from math import gcd, lcm, prod
 
 import numpy as np
-from flint import fmpz_mpoly
+from flint import fmpq_poly, fmpz_mpoly
 
 from juggleproof.algebra.polynomials import (
     Monomial,
@@ -29,10 +29,9 @@ from juggleproof.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.algebra.semidefinite import Floats, LinearEquations, as_squares
-from juggleproof.search.psatz.facts import merge
+from juggleproof.search.psatz.facts import Axis, merge
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.parameters import (
-    Axis,
     bounds,
     degree_in_all,
     split_variables,
@@ -234,7 +233,10 @@ class QuadraticForm:
         """Q_k of Q = sum_k Q_k * product of powers of the bounds."""
         for axis, degree in zip(axes, degrees):
             v, moved = axis.variable, Form()
-            rows = {e: axis.row(self.problem, e, degree) for e in {m[v] for m in terms}}
+            rows = {
+                e: axis.coefficients(self.problem.facts, fmpq_poly([0] * e + [1]), degree)
+                for e in {m[v] for m in terms}
+            }
             for m, c in terms.items():
                 for k, value in enumerate(rows[m[v]]):
                     key = (*m[:v], k, *m[v + 1 :])

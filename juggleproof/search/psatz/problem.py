@@ -31,6 +31,7 @@ from juggleproof.search.psatz.facts import (
     Signed,
     Signs,
     Sum,
+    sides_of,
     times,
 )
 from juggleproof.statements.states import State
@@ -231,30 +232,11 @@ class Problem:
 
     def _most_common_bounded(self) -> Bounded | None:
         """The variable bounded on both sides that occurs in most facts."""
-        low: dict[int, int] = {}
-        high: dict[int, int] = {}
-        occurs: dict[int, int] = {}
-        for k, fact in enumerate(self.facts):
-            degrees = [int(d) for d in fact.poly.degrees()]
-            for variable, degree in enumerate(degrees):
-                occurs[variable] = occurs.get(variable, 0) + bool(degree)
-            if sum(degrees) == 1:
-                variable = degrees.index(1)
-                side = low if (constant_of(fact.poly.derivative(variable)) or 0) > 0 else high
-                side[variable] = self._tighter(side.get(variable, k), k, variable)
+        low, high = sides_of(self.facts)
+        occurs = [sum(bool(fact.degree(v)) for fact in self.facts) for v in range(self.ring.size)]
         both = [v for v in low if v in high]
         best = max(both, key=lambda v: (occurs[v], -v), default=None)
         return None if best is None else Bounded(best, low[best], high[best])
-
-    def _tighter(self, i: int, j: int, variable: int) -> int:
-        """Of two bounds of one sense the one that implies the other."""
-        if i == j:
-            return i
-        below = (constant_of(self.facts[i].poly.derivative(variable)) or 0) > 0
-        ends = self.facts[i].end(variable), self.facts[j].end(variable)
-        if ends[0] == ends[1]:
-            return i if self.facts[i].strict else j
-        return j if (ends[1] > ends[0]) == below else i
 
     def implied_by_bounds(self, index: int, bounded: Bounded) -> bool:
         """Whether a fact is one of the bounds, or in the bounded variable alone and implied by
