@@ -159,8 +159,15 @@ def _search(
             part = budget.part(budget.left * share // 100)
             try:
                 if refutes:
-                    refuted = point_or_counterexample(
-                        statement, "counterexample", known, part, effort, roles
+                    refuted = search_values(
+                        statement,
+                        State(checker.Context()),
+                        "counterexample",
+                        {},
+                        known,
+                        part,
+                        effort=effort,
+                        roles=roles,
                     )
                     if refuted is not None:
                         return {"refuted": refuted}
@@ -188,35 +195,30 @@ def with_point(
     roles: Roles,
 ) -> Certificate:
     """The certificate of a proved statement: its proof and a point that meets its hypotheses."""
-    for depth in (0, 1, 2):
-        point = point_or_counterexample(statement, "point", known, budget, depth, roles)
-        if point is not None:
-            return {"certified": proof, "point": point}
-    return {"unknown": "shown, but no point was found that meets the hypotheses"}
+    point = search_point(statement, known, budget, roles)
+    if point is None:
+        return {"unknown": "shown, but no point was found that meets the hypotheses"}
+    return {"certified": proof, "point": point}
 
 
-def point_or_counterexample(
+def search_point(
     statement: checker.Statement,
-    purpose: str,
     known: dict[str, checker.Statement],
     budget: Budget,
-    effort: int,
-    roles: Roles = NO_ROLES,
+    roles: Roles,
+    sharp: list[ast.expr] | None = None,
 ) -> Values | None:
-    """A point or counterexample of the statement; None where none was found.
+    """A point that meets the hypotheses of a statement, and lies in the domain of a range; None
+    where none was found.
 
     Raises Exhausted where the budget ends.
     """
-    return search_values(
-        statement,
-        State(checker.Context()),
-        purpose,
-        {},
-        known,
-        budget,
-        effort=effort,
-        roles=roles,
-    )
+    start = State(checker.Context())
+    for effort in (0, 1, 2):
+        point = search_values(statement, start, "point", {}, known, budget, sharp, effort, roles)
+        if point is not None:
+            return point
+    return None
 
 
 def search_proof(

@@ -5,8 +5,9 @@ witnesses, as the checker takes them.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 
 from juggleproof.algebra.conditions import Condition, ring_of
@@ -25,9 +26,9 @@ from juggleproof.search.hints.models import (
 from juggleproof.search.samples import Assignment, Sampler, base_samples
 from juggleproof.search.scales import with_scales
 from juggleproof.search.towers_of_roots import DIGITS, Towers, values_of_tower
-from juggleproof.search.witness_terms import Known, Task
+from juggleproof.search.witness_terms import Known, Task, nodes_at
 from juggleproof.statements.language import NO_ROLES, Roles
-from juggleproof.statements.nodes import Adjoined, Node, Values, values_at
+from juggleproof.statements.nodes import Node, Values, values_at
 from juggleproof.statements.states import State
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
@@ -216,7 +217,10 @@ def values_of_assignment(
     if assignment.number is None:
         terms = {name: str(fraction(assignment.values[name][0])) for name in names}
         if task.purpose == "counterexample" and task.statement.get("exists"):
-            own, unfolding = _unfolding(task, state, [], terms)
+            own = state.branch()
+            values = {n: own.context.value(checker.parse(text)) for n, text in terms.items()}
+            context = checker.Context(own.context, values)
+            unfolding = checker.Unfolding(task.statement, context, task.sharp)
             aim = own.branch(unfolding.goal(True), unfolding.context)
             node = search_closing(aim, task.known, task.budget, min(task.effort, 1))
             if node is None:
@@ -226,11 +230,16 @@ def values_of_assignment(
     for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
         adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", task.statement))
         terms = {name: adjoined.text(assignment.values[name]) for name in names}
-        closed = _nodes_at_number(task, state, terms, adjoined)
+        entry, own = adjoined.entry(), state.branch()
+        try:
+            own.adjoin(*entry[:4])
+        except checker.Rejected:
+            continue
+        closed = nodes_at(task, own, terms, partial(close_at_number, adjoined=adjoined))
         if closed is not None:
-            values = values_at(task.statement.name, [adjoined.entry()], terms, closed)
-            if _served(task, state, values):
-                return values
+            found = values_at(task.statement.name, [entry], terms, closed)
+            if _served(task, state, found):
+                return found
     return None
 
 
@@ -238,41 +247,6 @@ def _served(task: Task, state: State, values: Values) -> Values | None:
     """The values, where the checker accepts them."""
     ok = state.is_served_by(values, task.known, task.purpose, task.statement, sharp=task.sharp)
     return values if ok else None
-
-
-def _unfolding(
-    task: Task, state: State, adjoined: Sequence[Adjoined], terms: Mapping[str, str]
-) -> tuple[State, checker.Unfolding]:
-    """The state and the unfolding that the checker has when it comes to the nodes of values without
-    a base.
-    """
-    state = state.branch()
-    for name, text, low, high, _, _ in adjoined:
-        state.adjoin(name, text, low, high)
-    values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
-    context = checker.Context(state.context, values)
-    return state, checker.Unfolding(task.statement, context, task.sharp)
-
-
-def _nodes_at_number(
-    task: Task, state: State, terms: Mapping[str, str], adjoined: AdjoinedNumber
-) -> list[Node] | None:
-    """The nodes of values at an adjoined number; None where one is missing."""
-    try:
-        state, unfolding = _unfolding(task, state, [adjoined.entry()], terms)
-        assumed = unfolding.goals if task.purpose == "witness" else unfolding.premises
-        branches = [state.branch(checker.negate(checker.join("and", assumed)))]
-        if task.purpose == "counterexample":
-            branches.append(state.branch(unfolding.goal(True), unfolding.context))
-        nodes: list[Node] = []
-        for branch in branches:
-            node = close_at_number(branch, adjoined)
-            if node is None:
-                return None
-            nodes.append(node)
-    except checker.Rejected:
-        return None
-    return nodes
 
 
 def _fresh(name: str, statement: checker.Statement) -> str:

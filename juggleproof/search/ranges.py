@@ -388,11 +388,10 @@ class Violation:
         """Z3's verdict at one value of the parameter: True where there is no violation, None where
         it has none.
         """
-        condition, goal = self.condition, self.goal
         if isinstance(at, AlgebraicNumber) and at.is_rational:
             at = at._low
         if isinstance(at, AlgebraicNumber):
-            ring = condition.ring
+            condition, ring = self.condition, self.condition.ring
             gen = ring.gen(ring.variable_to_index(parameter))
             modulus = multivariate(fmpq_poly(at.poly), ring, parameter)
             here = Condition(
@@ -400,16 +399,20 @@ class Violation:
                 [modulus, gen - at._low, at._high - gen],
                 ("and", [(0, "="), (1, ">"), (2, ">")]),
             )
-            condition = condition.conjoined(here)
-        elif at in self.verdicts:
-            return self.verdicts[at]
-        else:
-            condition = condition.substituted({parameter: at})
-            goal = goal.substituted({parameter: at}) if goal is not None else None
-        absent = self._absent(condition, goal, budget, resources)
-        if absent is not None and isinstance(at, fmpq):
+            return self._absent(condition.conjoined(here), self.goal, budget, resources)
+        if at not in self.verdicts:
+            absent = self.absent_at({parameter: at}, budget, resources)
+            if absent is None:
+                return None
             self.verdicts[at] = absent
-        return absent
+        return self.verdicts[at]
+
+    def absent_at(
+        self, sample: Mapping[str, fmpq], budget: Budget, resources: int = RESOURCES
+    ) -> bool | None:
+        """Z3's verdict at values of some variables."""
+        goal = self.goal.substituted(sample) if self.goal is not None else None
+        return self._absent(self.condition.substituted(sample), goal, budget, resources)
 
     def absent_everywhere(self, budget: Budget) -> bool | None:
         """Z3's verdict within little work, whatever the parameters are."""

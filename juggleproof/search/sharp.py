@@ -18,10 +18,9 @@ from juggleproof.algebra.numbers import (
     with_one_change,
 )
 from juggleproof.certificates import checker
-from juggleproof.search.certificate import search_proof
+from juggleproof.search.certificate import search_point, search_proof
 from juggleproof.search.closing import search_closing
 from juggleproof.search.families import cover
-from juggleproof.search.points import search_values
 from juggleproof.search.ranges import (
     QUICK,
     Line,
@@ -103,26 +102,13 @@ class RangeSearch:
 
         Raises Exhausted where the budget ends.
         """
-        (domain,) = statement.get("domain")
         points: dict[str, Values] = {}
         for each in self.statements:
-            for depth in (0, 1, 2):
-                point = search_values(
-                    each,
-                    State(checker.Context()),
-                    "point",
-                    {},
-                    dict(self.known),
-                    budget,
-                    [domain],
-                    depth,
-                    self.roles,
-                )
-                if point is not None:
-                    points[each.name] = point
-                    break
-            else:
+            known, domains = dict(self.known), [*statement.get("domain")]
+            point = search_point(each, known, budget, self.roles, domains)
+            if point is None:
                 return None
+            points[each.name] = point
         return points
 
     def outside_state(self, statement: checker.Statement) -> State:

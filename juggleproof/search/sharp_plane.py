@@ -21,7 +21,6 @@ from juggleproof.algebra.polynomials import relation_of
 from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
-from juggleproof.search.hints.asking import ask
 from juggleproof.search.ranges import Violation
 from juggleproof.search.samples import base_samples
 from juggleproof.search.sharp import (
@@ -141,18 +140,9 @@ def _samples(
 
 def _verdict(violations: Sequence[Violation], sample: Sample, budget: Budget) -> bool | None:
     for violation in violations:
-        goal = violation.goal.substituted(sample) if violation.goal is not None else None
-        unreachable = (goal, violation.bound) if goal is not None else None
-        verdict = ask(
-            violation.condition.substituted(sample),
-            budget,
-            violation.integers,
-            unreachable=unreachable,
-        ).verdict
-        if verdict == "sat":
-            return False
-        if verdict != "unsat":
-            return None
+        absent = violation.absent_at(sample, budget)
+        if not absent:
+            return absent
     return True
 
 

@@ -130,29 +130,20 @@ class TemplateSearch:
             if spare is not None:  # the smaller root, from the larger
                 gen = poly.context().gen(poly.context().variable_to_index(spare))
                 larger = Root(spare, replace(poly, name, gen, gen**0))
-                widened = Partial(
-                    partial.make, partial.sampled, partial.steps, [*partial.roots, larger]
-                )
+                widened = partial.with_root(larger)
                 value = -coefficients_in(poly, name)[1] - gen
                 yield from self._descend(
                     self._with(widened, name, value, gen**0), [n for n in unknowns if n != name]
                 )
             return
         name, rest = unknowns[0], unknowns[1:]
-        rows = [
-            Trial(sampled, name) if sampled.tree is not False else None
-            for sampled in partial.sampled
-        ]
+        rows = partial.trials(name)
         values: dict[tuple[int, int], fmpq | None] = {}
         tried: set[tuple[int, ...]] = set()
         for value, more, root in self._candidates(partial, name, rest):
             if self.nodes < 0:
                 return
-            widened = (
-                partial
-                if root is None
-                else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
-            )
+            widened = partial.with_root(root)
             key = () if more else value.key()
             if key in tried or not self._plausible(widened, rows, value, more, values):
                 continue
@@ -534,15 +525,8 @@ class CornerSearch(TemplateSearch):
         for name, value, root in moves:
             self.steps -= 1
             self.budget.spend(100 + 60 * len(self.samples) * (1 + len(partial.condition.polys)))
-            widened = (
-                partial
-                if root is None
-                else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
-            )
-            rows = [
-                Trial(sampled, name) if sampled.tree is not False else None
-                for sampled in partial.sampled
-            ]
+            widened = partial.with_root(root)
+            rows = partial.trials(name)
             if (ring_names(value.top) | ring_names(value.bottom)) & set(
                 unknowns
             ) or self._plausible(widened, rows, value, None, {}):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isqrt
 
@@ -401,3 +401,11 @@ class Partial:
     def condition(self) -> Condition:
         """The condition on base and unknowns."""
         return self.make()
+
+    def with_root(self, root: Root | None) -> Partial:
+        """The same with one more adjoined root, if one is given."""
+        return replace(self, roots=[*self.roots, root]) if root else self
+
+    def trials(self, name: str) -> list[Trial | None]:
+        """At each sample the condition, ready to try values of a variable; None where it fails."""
+        return [Trial(one, name) if one.tree is not False else None for one in self.sampled]

@@ -29,10 +29,9 @@ from juggleproof.algebra.numbers import (
     sign,
     simplest_between,
 )
-from juggleproof.certificates import checker
 from juggleproof.search.candidates import trials
 from juggleproof.search.closing import search_closing
-from juggleproof.search.witness_terms import Task, adjoined_entry
+from juggleproof.search.witness_terms import Task, adjoined_entry, nodes_at
 from juggleproof.statements.language import Roles
 from juggleproof.statements.nodes import Adjoined, Values, values_at
 from juggleproof.statements.states import State
@@ -233,16 +232,5 @@ def values_of_tower(task: Task, state: State, tower: Tower, digits: int) -> Valu
             return None
         entries.append(entry)
     terms = {name: to_text(value) for name, value in sorted(tower.values.items())}
-    try:
-        values = {name: own.context.value(checker.parse(text)) for name, text in terms.items()}
-        unfolding = checker.Unfolding(task.statement, checker.Context(own.context, values))
-    except checker.Rejected:
-        return None
-    aims = [own.branch(checker.negate(checker.join("and", unfolding.premises)))]
-    if task.purpose == "counterexample":
-        aims.append(own.branch(unfolding.goal(True), unfolding.context))
-    nodes = [search_closing(aim, known, budget, 1) for aim in aims]
-    closed = [node for node in nodes if node is not None]
-    if len(closed) < len(nodes):
-        return None
-    return values_at(task.statement.name, entries, terms, closed)
+    nodes = nodes_at(task, own, terms, lambda aim: search_closing(aim, known, budget, 1))
+    return None if nodes is None else values_at(task.statement.name, entries, terms, nodes)

@@ -5,7 +5,7 @@ takes it.
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -307,35 +307,35 @@ def _with_nodes(
                 if key in choice.values
                 else renamed.names[key]
             )
-        values = {
-            variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
-        }
-        unfolding = checker.Unfolding(
-            task.statement, checker.Context(own.context, {**values, **task.base}), task.sharp
-        )
-        aims = [
-            own.branch(
-                checker.negate(
-                    checker.join(
-                        "and", unfolding.goals if task.purpose == "witness" else unfolding.premises
-                    )
-                )
-            )
-        ]
-        aims += (
-            [own.branch(unfolding.goal(True), unfolding.context)]
-            if task.purpose == "counterexample"
-            else []
-        )
+    except checker.Rejected:
+        return None
+    nodes = nodes_at(task, own, terms, lambda aim: search_closing(aim, known, budget, effort))
+    return None if nodes is None else values_at(task.statement.name, adjoined, terms, nodes)
+
+
+def nodes_at(
+    task: Task, state: State, terms: Mapping[str, str], close: Callable[[State], Node | None]
+) -> list[Node] | None:
+    """The nodes that show of terms in a state that they serve; None where one is missing, or a term
+    cannot be read.
+    """
+    try:
+        values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
+        context = checker.Context(state.context, {**values, **task.base})
+        unfolding = checker.Unfolding(task.statement, context, task.sharp)
+        wanted = unfolding.goals if task.purpose == "witness" else unfolding.premises
+        aims = [state.branch(checker.negate(checker.join("and", wanted)))]
+        if task.purpose == "counterexample":
+            aims.append(state.branch(unfolding.goal(True), unfolding.context))
     except checker.Rejected:
         return None
     nodes: list[Node] = []
     for aim in aims:
-        node = search_closing(aim, known, budget, effort)
+        node = close(aim)
         if node is None:
             return None
         nodes.append(node)
-    return values_at(task.statement.name, adjoined, terms, nodes)
+    return nodes
 
 
 def _adjoined_root(

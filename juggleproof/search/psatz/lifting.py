@@ -79,18 +79,14 @@ def lift(
     scale *= scale.denominator
     owed: dict[int, fmpz_mpoly] = {}
     used_equations = sorted({place for (place, _), _ in cofactors})
-    multiples = [squared(problem, place) for place in used_equations]
-    for at, place in enumerate(used_equations):
-        equation = problem.reduction.left[place]
+    left = [problem.reduction.left[place] for place in used_equations]
+    multiples = [with_sign(problem.source, one.multiple, one.factors) for one in left]
+    for at, (place, equation) in enumerate(zip(used_equations, left)):
         own = [(monomial, c) for (where, monomial), c in cofactors if where == place]
         # every term is multiplied by all multiples: an equation's own multiple is part of its
         # combination
-        cofactor = extra * prod(
-            (multiple for other, (multiple, _) in enumerate(multiples) if other != at),
-            start=ring.one,
-        )
-        if multiples[at][0] != equation.multiple:
-            cofactor = cofactor * equation.multiple
+        others = (multiple for other, (multiple, _, _) in enumerate(multiples) if other != at)
+        cofactor = extra * prod(others, start=ring.one) * multiples[at][2]
         whole_cofactor = ring.zero
         clear = lcm(1, *(Fraction(c * scale).denominator for _, c in own))
         if clear != 1:
@@ -99,7 +95,7 @@ def lift(
             whole_cofactor = whole_cofactor + ring.ctx.from_dict({monomial: int(c * scale)})
         for k, part in equation.combination.items():
             owed[k] = owed.get(k, ring.zero) + part * whole_cofactor * cofactor
-    shared = merge(*(factors for _, factors in multiples))
+    shared = merge(*(factors for _, factors, _ in multiples))
     terms = [Term(t.coefficient, merge(t.factors, shared), t.root) for t in terms]
     return finish(problem.source, problem.reduction, terms, owed)
 
@@ -129,17 +125,15 @@ def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
     return poly, Fraction(1, common)
 
 
-def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
-    """The multiple of an equation left and its facts, squared where a fact in it has no known
-    sign.
+def with_sign(
+    source: Source, multiple: fmpz_mpoly, factors: Factors
+) -> tuple[fmpz_mpoly, Factors, fmpz_mpoly]:
+    """A product of facts, and these, and what it is times the product given: squared where a fact
+    in it has no known sign.
     """
-    equation = problem.reduction.left[place]
-    even = any(problem.source.relations[k] == "!=" for k, _ in equation.factors)
-    return (
-        (equation.multiple * equation.multiple, power(equation.factors, 2))
-        if even
-        else (equation.multiple, equation.factors)
-    )
+    if any(source.relations[k] == "!=" for k, _ in factors):
+        return multiple * multiple, power(factors, 2), multiple
+    return multiple, factors, source.ring.one
 
 
 def finish(
@@ -176,18 +170,10 @@ def finish(
                 extra = merge(extra, power(step.lead_factors, count))
             terms = [Term(t.coefficient * step.lead_scale**count, t.factors, t.root) for t in terms]
             owed = {k: c * step.lead**count for k, c in owed.items()}
-        multiple, factors = step.multiple, step.multiple_factors
-        if any(
-            source.relations[index] == "!=" for index, _ in factors
-        ):  # an even power, for want of a sign
-            quotient, multiple, factors = (
-                quotient * multiple,
-                multiple * multiple,
-                power(factors, 2),
-            )
+        multiple, factors, more = with_sign(source, step.multiple, step.multiple_factors)
         owed = {k: c * multiple for k, c in owed.items()}
         for k, c in step.combination.items():
-            owed[k] = owed.get(k, ring.zero) - quotient * c
+            owed[k] = owed.get(k, ring.zero) - quotient * more * c
         extra = merge(extra, factors)
         total = rest * multiple
     for _ in range(SWEEPS if total else 0):
@@ -201,17 +187,12 @@ def finish(
             quotient, rest = divmod(total * scale, poly)
             if not quotient:
                 continue
-            multiple, factors, scale = equation.multiple, equation.factors, scale * content
-            if any(source.relations[index] == "!=" for index, _ in factors):
-                quotient, multiple, factors = (
-                    quotient * multiple,
-                    multiple * multiple,
-                    power(factors, 2),
-                )
+            scale *= content
+            multiple, factors, more = with_sign(source, equation.multiple, equation.factors)
             terms = [Term(t.coefficient * scale, t.factors, t.root) for t in terms]
             owed = {k: c * multiple * scale for k, c in owed.items()}
             for k, c in equation.combination.items():
-                owed[k] = owed.get(k, ring.zero) - quotient * c
+                owed[k] = owed.get(k, ring.zero) - quotient * more * c
             extra, total = merge(extra, factors), rest * multiple * content
         if not total:
             break
