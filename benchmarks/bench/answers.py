@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import permutations, product
 from math import inf, lcm
 
-from juggleproof.search.boxes.small import Exponents, Terms, simple_points, value_at
+from juggleproof.algebra.box_trees import Exponents, Terms, simple_points, value_at
 
 # -------------------------------------------------------------------------------------------------
 # Questions as plain data, which a process of its own can read without SymPy and NumPy: the least

@@ -9,9 +9,9 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from juggleproof.algebra.box_trees import Terms
 from juggleproof.benchmarks.bench.answers import Answer, Problem
 from juggleproof.search.boxes.descent import FloatPolynomial
-from juggleproof.search.boxes.small import Terms
 
 Array = NDArray[np.float64]
 MOST, AT_ONCE = 10**7, 10**5  # samples

@@ -16,6 +16,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Literal, NamedTuple
 
+from juggleproof.algebra.box_trees import search_tree
 from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
@@ -29,7 +30,6 @@ from juggleproof.benchmarks.bench.answers import (
     best_point,
 )
 from juggleproof.certificates import checker
-from juggleproof.search.boxes.small import search_tree
 
 # -------------------------------------------------------------------------------------------------
 # Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the times

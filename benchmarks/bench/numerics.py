@@ -15,8 +15,8 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Protocol, Union
 
+from juggleproof.algebra.box_trees import Terms
 from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
-from juggleproof.search.boxes.small import Terms
 
 if TYPE_CHECKING:
     from flint import arb

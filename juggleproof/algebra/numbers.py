@@ -377,24 +377,6 @@ def by_ends(poly: fmpq_poly, degree: int, low: End | None, high: End | None) -> 
     return [fraction(moved[k]) / end[1] ** k for k in range(degree + 1)]
 
 
-def tree_below_zero(poly: fmpq_poly, low: Fraction, high: Fraction, deep: int = 60) -> str | None:
-    """The box tree of one axis that shows that the polynomial is negative from low to high; None
-    where it is not, or where that takes more halvings, one inside another, than `deep`.
-
-    >>> tree_below_zero(fmpq_poly([-1, 4, -5]), Fraction(0), Fraction(1))
-    'aa...'
-    """
-    coefficients = bernstein(poly, low, high, max(poly.degree(), 0))
-    if low > high or coefficients[0] >= 0 or coefficients[-1] >= 0 or not deep:
-        return None
-    if max(coefficients) < 0:
-        return "."
-    middle = (low + high) / 2
-    lower = tree_below_zero(poly, low, middle, deep - 1)
-    upper = lower and tree_below_zero(poly, middle, high, deep - 1)
-    return upper and f"a{lower}{upper}"
-
-
 def with_one_change(poly: fmpq_poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
     """Ends around the only root of a polynomial between two numbers at which its signs differ, so
     close that its Bernstein coefficients change their sign once.
@@ -411,13 +393,3 @@ def with_one_change(poly: fmpq_poly, low: Fraction, high: Fraction) -> tuple[Fra
             low = middle
         else:
             high = middle
-
-
-def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
-    """Whether the polynomial is positive on the whole closed interval.
-
-    >>> poly = fmpq_poly([-2, 0, 1])
-    >>> [positive_between(poly, Fraction(low, 10), Fraction(2)) for low in (14, 15)]
-    [False, True]
-    """
-    return tree_below_zero(-poly, low, high) is not None

@@ -19,7 +19,7 @@ from juggleproof.search.closing import (
     sign_node,
 )
 from juggleproof.search.decrease_proofs.by_products import (
-    obligations_closed,
+    proof_with,
     renumbered,
     with_facts,
 )
@@ -125,27 +125,7 @@ def proof_from_few_facts(
             return None
         return by_signs(state, known, few_of(state, used, terms, unknowns), signs)
 
-    return proof_with(premise, known, closed)
-
-
-def proof_with(
-    premise: checker.Statement,
-    known: dict[str, checker.Statement],
-    closed: Callable[[State], Node | None],
-) -> Proof | None:
-    """Return the proof with the node that closes the premise's facts and the negation of its
-    conclusion; None if there is no such node, or an obligation stays open.
-    """
-    unfolding = unfolded(premise)
-    try:
-        steps = obligations_closed(unfolding, known, Budget(limits.FEW_FACTS_WORK))
-    except Exhausted:
-        return None
-    if steps is None:
-        return None
-    node = closed(state_of(unfolding).assume(unfolding.goal(False)))
-    proof: Proof | None = None if node is None else ("proof", steps, node)
-    return proof if proof and proves(premise, proof, known) else None
+    return proof_with(premise, known, Budget(limits.FEW_FACTS_WORK), closed)
 
 
 def closed_from(
@@ -161,7 +141,7 @@ def closed_from(
         node = search_closing(few, known, Budget(work), effort=effort, confirm=False)
     except Exhausted:
         return None
-    return renumbered(node, numbers) if node else None
+    return renumbered(node, numbers)
 
 
 def by_signs(
@@ -245,7 +225,8 @@ def proof_by_squares(
             continue
         if found is not None:
             return found
-    return proof_with(premise, known, partial(closed_by_squares, known=known))
+    closed = partial(closed_by_squares, known=known)
+    return proof_with(premise, known, Budget(limits.FEW_FACTS_WORK), closed)
 
 
 def proof_without_next(
@@ -266,7 +247,7 @@ def proof_without_next(
             return None
         return closed_from(state, known, numbers, SQUARED, limits.SQUARES_WORK)
 
-    return proof_with(premise, known, closed)
+    return proof_with(premise, known, Budget(limits.FEW_FACTS_WORK), closed)
 
 
 def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node | None:

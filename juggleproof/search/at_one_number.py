@@ -8,11 +8,11 @@ from fractions import Fraction
 
 from flint import fmpq_poly, fmpz_poly
 
+from juggleproof.algebra.box_trees import tree_above_zero
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
     fraction,
     polynomial_text,
-    tree_below_zero,
 )
 from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
@@ -101,7 +101,7 @@ def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node |
             (equation, dense_text(-v / gcd[0], adjoined.name)),
         ]
         return "psatz", [("1", [], "1")], cofactors
-    tree = tree_below_zero(dense, adjoined.low, adjoined.high)
+    tree = tree_above_zero(-dense, adjoined.low, adjoined.high)
     return None if tree is None else ("boxes", index, [(low, high)], tree)
 
 

@@ -12,10 +12,10 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.algebra.box_trees import value_at
 from juggleproof.certificates import checker
 from juggleproof.judging.bounds import LOWER, Enclosure, enclose_minimum
 from juggleproof.search.boxes.branching import Branching, bernstein_tensor
-from juggleproof.search.boxes.small import value_at
 from juggleproof.search.boxes.squares import program_around
 from juggleproof.search.psatz.sums_of_squares import search_squares
 from juggleproof.statements.work import Budget

@@ -11,9 +11,9 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.algebra.box_trees import search_tree, value_at
 from juggleproof.certificates import checker
 from juggleproof.search.boxes.branching import Branching
-from juggleproof.search.boxes.small import search_tree, value_at
 from tests.statements.drawn import fractions
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)

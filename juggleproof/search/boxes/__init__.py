@@ -3,7 +3,6 @@ over boxes; rules `boxes`, `psatz` and `sign`.
 
 The files, each after those that it imports:
 
-- `small`: polynomials and box trees as plain data, without NumPy
 - `branching`: a box tree for any polynomial, the box of least bound first
 - `descent`: points of a box where a polynomial is small
 - `over_box`: one fact over the box of the others, by a small tree

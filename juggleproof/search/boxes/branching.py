@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from juggleproof.search.boxes.small import LETTERS, Box, Terms
+from juggleproof.algebra.box_trees import LETTERS, Box, Terms
 
 # -------------------------------------------------------------------------------------------------
 # Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from juggleproof.search.boxes.small import (
+from juggleproof.algebra.box_trees import (
     Box,
     Exponents,
     Terms,

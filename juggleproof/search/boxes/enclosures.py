@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from juggleproof.algebra.box_trees import rounded_down, value_at
 from juggleproof.search.boxes.branching import ROUNDING, Branching, Tree
 from juggleproof.search.boxes.descent import (
     SHARE,
@@ -17,7 +18,6 @@ from juggleproof.search.boxes.descent import (
     Problem,
     shorter,
 )
-from juggleproof.search.boxes.small import rounded_down, value_at
 from juggleproof.search.boxes.squares import program_around
 from juggleproof.search.psatz.sums_of_squares import search_squares
 from juggleproof.statements.language import ClaimError

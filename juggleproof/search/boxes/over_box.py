@@ -8,8 +8,8 @@ from fractions import Fraction
 from math import prod
 from typing import NamedTuple
 
+from juggleproof.algebra.box_trees import Box, Exponents, search_tree, value_at
 from juggleproof.certificates import checker
-from juggleproof.search.boxes.small import Box, Exponents, search_tree, value_at
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import State, variables_in
 from juggleproof.statements.work import Budget

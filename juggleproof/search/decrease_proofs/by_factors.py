@@ -26,7 +26,7 @@ from juggleproof.search.decrease_proofs.by_products import (
     Multiplied,
     facts_kept,
     independent,
-    obligations_closed,
+    proof_with,
     renumbered,
     with_facts,
 )
@@ -36,8 +36,8 @@ from juggleproof.search.psatz.linear import Products
 from juggleproof.search.psatz.problem import Problem
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.nodes import Node, Proof
-from juggleproof.statements.states import State, proves, state_of
-from juggleproof.statements.work import Budget, Exhausted, unfolded
+from juggleproof.statements.states import State
+from juggleproof.statements.work import Budget, Exhausted
 
 Points = Mapping[str, NDArray[np.float64]]
 
@@ -59,13 +59,9 @@ def proof_by_factors(
     """A proof of a premise `falls` by the cases of this sign; `points`: samples of all variables,
     by which signs are proposed.
     """
-    unfolding = unfolded(premise)
     budget = Budget(BUDGET)
-    try:
-        steps = obligations_closed(unfolding, known, budget)
-        if steps is None:
-            return None
-        state = state_of(unfolding).assume(unfolding.goal(False))
+
+    def closed(state: State) -> Node | None:
         if state.choices or state.closed:
             return None
         ring = Ring(tuple(state.context.index))
@@ -83,11 +79,9 @@ def proof_by_factors(
             nodes.append(Case(ring, goal, inside, budget, sign).close(case, facts))
             if nodes[-1] is None:
                 return None
-    except Exhausted:
-        return None
-    node = sign_node(sign, nodes)
-    proof: Proof | None = None if node is None else ("proof", steps, node)
-    return proof if proof is not None and proves(premise, proof, known) else None
+        return sign_node(sign, nodes)
+
+    return proof_with(premise, known, budget, closed)
 
 
 Part = tuple[fmpz_mpoly, int | None]  # a polynomial, and the number of the fact that it multiplies
@@ -182,7 +176,7 @@ class Case:
         if unknown is not None:
             return self.lemma(state, kept, bound, goal, problem, unknown)
         node = self.written(problem, identity.parts(), facts)
-        return None if node is None else renumbered(node, kept)
+        return renumbered(node, kept)
 
     def unknown_factor(
         self, parts: Sequence[fmpz_mpoly], facts: Mapping[str, int]
@@ -258,7 +252,7 @@ class Case:
         facts = {str(fact.poly): k for k, fact in enumerate(problem.facts)}
         last = firsts.index(len(kept) - 1)
         node = self.written(problem, [(parts[0], last), *((one, None) for one in parts[1:])], facts)
-        return None if node is None else renumbered(node, kept)
+        return renumbered(node, kept)
 
     def by_squares(self, state: State, kept: list[int]) -> Node | None:
         """A node that the last fact is false, by sums of squares times facts in its variables."""
@@ -271,7 +265,7 @@ class Case:
             node = search_squares(programs_of_facts(problem, part), part)
         except Exhausted:
             return None
-        return None if node is None else renumbered(node, few)
+        return renumbered(node, few)
 
     def sum_of_products(self, state: State, kept: list[int]) -> Node | None:
         """A node that the last fact is false: its opposite is a sum of products of the others."""
@@ -294,7 +288,7 @@ class Case:
         ]
         every = Combinations(problem, parts, packing, MOST_COLUMNS, MOST_TERMS)
         node = every.node(multiplied, total_degree(poly), MORE, [], self.budget)
-        return None if node is None else renumbered(node, kept)
+        return renumbered(node, kept)
 
     def written(
         self, problem: Problem, parts: Sequence[Part], facts: Mapping[str, int]

@@ -5,7 +5,7 @@ positive, in the parameters above all.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import prod
@@ -53,17 +53,31 @@ def proof_by_products(
     what is known of the parameters but the unknowns; products times these squares are used too,
     then cases of these signs.
     """
-    unfolding = unfolded(premise)
     budget = Budget(BUDGET)
+
+    def closed(state: State) -> Node | None:
+        ring = Ring(tuple(state.context.index))
+        kept, goal = facts_kept(state, ring, terms, unknowns), len(state.facts) - 1
+        return by_cases(state, goal, kept, ring, squares, unknowns, signs, budget, most)
+
+    return proof_with(premise, known, budget, closed)
+
+
+def proof_with(
+    premise: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    closed: Callable[[State], Node | None],
+) -> Proof | None:
+    """The proof with the node that closes the premise's facts and the negation of its conclusion;
+    None where there is no such node, an obligation stays open, or the budget ends.
+    """
+    unfolding = unfolded(premise)
     try:
         steps = obligations_closed(unfolding, known, budget)
         if steps is None:
             return None
-        state = state_of(unfolding).assume(unfolding.goal(False))
-        ring = Ring(tuple(state.context.index))
-        kept = facts_kept(state, ring, terms, unknowns)
-        goal = len(state.facts) - 1
-        node = by_cases(state, goal, kept, ring, squares, unknowns, signs, budget, most)
+        node = closed(state_of(unfolding).assume(unfolding.goal(False)))
     except Exhausted:
         return None
     proof: Proof | None = None if node is None else ("proof", steps, node)
@@ -265,7 +279,7 @@ def leaf(
     multiplied = [Multiplied(*one) for one in polys]
     top = max(total_degree(one.poly) for one in multiplied if one.root < 0)
     node = Combinations(problem, parts, packing, most).node(multiplied, top, MORE, roots, budget)
-    return None if node is None else renumbered(node, kept)
+    return renumbered(node, kept)
 
 
 class Multiplied(NamedTuple):
@@ -376,9 +390,11 @@ def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
     ]
 
 
-def renumbered(node: Node, kept: Sequence[int]) -> Node | None:
-    """The node with the numbers that the facts have in the state."""
-    if node[0] != "psatz":
+def renumbered(node: Node | None, kept: Sequence[int]) -> Node | None:
+    """The node with the numbers that the facts have in the state; None where there is none, or it
+    has cases.
+    """
+    if node is None or node[0] != "psatz":
         return None
     _, products, equations = node
     return (

@@ -11,7 +11,8 @@ import numpy as np
 from flint import fmpz_mpoly
 from numpy.typing import NDArray
 
-from juggleproof.algebra.numbers import positive_between, univariate
+from juggleproof.algebra.box_trees import tree_above_zero
+from juggleproof.algebra.numbers import univariate
 from juggleproof.algebra.polynomials import (
     Keys,
     Packing,
@@ -244,14 +245,11 @@ class Problem:
         """
         if index in (bounded.low, bounded.high):
             return True
-        poly = self.facts[index].poly
-        return self.facts[index].degree(bounded.variable) == sum(
-            map(int, poly.degrees())
-        ) == total_degree(poly) and positive_between(
-            univariate(poly, bounded.variable),
-            self.facts[bounded.low].end(bounded.variable),
-            self.facts[bounded.high].end(bounded.variable),
-        )
+        poly, v = self.facts[index].poly, bounded.variable
+        if used_in(poly) != (v,):
+            return False
+        ends = (self.facts[k].end(v) for k in (bounded.low, bounded.high))
+        return tree_above_zero(univariate(poly, v), *ends) is not None
 
     # -------------------------------------------------------- candidates and divided facts
 
