@@ -14,7 +14,7 @@ from juggleproof.judging.register import PATH, load_register
 from juggleproof.judging.run import Options, claims_of_files, refuse_duplicates, run, store_of
 from juggleproof.papers.paper import opened
 from juggleproof.reports.ci import NEITHER, failing, fails_at
-from juggleproof.reports.results import Results, results_of_run, theorem_of_run
+from juggleproof.reports.results import RunResults, results_of_run, theorem_of_run
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT
 
@@ -28,7 +28,7 @@ class Claims:
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
-        self.judged: dict[bool, Results | Exception] = {}
+        self.judged: dict[bool, RunResults | Exception] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
         """The id of every claim, with whether it is the user's; and the ids that are registered but
@@ -51,7 +51,7 @@ class Claims:
             )
         yield from (item for item in names if not self.chosen or item[0] in self.chosen)
 
-    def results(self, own: bool) -> Results:
+    def results(self, own: bool) -> RunResults:
         """The results; where the claims cannot be judged, every item raises the same exception."""
         if own not in self.judged:
             try:
@@ -71,7 +71,7 @@ class Claims:
         return collector
 
 
-def _judged(files: Sequence[Path]) -> Results:
+def _judged(files: Sequence[Path]) -> RunResults:
     """The results of a run as by `certify`; for the paper it uses a copy of the store, so that
     tests do not change the source tree.
     """
@@ -150,7 +150,7 @@ class ClaimCollector(pytest.Collector):
             yield ClaimItem.from_parent(self, name=name, of=self.of, own=own)
 
 
-def faults(results: Results, name: str) -> list[str]:
+def faults(results: RunResults, name: str) -> list[str]:
     """The faults of a claim: how it differs from the register, and where it fails; none where it is
     as registered, or the user's own claim holds.
     """

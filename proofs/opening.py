@@ -123,7 +123,7 @@ RULES, PROOF = "theorem", "theorem-by-hand"  # the claims whose statements are s
 IN_UNITS, SCALING = "theorem-in-units", "region-scaling"
 
 
-class Lines:
+class ProofLines:
     """The lines of the written proof: the statements of a claim by label, each with a link to its
     certificate.
     """
@@ -169,7 +169,7 @@ class Opening:
     rate: str
     radius: str
     rate_to_the_k: str
-    lines: Lines
+    lines: ProofLines
     verdicts: Mapping[str, str]
 
     @property
@@ -221,6 +221,6 @@ def opening(contents: Contents) -> Opening | None:
         rate=mathml(rate),
         radius=markup.formula(rows("contracts", "radius")[0]),
         rate_to_the_k=mathml(f"({rate})^k"),
-        lines=Lines(entries[PROOF]),
+        lines=ProofLines(entries[PROOF]),
         verdicts={name: one.verdict for name, one in entries.items()},
     )

@@ -47,7 +47,7 @@ from juggleproof.symbolic.mechanics import boundary_height, collision_margin, ha
 # x, so a curve gives x as a function of w.
 
 
-class Candidate(NamedTuple):
+class ExtremePoint(NamedTuple):
     """A point (x, w) with the value there and the constraints that hold with equality by its
     construction.
     """
@@ -58,7 +58,7 @@ class Candidate(NamedTuple):
     active: tuple[Expr, ...]
 
 
-def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[Candidate]:
+def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[ExtremePoint]:
     """The stationary points inside, along each curve constraint = 0, and the corners that satisfy
     all constraints >= 0.
 
@@ -72,13 +72,13 @@ def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[Candidate]:
     for first, second in combinations(constraints, 2):
         points += [(*point, (first, second)) for point in _meeting_points(first, second)]
     return [
-        Candidate(reduced(px), reduced(pw), reduced(objective.subs({x: px, w: pw})), active)
+        ExtremePoint(reduced(px), reduced(pw), reduced(objective.subs({x: px, w: pw})), active)
         for px, pw, active in points
         if all(sign_for_lossy_impacts(_at(g, px, pw)) >= 0 for g in constraints if g not in active)
     ]
 
 
-def greatest(found: Sequence[Candidate]) -> Candidate:
+def greatest(found: Sequence[ExtremePoint]) -> ExtremePoint:
     """The candidate of the greatest value for all 0 < alpha < 1; DerivationError where the order
     depends on alpha.
 

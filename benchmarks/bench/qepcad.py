@@ -16,7 +16,7 @@ from juggleproof.benchmarks.processes import output_of
 from juggleproof.votes.questions import (
     Atom,
     Formula,
-    Question,
+    VoteQuestion,
     join,
     questions,
     read_statement,
@@ -27,7 +27,7 @@ TOO_FEW = "Too few cells"
 RELATIONS = {"!=": "/="}  # those that are written differently
 
 
-def prenex(question: Question) -> str:
+def prenex(question: VoteQuestion) -> str:
     """Return the input for one question about real numbers, without quantifiers.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nshow 2*x^2 != 1/2"

@@ -24,7 +24,7 @@ from juggleproof.reports import pages
 from juggleproof.reports import results as table
 from juggleproof.reports.ci import as_junit, failing, markdown
 from juggleproof.reports.contents import Contents, as_json, contents_of
-from juggleproof.reports.results import Results, results_of_run, theorem_of_run
+from juggleproof.reports.results import RunResults, results_of_run, theorem_of_run
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT, write_file
 
@@ -194,7 +194,7 @@ def _lines_of_progress(total: int) -> Progress:
 
 
 def _accept(
-    results: Results,
+    results: RunResults,
     before: Register,
     options: CertifyOptions,
     register: Path,
@@ -216,13 +216,15 @@ def _accept(
 # the run.
 
 
-def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:
+def write_outputs(
+    options: CertifyOptions, results: RunResults, seconds: Mapping[str, float]
+) -> None:
     """Writes each file that was asked for."""
     for option, path in asked_of(options).items():
         write_file(path, _content(option, results, seconds if options.timings else {}))
 
 
-def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
+def _content(option: str, results: RunResults, seconds: Mapping[str, float]) -> bytes:
     if option == "json":
         return as_json(results)
     if option == "junit":

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.command.outputs import busy
-from juggleproof.judging.checked import Reading
+from juggleproof.judging.checked import StoreReading
 from juggleproof.judging.claims import CheckedApart, claims_in
 from juggleproof.papers.paper import opened
 from juggleproof.reports.tree import LOST, theorem_line
@@ -31,7 +31,7 @@ def check(folder: Path | None) -> int:
     """
     where = folder or DEFAULT
     try:
-        with busy("checking"), Reading(where, os.cpu_count() or 1) as reading:
+        with busy("checking"), StoreReading(where, os.cpu_count() or 1) as reading:
             reading.outcomes()
         results = reading.results or checker.check_folder(str(where))
     except checker.Rejected as reason:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from juggleproof.command.outputs import busy, write_all
 from juggleproof.judging import report_cache
-from juggleproof.judging.checked import Checked, Reading
+from juggleproof.judging.checked import Checked, StoreReading
 from juggleproof.judging.extras import needed
 from juggleproof.sine.stored import stored_outcomes
 from juggleproof.statements.language import ClaimError
@@ -69,7 +69,10 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
 
 def check_store() -> Checked:
     """The checker's outcome of every stored statement; none where the store cannot be read."""
-    with busy("checking the stored certificates"), Reading(DEFAULT, os.cpu_count() or 1) as reading:
+    with (
+        busy("checking the stored certificates"),
+        StoreReading(DEFAULT, os.cpu_count() or 1) as reading,
+    ):
         reading.outcomes()
     return reading.results
 

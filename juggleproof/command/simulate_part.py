@@ -32,16 +32,16 @@ from juggleproof.scenes.part.ensemble import in_words, no_vibration
 from juggleproof.scenes.part.onsets import (
     PAPER,
     Interrupted,
-    Table,
+    OnsetTable,
     as_csv,
     as_npz,
     ensembles_in_words,
     table_one,
 )
 from juggleproof.scenes.part.readings import (
-    Point,
-    Stage,
-    Task,
+    AlikeReadings,
+    ReadingOutcome,
+    SimulatedReading,
     as_json,
     finals,
     nearer,
@@ -242,20 +242,20 @@ def _table(options: PartOptions, executor: Executor | None) -> int:
     return 130 if interrupted else int(broken)
 
 
-def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
+def _writer(path: Path) -> Callable[[OnsetTable, BinaryIO], None]:
     return as_csv if path.suffix == ".csv" else as_npz
 
 
 def _sweep(options: PartOptions, executor: Executor | None) -> int:
     whole = options.sweep == READINGS
-    stages: list[Stage] = []
+    stages: list[AlikeReadings] = []
     tasks, interrupted = screened() if whole else _grid(options), False
     following = [nearer, finals] if whole else []
     print(part_tables.POINT_HEADS)
     while tasks and not interrupted:
-        points = list[Point]()
+        points = list[ReadingOutcome]()
 
-        def report(_done: int, _of: int, points: list[Point] = points) -> None:
+        def report(_done: int, _of: int, points: list[ReadingOutcome] = points) -> None:
             if points[-1].likelihoods:
                 print(part_tables.point(points[-1]), flush=True)
 
@@ -276,7 +276,7 @@ def _sweep(options: PartOptions, executor: Executor | None) -> int:
     return 130 if interrupted else 0
 
 
-def _grid(options: PartOptions) -> list[Task]:
+def _grid(options: PartOptions) -> list[SimulatedReading]:
     """The points of a grid of restitution and friction; all else is as in the options."""
     grid = grid_of(options.sweep or "")
     if set(grid) != {"e", "mu"}:
@@ -287,7 +287,7 @@ def _grid(options: PartOptions) -> list[Task]:
     plain, horizon = reading_of(options), number(options.horizon, "horizon")
     readings = [replace(plain, e=e, mu=mu) for e, mu in product(grid["e"], grid["mu"])]
     return [
-        Task(one, setting_of(options, one), options.ensembles, options.seed, horizon)
+        SimulatedReading(one, setting_of(options, one), options.ensembles, options.seed, horizon)
         for one in readings
     ]
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from juggleproof.scenes.part.drive import Harmonics, harmonics
-from juggleproof.scenes.part.readings import AMPLITUDES, FACES, Reading, chosen, recorded
+from juggleproof.scenes.part.readings import AMPLITUDES, FACES, TableReading, chosen, recorded
 from juggleproof.scenes.part.setting import Launch, Scene
 from juggleproof.scenes.part.shape import Polygon, polygon
 from juggleproof.statements.language import ClaimError
@@ -55,14 +55,14 @@ def _known(text: str, name: str, known: Mapping[str, object]) -> str:
     return text
 
 
-def reading_of(options: SceneOptions) -> Reading:
+def reading_of(options: SceneOptions) -> TableReading:
     """The reading of table I by the options; the likeliest stored reading has those left out."""
     likely = chosen(recorded()).reading
     along, up = likely.phase_x, likely.phase_y
     if options.phase is not None:
         first, both, second = options.phase.partition(",")
         along, up = number(first, "phase"), number(second if both else first, "phase")
-    return Reading(
+    return TableReading(
         _known(options.face or likely.face, "--face", FACES),
         _known(options.amplitudes or likely.amplitudes, "--amplitudes", AMPLITUDES),
         along,
@@ -77,7 +77,7 @@ def others(options: SceneOptions) -> list[str]:
     return [name for name in OTHERS if getattr(options, name) is not None]
 
 
-def setting_of(options: SceneOptions, reading: Reading) -> Scene:
+def setting_of(options: SceneOptions, reading: TableReading) -> Scene:
     """The scene of the options under a reading."""
     if options.shape is not None and options.face is not None:
         raise ClaimError("--face and --shape do not go together; give one of them")
@@ -124,7 +124,7 @@ def _exact(text: str, name: str) -> Fraction:
     raise ClaimError(f"{name} is no corner; write numbers as 0.7, 1e-3 or 2/3")
 
 
-def _drive(options: SceneOptions, reading: Reading) -> Harmonics | None:
+def _drive(options: SceneOptions, reading: TableReading) -> Harmonics | None:
     """The motion of the table by --along and --away; None where neither is given.  A harmonic
     without a phase has phase 0; an axis that is not given moves as in the reading.
     """

@@ -23,7 +23,7 @@ from juggleproof.coq_store.text import (
     proposition,
 )
 from juggleproof.coq_store.transfer import Form, Transfer
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 AND, OR = "/\\", "\\/"
 
@@ -41,7 +41,9 @@ def readings(statement: checker.Statement, certificate: Hint, known: Known) -> s
     written = [lemmas(statement, certificate, known)]
     shown: dict[str, str] = {}
     for name, premise in checker.premises_of(statement, known).items():
-        written.append(Reading(premise, certificate["certified"][name], known, shown).text())
+        written.append(
+            StatementReading(premise, certificate["certified"][name], known, shown).text()
+        )
     return "\n".join(written)
 
 
@@ -69,7 +71,7 @@ class _Texts(Transfer):
         return f"{unfolded}field; nonzero" if unfolded or "/" in text else "ring"
 
 
-class Reading:
+class StatementReading:
     """A universal statement, in the terms of its lines, as a lemma that its polynomial lemma
     proves.
 
@@ -86,7 +88,7 @@ class Reading:
         self.known = known
         self.shown = shown
         self.form = Form(statement)
-        self.branch = Branch(State(self.form.unfolding.context), known, [0])
+        self.branch = Branch(SearchState(self.form.unfolding.context), known, [0])
         self.walk = checker.Context()  # the values of names, line by line
         self.stated: list[str] = []  # the statement up to the line
         self.rows: list[str] = []
@@ -216,7 +218,7 @@ class Reading:
             before = sum(line.startswith(("root ", "have ")) for line in lines)
             proof = ["proof", self.proof[1][:before], self.proof[1][before]]
             self.before.append(certified(part, proof, self.known))
-            self.before.append(Reading(part, proof, self.known, self.shown).text())
+            self.before.append(StatementReading(part, proof, self.known, self.shown).text())
             self.shown[text] = reading_name(name)
         variables = [self.integers.get(name) or coq_name(name) for name in self._variables()]
         arguments = [*variables, *self.assumed]

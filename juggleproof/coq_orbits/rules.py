@@ -36,7 +36,7 @@ from juggleproof.coq_orbits.terms import coq_term
 from juggleproof.coq_orbits.values import (
     CHETAEV,
     LYAPUNOV,
-    Around,
+    PremisesAroundPoint,
     instability_definitions,
     instability_proofs,
     lyapunov_definitions,
@@ -490,7 +490,7 @@ def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
             rows.append(f.fill(texts.ESCAPE_REFUTES, own, period=len(word), **words))
             continue
         domains.append(f.fill(f"{within}.{CHETAEV}.domain$a", own))
-        around = Around(f, other, f"{within}.{CHETAEV}").words
+        around = PremisesAroundPoint(f, other, f"{within}.{CHETAEV}").words
         words.update(E=f.fill(around["E"], own), H=around["H"], point=around["point"])
         words["at_point"] = reading_name(f"{name}.point")
         rows.append(f.fill(texts.INSTABILITY_REFUTES, own, **words))

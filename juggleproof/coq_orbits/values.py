@@ -15,7 +15,7 @@ from juggleproof.coq_store.text import conjoined, conjunctive, coq_name, disjunc
 LYAPUNOV, CHETAEV = "LyapunovFunction", "ChetaevFunction"
 
 
-class Around:
+class PremisesAroundPoint:
     """The words by which premises around a point are applied: their arguments for a state, and the
     formula that a state is near.
     """
@@ -99,7 +99,7 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     If the value is one term without a guard, premises are about it, else about all numbers that are
     at least the value.
     """
-    around = Around(f, own, LYAPUNOV)
+    around = PremisesAroundPoint(f, own, LYAPUNOV)
     is_plain = around.guards == [[]]
     value = f"({LYAPUNOV}.value_1$a of_s)" if is_plain else "of_v"
     loss = f"{LYAPUNOV}.loss$a of_s {value}"
@@ -195,7 +195,7 @@ def instability_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def instability_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is not stable."""
-    around = Around(f, own, CHETAEV)
+    around = PremisesAroundPoint(f, own, CHETAEV)
     premise = checker.premises_of(own, f.known)["direction"]
     (line,) = (count for count, (key, _) in enumerate(premise.lines) if key == "have")
     later = disjunctive(["[of_h of_t]" if guard else "of_t" for guard in around.guards])

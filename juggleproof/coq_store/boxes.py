@@ -23,7 +23,7 @@ DEEPEST = 40  # halvings of an interval
 Side = tuple[str, Fraction]  # a proof that 0 <= c * (the distance from an end), and c
 
 
-class Axis(NamedTuple):
+class VariableBetween(NamedTuple):
     """A variable between two numbers, by its number."""
 
     place: int
@@ -33,13 +33,13 @@ class Axis(NamedTuple):
     above: Side
 
 
-class Box(NamedTuple):
+class BoxHypothesis(NamedTuple):
     """A box, and a hypothesis on it: the numerator of a polynomial is > 0, or >= 0."""
 
     poly: checker.Poly
     relation: str
     name: str
-    axes: list[Axis]
+    axes: list[VariableBetween]
 
     def coefficients(self) -> list[Fraction]:
         """The Bernstein coefficients of the numerator; the first axis varies slowest."""
@@ -84,10 +84,10 @@ def boxes(branch: Branch, index: int, bounds: Sequence[tuple[int, int]], tree: s
     poly, relation = branch.state.facts[index]
     places = sorted(poly.places())
     axes = [axis_of(branch, place, *ends) for place, ends in zip(places, bounds, strict=True)]
-    return _closed(branch, Box(poly, relation, branch.facts[index], axes), iter(tree))
+    return _closed(branch, BoxHypothesis(poly, relation, branch.facts[index], axes), iter(tree))
 
 
-def axis_of(branch: Branch, place: int, low: int, high: int) -> Axis:
+def axis_of(branch: Branch, place: int, low: int, high: int) -> VariableBetween:
     """The variable of this number, between the ends that two facts state."""
     ends: list[Fraction] = []
     sides: list[Side] = []
@@ -97,10 +97,10 @@ def axis_of(branch: Branch, place: int, low: int, high: int) -> Axis:
         name = branch.facts[index]
         ends.append(Fraction(-poly.terms.get(0, 0), slope))
         sides.append((f"(Rlt_le _ _ {name})" if relation == ">" else name, Fraction(abs(slope))))
-    return Axis(place, ends[0], ends[1], sides[0], sides[1])
+    return VariableBetween(place, ends[0], ends[1], sides[0], sides[1])
 
 
-def _closed(branch: Branch, box: Box, tree: Iterator[str]) -> list[str]:
+def _closed(branch: Branch, box: BoxHypothesis, tree: Iterator[str]) -> list[str]:
     letter = next(tree, ".")
     coefficients = box.coefficients()
     if letter == ".":
@@ -121,7 +121,7 @@ def _closed(branch: Branch, box: Box, tree: Iterator[str]) -> list[str]:
     return rows
 
 
-def split(branch: Branch, axis: Axis) -> tuple[str, list[Axis]]:
+def split(branch: Branch, axis: VariableBetween) -> tuple[str, list[VariableBetween]]:
     """The tactic that splits an axis into halves, the lower one first; and the halves."""
     middle = (axis.low + axis.high) / 2
     below, above = branch.fresh(), branch.fresh()
@@ -135,7 +135,7 @@ def split(branch: Branch, axis: Axis) -> tuple[str, list[Axis]]:
     return f"destruct (by_half {sides} ltac:(ring)) as [{below}|{above}].", halves
 
 
-def excluded(branch: Branch, found: Sequence[Box], depth: int = DEEPEST) -> list[str]:
+def excluded(branch: Branch, found: Sequence[BoxHypothesis], depth: int = DEEPEST) -> list[str]:
     """The tactics for the goal False.  By hypothesis, several polynomials are all > 0 or >= 0 on a
     box; on each of its parts, which are halves of halves, one of them is not.
     """
@@ -156,7 +156,7 @@ def excluded(branch: Branch, found: Sequence[Box], depth: int = DEEPEST) -> list
     return rows
 
 
-def _face(branch: Branch, box: Box, place: int, tree: Iterator[str]) -> list[str]:
+def _face(branch: Branch, box: BoxHypothesis, place: int, tree: Iterator[str]) -> list[str]:
     """The tactics for a face: by coefficients that grow towards it, the polynomial is greatest
     there.
     """
@@ -189,5 +189,5 @@ def _face(branch: Branch, box: Box, place: int, tree: Iterator[str]) -> list[str
         f"assert ({name} : {atom(polynomial(branch.names, face), box.relation)}).",
         f"{{ refine (proj1 ({lemma} 1 {scale} _ _ Rlt_0_1 (IZR_lt 0 {scale} eq_refl) _) {proof}).",
         "  ring. }",
-        *_closed(branch, Box(face, box.relation, name, others), tree),
+        *_closed(branch, BoxHypothesis(face, box.relation, name, others), tree),
     ]

@@ -13,7 +13,7 @@ from juggleproof.coq_store.text import (
     numeral,
     proposition,
 )
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 Factors = list[tuple[str, bool]]  # a proof of the sign of each, and whether it is strict
 Weighed = tuple[Fraction, Factors, bool]  # a weight, factors, and whether all are strict
@@ -28,7 +28,7 @@ class Branch:
     known: the statements that `use` may name.
     """
 
-    def __init__(self, state: State, known: Known, count: list[int]) -> None:
+    def __init__(self, state: SearchState, known: Known, count: list[int]) -> None:
         self.state = state
         self.known = known
         self.count = count

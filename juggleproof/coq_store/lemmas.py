@@ -22,7 +22,7 @@ from juggleproof.coq_store.values import (
     found,
 )
 from juggleproof.statements.nodes import Certificate
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 
 def lemmas(statement: checker.Statement, certificate: Certificate, known: Known) -> str:
@@ -65,7 +65,7 @@ def certified(statement: checker.Statement, proof: Hint, known: Known) -> str:
     """The lemma of a universal statement, with the proof of a certificate."""
     form = Form(statement)
     count = [0]
-    branch = Branch(State(form.unfolding.context), known, count)
+    branch = Branch(SearchState(form.unfolding.context), known, count)
     rows = _introduced(branch, form, {}, proof)
     return _lemma(lemma_name(statement.name), statement.name, form.text(), rows)
 
@@ -115,7 +115,7 @@ def _possible(
 ) -> str:
     form = Form(statement, (), sharp)
     form.given = sorted({*form.given, *range(len(sharp or ()))})
-    rows = found(Branch(State(checker.Context()), known, [0]), point, as_point(form, sharp))
+    rows = found(Branch(SearchState(checker.Context()), known, [0]), point, as_point(form, sharp))
     return _lemma(
         f"{name}_possible", f"{statement.name}: its premises hold somewhere", form.possible(), rows
     )
@@ -123,7 +123,7 @@ def _possible(
 
 def _refuted(statement: checker.Statement, values: Hint, known: Known) -> str:
     form = Form(statement)
-    branch = Branch(State(checker.Context()), known, [0])
+    branch = Branch(SearchState(checker.Context()), known, [0])
     name = branch.fresh()
     leaf = as_counterexample({statement.name: form}, {statement.name: name}, (), None)
     rows = [f"intro {name}.", *found(branch, values, leaf)]
@@ -146,7 +146,7 @@ def _sharp(statement: checker.Statement, certificate: Hint, known: Known) -> str
     for parameter in over:
         context.declare(parameter, parameter in integers)
     count = [0]
-    branch = Branch(State(context), known, count)
+    branch = Branch(SearchState(context), known, count)
     context = branch.state.context
     whole = [f"whole {coq_name(name)}" for name in over if name in integers]
     in_domain, holds, all_hold, fails = (branch.fresh() for _ in range(4))
@@ -164,7 +164,7 @@ def _sharp(statement: checker.Statement, certificate: Hint, known: Known) -> str
         form = Form(known[name], over, [domain, condition])
         if form.text() != forms[name].text():
             raise NotWritten("the condition of a sharp range licenses what its domain does not")
-        own = Branch(State(form.unfolding.context), known, count)
+        own = Branch(SearchState(form.unfolding.context), known, count)
         transfer = Transfer(own, branch.names, {p: own.state.context.values[p] for p in over})
         assumed = []
         for left, name_, right in (

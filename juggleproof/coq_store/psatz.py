@@ -35,7 +35,9 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
         for monomial in poly.terms:
             together |= monomial
     names = branch.names.items()
-    sum_ = Sum(branch, [name for name, at in names if together >> (checker.BITS * at) & mask])
+    sum_ = WeightedProducts(
+        branch, [name for name, at in names if together >> (checker.BITS * at) & mask]
+    )
     multiples = [Fraction(1, poly.den * cofactor.den) for poly, cofactor in shares]
     below = {key: _denominators(branch, key) for key in squares}
     weights = [
@@ -67,7 +69,7 @@ def psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofac
     ]
 
 
-class Sum:
+class WeightedProducts:
     """Weighted products of facts and squares in the variables of these names; rows: the tactics
     that show the facts.
     """
@@ -150,7 +152,7 @@ class Sum:
             scale = common_factor(parts)
             numbers = [int(part * scale) for part in parts]
             whole = [number // gcd(*numbers) for number in numbers]
-            step = Sum(self.branch, self.names)
+            step = WeightedProducts(self.branch, self.names)
             step.summands.append((Fraction(whole[1]), f"nil, Some {self.expression(own)})"))
             if proof:
                 place = step.fact(False, text, proof)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from juggleproof.certificates import checker
-from juggleproof.coq_store.boxes import Box, axis_of, excluded
+from juggleproof.coq_store.boxes import BoxHypothesis, axis_of, excluded
 from juggleproof.coq_store.branch import Branch
 from juggleproof.coq_store.text import polynomial
 from juggleproof.coq_store.transfer import value_text
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 
 def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tuple[str, list[str]]:
@@ -38,7 +38,7 @@ def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tupl
         ),
         start=context.number(0),
     )
-    branch = Branch(State(context), {}, [0])
+    branch = Branch(SearchState(context), {}, [0])
     ends = [value_text(branch, end) for end in (low, high)]
 
     def text(value: checker.Poly, at: str = "x'") -> str:
@@ -58,7 +58,7 @@ def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tupl
     for value, along in ((at(x), axes[:1]), (at(y), axes[1:]), (quotient, axes)):
         for signed in (value, -value):
             name = branch.fresh()
-            boxes.append(Box(signed, ">=", name, along))
+            boxes.append(BoxHypothesis(signed, ">=", name, along))
             zeros.append(f"assert ({name} : 0 <= {text(signed)}) by lra.")
     p, q = text(function), text(quotient)
     p_of_y = text(at(y))

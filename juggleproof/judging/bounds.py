@@ -14,9 +14,9 @@ from pathlib import Path
 
 from juggleproof.algebra.polynomials import Monomial, Ring, monomials
 from juggleproof.certificates import checker
-from juggleproof.search.boxes.descent import Problem
+from juggleproof.search.boxes.descent import BoxProblem
 from juggleproof.search.boxes.enclosures import Bounds, search_enclosure
-from juggleproof.search.psatz.problem import Problem as FactsOfState
+from juggleproof.search.psatz.problem import LeafProblem as FactsOfState
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.language import ClaimError, Term, real
 from juggleproof.statements.nodes import Certificate, Node, Point
@@ -129,7 +129,7 @@ def enclose_minimum(
     if not used:
         value = sum(terms.values(), start=Fraction(0))
         return question.enclosure(Bounds(value, value, (), ("close",), 0, True), used)
-    problem = Problem(
+    problem = BoxProblem(
         {tuple(exponents[k] for k in used): c for exponents, c in terms.items()},
         [list(ends.values())[k] for k in used],
         [list(ends)[k] for k in used],

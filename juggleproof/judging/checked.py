@@ -29,7 +29,7 @@ Checked = list[tuple[str, str, str]]  # name, outcome, reason
 Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_one`
 
 
-class Reading:
+class StoreReading:
     """The results of `checker.check_folder` on a folder: with several jobs, each process checks a
     share from `__enter__` on; with one job, all is checked in `outcomes`.
 
@@ -42,7 +42,7 @@ class Reading:
         self.results: Checked = []
         self._processes: list[tuple[BaseProcess, Connection]] = []
 
-    def __enter__(self) -> Reading:
+    def __enter__(self) -> StoreReading:
         if self.jobs > 1 and not self.nothing:
             fork = get_context("fork")
             for share in shares(self.folder, self.jobs):

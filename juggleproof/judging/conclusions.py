@@ -44,7 +44,7 @@ class Letters(NamedTuple):
     least: str
 
 
-class Lines:
+class RuleLines:
     """The lines of a statement, with access to the statements that it names."""
 
     def __init__(self, name: str, texts: Mapping[str, str]) -> None:
@@ -73,9 +73,9 @@ class Lines:
         (text,) = self.all(keyword)
         return text
 
-    def named(self, keyword: str) -> Lines:
+    def named(self, keyword: str) -> RuleLines:
         """The statement that the line with this keyword names."""
-        return Lines(self.one(keyword), self.texts)
+        return RuleLines(self.one(keyword), self.texts)
 
     def for_domain(self) -> str:
         """The words for the parameters for which a conclusion holds; empty without parameters."""
@@ -86,12 +86,12 @@ class Lines:
         whole = [name for line in self.of_map().all("integer") for name in line.split()]
         return f"for {every}{''.join(f', {n} an integer' for n in whole)}: " if names else ""
 
-    def of_map(self) -> Lines:
+    def of_map(self) -> RuleLines:
         """The map or relation that the statement is about; the statement itself, if it is one."""
         keyword = next((key for key, _ in self.rows if key in checker.NAMED), "")
         return self.named(keyword).of_map() if keyword else self
 
-    def around(self) -> Lines:
+    def around(self) -> RuleLines:
         """The statement that states the point: this one, or one that it rests on."""
         keyword = next((key for key, _ in self.rows if key in AROUND), "")
         return self.named(keyword).around() if keyword else self
@@ -113,7 +113,7 @@ class Lines:
             root
             for key, name in self.rows
             if key in checker.NAMED
-            for root in Lines(name, self.texts).roots()
+            for root in RuleLines(name, self.texts).roots()
         ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
@@ -157,7 +157,7 @@ def _factor(text: str) -> str:
     return text if re.fullmatch(r"\w+", text) else f"({text})"
 
 
-def _steps(descent: Lines) -> str:
+def _steps(descent: RuleLines) -> str:
     """The numbers N of steps after which the orbit of s is in the trap."""
     at = descent.letters
     if len(terms_of(descent.all("rank")[0].rpartition(" -> ")[2])) > 1:
@@ -166,7 +166,7 @@ def _steps(descent: Lines) -> str:
     return f"{at.N} >= {at.rank}({at.s})" + (f" + {more}" if more else "")
 
 
-def _rank(descent: Lines) -> str:
+def _rank(descent: RuleLines) -> str:
     return f"where {descent.letters.rank} = {_greatest(descent.all('rank'))}"
 
 
@@ -177,16 +177,16 @@ def _greatest(rows: Sequence[str]) -> str:
     return f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
 
 
-def _power(contraction: Lines, exponent: str) -> str:
+def _power(contraction: RuleLines, exponent: str) -> str:
     return f"{_factor(contraction.one('rate'))}^{exponent}"
 
 
-def _bound(contraction: Lines, exponent: str) -> str:
+def _bound(contraction: RuleLines, exponent: str) -> str:
     size = contraction.one("size")
     return _power(contraction, exponent) + ("" if size == "1" else f" {_factor(size)}")
 
 
-def _norm(contraction: Lines) -> str:
+def _norm(contraction: RuleLines) -> str:
     names, at = contraction.of_map().one("state").split(), contraction.letters
     parts = []
     for name, weight in zip(names, terms_of(contraction.one("weights"))):
@@ -200,7 +200,7 @@ def _largest(at: Letters) -> str:
     return f"|{at.s} - {at.e}| is the largest of all |{at.s}_j - {at.e}_j|"
 
 
-def _of_iterates(f: Lines) -> str:
+def _of_iterates(f: RuleLines) -> str:
     (state, images), (count, powers) = (
         (", ".join(terms_of(side)) for side in f.one(keyword).split(" -> "))
         for keyword in ("iterates", "after")
@@ -212,13 +212,13 @@ def _of_iterates(f: Lines) -> str:
     ) + "".join(f", {text}" for text in f.all("let"))
 
 
-def _pieces(f: Lines, before: str = "") -> str:
+def _pieces(f: RuleLines, before: str = "") -> str:
     """The image of each piece, with the guard of the piece."""
     pieces = (piece.split(" -> ") for piece in f.all("piece"))
     return "; ".join(f"{before}{_vector(image)}{_where(guard)}" for guard, image in pieces)
 
 
-def _of_map(f: Lines) -> str:
+def _of_map(f: RuleLines) -> str:
     state, at = ", ".join(f.one("state").split()), f.letters
     return (
         f"{f.for_domain()}{at.f} maps {_set('the space', f.one('space'))} into itself, and exactly"
@@ -226,7 +226,7 @@ def _of_map(f: Lines) -> str:
     )
 
 
-def _of_relation(f: Lines) -> str:
+def _of_relation(f: RuleLines) -> str:
     state = ", ".join(f.one("state").split())
     inputs = f", for all {', '.join(f.one('input').split())}" if f.one("input") else ""
     return (
@@ -235,7 +235,7 @@ def _of_relation(f: Lines) -> str:
     )
 
 
-def _of_descent(f: Lines) -> str:
+def _of_descent(f: RuleLines) -> str:
     trap, at = _set("the last stage", f.all("stage")[-1]), f.letters
     return (
         f"{f.for_domain()}{at.f}^{at.N}({at.s}) is in {trap} for every state {at.s} of the space"
@@ -243,7 +243,7 @@ def _of_descent(f: Lines) -> str:
     )
 
 
-def _set_of(f: Lines) -> tuple[str, str, str]:
+def _set_of(f: RuleLines) -> tuple[str, str, str]:
     """Three texts: the set of states that the point attracts; its short form after `of the space`;
     and the sentence that the set is mapped into itself and surrounds the point.
     """
@@ -255,7 +255,7 @@ def _set_of(f: Lines) -> tuple[str, str, str]:
     return f"the set {{{on}}}", " in the set", around
 
 
-def _of_contraction(f: Lines) -> str:
+def _of_contraction(f: RuleLines) -> str:
     at, (on, inside, around) = f.letters, _set_of(f)
     return (
         f"{f.for_domain()}{f.point()} is a fixed point, is {STABLE}, and {ATTRACTS} {on}:"
@@ -265,7 +265,7 @@ def _of_contraction(f: Lines) -> str:
     )
 
 
-def _value_of(f: Lines) -> str:
+def _value_of(f: RuleLines) -> str:
     """The maximum of the terms `value`, and the meaning of the statement's names for the point."""
     state, e = f.of_map().one("state").split(), f.letters.e
     points = {name: f"{e}_{name}" if len(state) > 1 else e for name in state}
@@ -279,7 +279,7 @@ def _value_of(f: Lines) -> str:
     return ", ".join([_greatest(f.all("value")), *names])
 
 
-def _of_lyapunov(f: Lines) -> str:
+def _of_lyapunov(f: RuleLines) -> str:
     at, (on, inside, around) = f.letters, _set_of(f)
     iterate = f"{at.f}^{at.n}({at.s})"
     return (
@@ -292,7 +292,7 @@ def _of_lyapunov(f: Lines) -> str:
     )
 
 
-def _of_instability(f: Lines) -> str:
+def _of_instability(f: RuleLines) -> str:
     radius, at = f.one("radius"), f.letters
     apart = f"|{at.s} - {at.e}|"
     return (
@@ -303,7 +303,7 @@ def _of_instability(f: Lines) -> str:
     )
 
 
-def _of_attraction(f: Lines) -> str:
+def _of_attraction(f: RuleLines) -> str:
     descent, inner, at = f.named("descent"), f.around(), f.letters
     start = f"{descent.for_domain()}{inner.point()} is {STABLE} and {ATTRACTS} every state"
     if not inner.all("weights"):
@@ -315,7 +315,7 @@ def _of_attraction(f: Lines) -> str:
     )
 
 
-def _of_attraction_into(f: Lines) -> str:
+def _of_attraction_into(f: RuleLines) -> str:
     descent = f.named("descent")
     return (
         f"{descent.for_domain()}{f.around().point()} is a fixed point, is {STABLE}, and {ATTRACTS}"
@@ -323,7 +323,7 @@ def _of_attraction_into(f: Lines) -> str:
     )
 
 
-def _of_escape(f: Lines) -> str:
+def _of_escape(f: RuleLines) -> str:
     word = f.one("word").split()
     return (
         f"{f.for_domain()}the orbit of {f.terms('start')} is back after"
@@ -332,7 +332,7 @@ def _of_escape(f: Lines) -> str:
     )
 
 
-def _of_sharpness(f: Lines) -> str:
+def _of_sharpness(f: RuleLines) -> str:
     descent = f.named("attraction").named("descent")
     return (
         f"{descent.of_map().for_domain()}{f.around().point()} is {STABLE} and {ATTRACTS} every"
@@ -340,8 +340,8 @@ def _of_sharpness(f: Lines) -> str:
     )
 
 
-def _of_settling(f: Lines) -> str:
-    ends, at = [Lines(name, f.texts) for name in f.all("contraction")], f.letters
+def _of_settling(f: RuleLines) -> str:
+    ends, at = [RuleLines(name, f.texts) for name in f.all("contraction")], f.letters
     points = [f"{at.e}_{k} = {end.terms('point')}" for k, end in enumerate(ends, 1)]
     several = f"one of {', '.join(points)}", "each"
     to, each = several if len(ends) > 1 else (f"{at.e} = {ends[0].terms('point')}", at.e)
@@ -351,7 +351,7 @@ def _of_settling(f: Lines) -> str:
     )
 
 
-def _of_return(f: Lines) -> str:
+def _of_return(f: RuleLines) -> str:
     settling, at = f.named("settling"), f.letters
     names, starts = settling.all("contraction"), settling.all("word")[len(settling.all("rank")) :]
     points = []
@@ -359,7 +359,7 @@ def _of_return(f: Lines) -> str:
         steps = len(f.all("word")[int(start.split()[0]) - 1].split())
         e = f"{at.e}_{count}" if len(names) > 1 else at.e
         back = f" = {at.f}^{steps}({e})" if steps > 1 else f" = {at.f}({e})"
-        points.append(f"{e} = {Lines(name, f.texts).terms('point')}{back}")
+        points.append(f"{e} = {RuleLines(name, f.texts).terms('point')}{back}")
     to = f"one of {', '.join(points)}" if len(points) > 1 else points[0]
     iterates = f"{at.f}^{at.n}({at.s}) - {at.f}^{at.n}({at.e})"
     return (
@@ -374,7 +374,7 @@ def _of_return(f: Lines) -> str:
 # The table of the rules.
 
 
-class Rule(NamedTuple):
+class RuleWords(NamedTuple):
     """A rule of the checker in words: a short label; the order of its lines, as the checker
     demands it; its conclusion; and the meaning of each premise by the premise's name without
     numbers, which replace {0}, {1}.
@@ -382,7 +382,7 @@ class Rule(NamedTuple):
 
     label: str
     lines: str
-    concludes: Callable[[Lines], str]
+    concludes: Callable[[RuleLines], str]
     premises: Mapping[str, str]
 
 
@@ -392,7 +392,7 @@ OF_DOMAIN = {
 }
 OF_POINT = "the point is in the space, and what the lines `have` say of it is so"
 RULES = {
-    "iterates": Rule(
+    "iterates": RuleWords(
         "the iterates of a map",
         "forall integer (let )*iterates after ",
         _of_iterates,
@@ -401,7 +401,7 @@ RULES = {
             "step": "the map takes the state after K steps to that after K + 1",
         },
     ),
-    "map": Rule(
+    "map": RuleWords(
         "a map of the space into itself, piece by piece",
         "over (integer )?domain state space (piece )+",
         _of_map,
@@ -412,7 +412,7 @@ RULES = {
             "stays": "piece {0} takes the space into itself",
         },
     ),
-    "relation": Rule(
+    "relation": RuleWords(
         "the next states of each state, piece by piece",
         "over (integer )?domain state input space (piece )+",
         _of_relation,
@@ -422,7 +422,7 @@ RULES = {
             "stays": "piece {0} takes the space into itself, for all inputs",
         },
     ),
-    "descends": Rule(
+    "descends": RuleWords(
         "a falling rank leads to the trap",
         "(map|relation) domain (root )*(rank )+(stage )+",
         _of_descent,
@@ -433,7 +433,7 @@ RULES = {
             "stage": "piece {1} takes stage {0} into the next stage, or the last one into itself",
         },
     ),
-    "contracts": Rule(
+    "contracts": RuleWords(
         "orbits in the trap close in on the point",
         "(map|relation) domain (root )*on point weights rate radius size ",
         _of_contraction,
@@ -448,7 +448,7 @@ RULES = {
             " rate",
         },
     ),
-    "lyapunov": Rule(
+    "lyapunov": RuleWords(
         "a function falls along every orbit to the point",
         "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
         _of_lyapunov,
@@ -466,7 +466,7 @@ RULES = {
             "falls": "on the set, piece {0} takes term {1} of V to at most V less the loss",
         },
     ),
-    "unstable": Rule(
+    "unstable": RuleWords(
         f"a function grows near the point, which is not {STABLE}",
         "map domain (root )*point direction (have )*(value )+rate radius upper ",
         _of_instability,
@@ -482,7 +482,7 @@ RULES = {
             " the value to at least rate times the term",
         },
     ),
-    "attracts": Rule(
+    "attracts": RuleWords(
         "every orbit tends to the point",
         "descent (contraction|lyapunov) ",
         _of_attraction,
@@ -491,7 +491,7 @@ RULES = {
             "enters": "the last stage of the descent lies in the set `on` of the other rule",
         },
     ),
-    "into": Rule(
+    "into": RuleWords(
         "a falling rank leads to a smaller space, where every orbit tends to the point",
         "descent attraction radius ",
         _of_attraction_into,
@@ -504,7 +504,7 @@ RULES = {
             "enters": "the last stage of the descent lies in the space of the attraction",
         },
     ),
-    "escapes": Rule(
+    "escapes": RuleWords(
         "a periodic orbit stays away",
         "map domain (root )*point start word ",
         _of_escape,
@@ -514,7 +514,7 @@ RULES = {
             " in turn and lead back to it",
         },
     ),
-    "exactly": Rule(
+    "exactly": RuleWords(
         f"{STABLE} and attracting for these parameters only",
         "attraction (escape |unstable )+",
         _of_sharpness,
@@ -523,7 +523,7 @@ RULES = {
             "same-point": "the attraction and refutation {0} are about the same point",
         },
     ),
-    "settles": Rule(
+    "settles": RuleWords(
         "every orbit tends to one of several points",
         "descent (never )*(rank word )*(contraction word )+",
         _of_settling,
@@ -536,7 +536,7 @@ RULES = {
             " set `on`",
         },
     ),
-    "returns": Rule(
+    "returns": RuleWords(
         "every orbit tends to one of several orbits",
         "map settling (word )+",
         _of_return,
@@ -558,7 +558,7 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     >>> conclusion("iterates", "t/sum", {"t/sum": text})
     'f^K(x) = x + 2*K for every integer K >= 0, where f(x) = x + 2'
     """
-    lines = Lines(name, texts)
+    lines = RuleLines(name, texts)
     said = RULES[kind].concludes(lines)
     if kind != "relation" and any(key == "input" for key, _ in lines.of_map().rows):
         f, s, n = lines.letters.f, lines.letters.s, lines.letters.n

@@ -29,7 +29,7 @@ LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 
 
 @dataclass(frozen=True)
-class Candidate:
+class CorrectedPrint:
     """A corrected print: its kind, the change, its LaTeX, and its reading for the claim."""
 
     kind: str
@@ -65,7 +65,7 @@ def with_any_index(name: str) -> str:
     return re.sub(r"_\{.*\}", r"_{\\cdot}", name)
 
 
-def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[Candidate]:
+def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[CorrectedPrint]:
     """The corrections to try, in order: one mark changed, the corrected print that the claim names,
     other coefficients on the printed terms, the derived form.
 
@@ -78,18 +78,18 @@ def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[C
     yield from (one for way in ways for one in way(claim) if (one.kind, one.text) != first)
 
 
-def _one_mark(claim: Claim) -> Iterator[Candidate]:
+def _one_mark(claim: Claim) -> Iterator[CorrectedPrint]:
     for change, latex in one_mark_changes(claim.printed):
-        yield Candidate(change.split(":")[0], change, latex, Printed(latex))
+        yield CorrectedPrint(change.split(":")[0], change, latex, Printed(latex))
 
 
-def _mended(claim: Claim) -> Iterator[Candidate]:
+def _mended(claim: Claim) -> Iterator[CorrectedPrint]:
     if claim.mended:
         change = "; ".join(differences(claim.printed, claim.mended))
-        yield Candidate("marks", f"marks: {change}", claim.mended, Printed(claim.mended))
+        yield CorrectedPrint("marks", f"marks: {change}", claim.mended, Printed(claim.mended))
 
 
-def _derived(claim: Claim) -> Iterator[Candidate]:
+def _derived(claim: Claim) -> Iterator[CorrectedPrint]:
     """The print with its right side replaced: by its own terms with other coefficients, then by the
     derived form, both written in the paper's notation.
     """
@@ -113,7 +113,7 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
             try:
                 shown = _as_printed(form, names, roots)
                 latex = f"{_up_to_the_last_side(claim.printed)} {shown}"
-                yield Candidate(kind, change, latex, Printed(latex))
+                yield CorrectedPrint(kind, change, latex, Printed(latex))
             except (KeyError, PrintError):  # it has names that the paper does not print
                 continue
 

@@ -27,7 +27,7 @@ from juggleproof.judging.claims import (
     place_in_file,
     verdict_of,
 )
-from juggleproof.judging.correcting import Candidate, candidates
+from juggleproof.judging.correcting import CorrectedPrint, candidates
 from juggleproof.judging.forms import has_whole_range, speaks_of_range
 from juggleproof.judging.judgement import (
     Finding,
@@ -52,7 +52,7 @@ from juggleproof.statements.language import (
     rests_on,
 )
 from juggleproof.statements.nodes import Certificate
-from juggleproof.statements.vote import Budget, Vote, agree
+from juggleproof.statements.vote import Vote, VoteBudget, agree
 from juggleproof.statements.work import read
 
 NOT_FOUND = "not found"
@@ -249,7 +249,10 @@ class Judge:
         """One vote of each route: the recorded votes, if they are on the same question and none
         contradicts the outcome; else votes that are cast now.
         """
-        routes, budget = [route for route in self.resources.routes if route != "exact"], Budget()
+        routes, budget = (
+            [route for route in self.resources.routes if route != "exact"],
+            VoteBudget(),
+        )
         recorded = self.resources.votes.get(self.claim.id)
         if not routes and not recorded:
             return ()
@@ -326,7 +329,7 @@ class Judge:
         }
         return True
 
-    def candidate_is_certified(self, candidate: Candidate) -> bool:
+    def candidate_is_certified(self, candidate: CorrectedPrint) -> bool:
         """Whether the claim, read with this print, is certified, and each name in the print has a
         meaning in its section; if so, the statements are kept under the names ID/corrected.LABEL.
         """

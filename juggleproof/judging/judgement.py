@@ -13,7 +13,7 @@ from juggleproof.judging.claims import Claim, Verdict, as_body, assertions
 from juggleproof.statements.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.store import Store
-from juggleproof.statements.vote import ANSWERS, Budget, Vote
+from juggleproof.statements.vote import ANSWERS, Vote, VoteBudget
 
 ROUTES = ("exact", "z3", "boxes")
 DEFAULT_BUDGET = 2_000_000
@@ -96,7 +96,7 @@ def digest(text: str) -> str:
     return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]
 
 
-def digest_of_question(text: str, budget: Budget) -> str:
+def digest_of_question(text: str, budget: VoteBudget) -> str:
     """The digest of all that a vote depends on, apart from our own sources: the text of the
     statement, the budget, and the versions of the tools that vote.
     """

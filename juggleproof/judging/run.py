@@ -19,7 +19,7 @@ from itertools import islice
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.judging.checked import Checked, Reading, outcomes_of
+from juggleproof.judging.checked import Checked, StoreReading, outcomes_of
 from juggleproof.judging.claims import (
     REMARK,
     Claim,
@@ -195,7 +195,7 @@ def judge_stored(
     """
     refuse_duplicates(claims)
     chosen, jobs = _selected(claims, options.only), options.processes
-    with Reading(options.store, jobs, options.fresh or checked is not None) as reading:
+    with StoreReading(options.store, jobs, options.fresh or checked is not None) as reading:
         resources = Resources(
             options.routes,
             options.budget,

@@ -11,7 +11,13 @@ from itertools import islice
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import EFFORTS, Candidate, Proof, Report, function_of
+from juggleproof.map_stability.certifying import (
+    EFFORTS,
+    Candidate,
+    ProvedStatements,
+    Report,
+    function_of,
+)
 from juggleproof.map_stability.entering import (
     boxes_of,
     entering_rules,
@@ -70,7 +76,7 @@ class Strategy:
     first: int | None = None
     licensed: bool = False
 
-    def settles(self, proof: Proof, setting: Setting, log: Report) -> bool:
+    def settles(self, proof: ProvedStatements, setting: Setting, log: Report) -> bool:
         """Return whether a candidate is certified."""
         if self.affine and not setting.system.is_affine:
             return False
@@ -79,7 +85,7 @@ class Strategy:
             every = sorted(every, key=lambda one: one.rank)[: self.best]
         return any(self.takes(proof, setting, one, log) for one in islice(every, self.first))
 
-    def takes(self, proof: Proof, setting: Setting, one: Candidate, log: Report) -> bool:
+    def takes(self, proof: ProvedStatements, setting: Setting, one: Candidate, log: Report) -> bool:
         """Return whether one candidate is certified: for the map, or for the map on the candidate's
         set, which every orbit enters.
         """
@@ -137,12 +143,14 @@ IN_BETWEEN = (  # between the rounds of functions that fit samples
 CLOSE_BY = Strategy(local_norm_candidates, budget=limits.LOCAL_WORK, first=limits.TRIED_OF_FAMILY)
 
 
-def settled_by(strategies: Iterable[Strategy], proof: Proof, setting: Setting, log: Report) -> bool:
+def settled_by(
+    strategies: Iterable[Strategy], proof: ProvedStatements, setting: Setting, log: Report
+) -> bool:
     """Return whether a candidate of one of these strategies is certified."""
     return any(one.settles(proof, setting, log) for one in strategies)
 
 
-def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
+def attracted(proof: ProvedStatements, setting: Setting, log: Report) -> bool:
     """Return whether the point is certified to be stable and to attract every state of the space.
     The proof may be one for a box that every orbit enters.
     """
@@ -159,7 +167,7 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
     return True
 
 
-def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
+def in_entered(proof: ProvedStatements, setting: Setting, far: bool, log: Report) -> bool:
     """Return whether it is certified that the point is stable and attracts every state, because
     every orbit enters a part of the space.  This part is the space of a map of its own.
     """
@@ -176,7 +184,7 @@ def in_entered(proof: Proof, setting: Setting, far: bool, log: Report) -> bool:
     return False
 
 
-def by_samples(proof: Proof, setting: Setting, log: Report) -> bool:
+def by_samples(proof: ProvedStatements, setting: Setting, log: Report) -> bool:
     """Return whether a function that fits samples certifies that the point is stable and attracts
     every state.  Simple functions that fit well come first.
     """

@@ -17,7 +17,7 @@ from juggleproof.statements.language import MapRule
 from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.nodes import Proof as Premise
 from juggleproof.statements.states import state_of
-from juggleproof.statements.vote import Budget as Votes
+from juggleproof.statements.vote import VoteBudget as Votes
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 from juggleproof.votes.z3 import vote_and_model
 
@@ -56,7 +56,7 @@ def either(*searches: Search) -> Search:
 
 
 @dataclass
-class Proof:
+class ProvedStatements:
     """Statements with certificates, in order."""
 
     rules: list[MapRule] = field(default_factory=list)

@@ -10,7 +10,7 @@ from itertools import islice
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Proof, Report
+from juggleproof.map_stability.certifying import ProvedStatements, Report
 from juggleproof.map_stability.entering import entering_rules
 from juggleproof.map_stability.findings import is_fixed_point
 from juggleproof.map_stability.functions.candidates import Setting
@@ -29,7 +29,7 @@ from juggleproof.statements.cases import conjunction
 from juggleproof.statements.definitions import term_of
 from juggleproof.statements.language import MapRule
 
-Way = Callable[[Proof, Setting, Report], bool]
+Way = Callable[[ProvedStatements, Setting, Report], bool]
 COMPLEMENTS = {ast.Gt: "= <", ast.GtE: "<", ast.Lt: "= >", ast.LtE: ">", ast.NotEq: "="}
 
 
@@ -52,7 +52,7 @@ NAMED = {"escapes": "escape", "unstable": "unstable"}  # the lines of `exactly` 
 
 
 def parts_refuted(
-    proof: Proof,
+    proof: ProvedStatements,
     system: Map,
     fixed: FixedPoint,
     parts: Sequence[str],
@@ -74,7 +74,7 @@ def parts_refuted(
 
 
 def sharp(
-    proof: Proof, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
+    proof: ProvedStatements, setting: Setting, refutations: Sequence[tuple[str, str]], log: Report
 ) -> bool:
     """Return whether one theorem is certified of stability and attraction on a part of the domain,
     and of their failure on the rest.
@@ -89,7 +89,7 @@ def sharp(
     return True
 
 
-def by_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
+def by_orbit(proof: ProvedStatements, setting: Setting, log: Report) -> bool:
     """Return whether an orbit is certified that the point does not attract: an orbit that samples
     tend to, or another fixed point.
     """
@@ -97,12 +97,14 @@ def by_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
     return escaped(proof, setting, dict.fromkeys([*words_of_stray_orbits(setting), *fixed]), log)
 
 
-def by_short_orbit(proof: Proof, setting: Setting, log: Report) -> bool:
+def by_short_orbit(proof: ProvedStatements, setting: Setting, log: Report) -> bool:
     """Return whether a short periodic orbit is certified, which may repel."""
     return escaped(proof, setting, short_words(setting), log)
 
 
-def escaped(proof: Proof, setting: Setting, words: Iterable[tuple[int, ...]], log: Report) -> bool:
+def escaped(
+    proof: ProvedStatements, setting: Setting, words: Iterable[tuple[int, ...]], log: Report
+) -> bool:
     """Return whether a periodic orbit along one of these words is certified."""
     name = proof.free_name(f"{setting.system.name}/escapes")
     for count, rule in enumerate(escape_rules(setting, name, words)):
@@ -125,7 +127,7 @@ def is_fixed(setting: Setting) -> bool:
     return is_fixed_point(setting.head, system.space, guard, images, system.state)
 
 
-def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
+def by_growth(proof: ProvedStatements, setting: Setting, log: Report) -> bool:
     """Return whether it is certified that orbits leave a neighbourhood of the point."""
     rules = chetaev_rules if len(setting.system.state) > 1 else instability_rules
     name = proof.free_name(f"{setting.system.name}/unstable")
@@ -144,7 +146,7 @@ def by_growth(proof: Proof, setting: Setting, log: Report) -> bool:
     return False
 
 
-def refuted(proof: Proof, setting: Setting, log: Report, ways: Sequence[Way]) -> bool:
+def refuted(proof: ProvedStatements, setting: Setting, log: Report, ways: Sequence[Way]) -> bool:
     """Return whether it is certified in one of these ways, for all parameters, that the point is
     not stable or does not attract every state.
     """

@@ -13,7 +13,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.judging import conclusions
-from juggleproof.judging.conclusions import ATTRACT, ATTRACTS, STABLE, Lines, terms_of
+from juggleproof.judging.conclusions import ATTRACT, ATTRACTS, STABLE, RuleLines, terms_of
 from juggleproof.map_stability.certifying import beyond, is_certified
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.samples import divides
@@ -46,7 +46,7 @@ class MapVerdict(StrEnum):
 
 
 @dataclass(frozen=True)
-class Finding:
+class MapFinding:
     """A verdict with its sentence, and what they are about.
 
     point: the point; condition: the parameters of the given domain for which it attracts, or an
@@ -61,7 +61,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Meaning:
+class ParameterMeaning:
     """A sentence on a parameter that replaced another one: it says how they are related.
     `certified`: whether every value of the given parameters is certified to have a value of it.
     """
@@ -71,15 +71,15 @@ class Meaning:
 
 
 @dataclass(frozen=True)
-class Fact:
+class PointFact:
     """A certified statement about a point of the given map."""
 
     kind: str
-    lines: Lines
+    lines: RuleLines
     given: Map
 
     @property
-    def rule(self) -> Lines:
+    def rule(self) -> RuleLines:
         """The statement that has the domain and names the map."""
         return self.lines.named("descent") if self.kind in OF_SPACES else self.lines
 
@@ -150,14 +150,14 @@ def finding_of(
     given: Map,
     rules: Sequence[MapRule],
     known: Mapping[str, checker.Statement],
-    meaning: Meaning | None = None,
-) -> Finding | None:
+    meaning: ParameterMeaning | None = None,
+) -> MapFinding | None:
     """Return what these certified statements say of the given map; None if they say nothing of its
     fixed points.  `meaning` relates a parameter to the one that it replaced.
     """
     texts = {rule.name: rule.text() for rule in rules}
-    lines = {name: Lines(name, texts) for name in texts}
-    facts = [Fact(known[name].kind, rows, given) for name, rows in lines.items()]
+    lines = {name: RuleLines(name, texts) for name in texts}
+    facts = [PointFact(known[name].kind, rows, given) for name, rows in lines.items()]
     every = OF_SETS | OF_SPACES | OF_FAILURES
     facts = [one for one in facts if one.kind in every and is_of(given, one.rule.of_map())]
     failing = [one for one in facts if one.kind in OF_FAILURES]
@@ -177,7 +177,7 @@ def finding_of(
     elif near:
         says = f"{near[0].sentence()}; of other states nothing was found"
         parts = near[0].point, near[0].condition, near[0].attracted
-        found = Finding(MapVerdict.IN_PART, says, *parts)
+        found = MapFinding(MapVerdict.IN_PART, says, *parts)
     else:
         return None
     if meaning is None:
@@ -186,7 +186,7 @@ def finding_of(
     return replace(found, verdict=verdict, sentence=f"{found.sentence}; {meaning.sentence}")
 
 
-def is_of(given: Map, lines: Lines) -> bool:
+def is_of(given: Map, lines: RuleLines) -> bool:
     """Return whether the lines are those of a map with these parameters, this state and this
     space.
     """
@@ -197,24 +197,24 @@ def is_of(given: Map, lines: Lines) -> bool:
 
 def of_attraction(
     given: Map,
-    whole: Sequence[Fact],
-    failing: Sequence[Fact],
+    whole: Sequence[PointFact],
+    failing: Sequence[PointFact],
     nowhere: Sequence[str],
-    sharp: Sequence[Lines],
-) -> Finding:
+    sharp: Sequence[RuleLines],
+) -> MapFinding:
     """Return the finding on a point that attracts every state, for all parameters or for some."""
     fact = next((one for one in whole if not one.condition), whole[-1])
     says = f"{fact.point} is {STABLE} and {ATTRACTS} every state"
     if not fact.condition:
-        return Finding(MapVerdict.PROVED, says, fact.point)
+        return MapFinding(MapVerdict.PROVED, says, fact.point)
     if sharp:
-        inner = Fact("attracts", sharp[-1].named("attraction"), given)
+        inner = PointFact("attracts", sharp[-1].named("attraction"), given)
         before = inner.rule.of_map().one("domain")
         only = readable(beyond(before, inner.domain, given.parameters))
         licences = beyond(given.domain, before, given.parameters)
         of = f", of all parameters with {readable(licences)}" if licences else ""
         says = f"{inner.point} is {STABLE} and {ATTRACTS} every state if and only if {only}{of}"
-        return Finding(MapVerdict.IN_PART, says, inner.point, inner.condition)
+        return MapFinding(MapVerdict.IN_PART, says, inner.point, inner.condition)
     others = [one for one in failing if one.point == fact.point]
     where = [(one.domain, f"it {one.failure()}") for one in others]
     where += [(domain, NO_FIXED_POINT) for domain in nowhere]
@@ -226,12 +226,12 @@ def of_attraction(
         lines.append("elsewhere nothing is known")
     at = "where" if lines else "at least where"
     says = "; ".join([f"{says} {at} {readable(fact.condition)}", *lines])
-    return Finding(MapVerdict.IN_PART, says, fact.point, fact.condition)
+    return MapFinding(MapVerdict.IN_PART, says, fact.point, fact.condition)
 
 
 def of_failure(
-    given: Map, failing: Sequence[Fact], nowhere: Sequence[str], near: Sequence[Fact]
-) -> Finding:
+    given: Map, failing: Sequence[PointFact], nowhere: Sequence[str], near: Sequence[PointFact]
+) -> MapFinding:
     """Return the finding on fixed points that are not stable, or do not attract every state.  No
     point attracts another fixed point: where a point that fails is certified to be fixed, none
     attracts every state.
@@ -242,7 +242,7 @@ def of_failure(
     lines += [one.sentence() for one in near]
     domains = [*nowhere, *(one.domain for one in failing if one.is_fixed())]
     whole = is_covered(given, domains)
-    return Finding(MapVerdict.REFUTED if whole else MapVerdict.IN_PART, "; ".join(lines))
+    return MapFinding(MapVerdict.REFUTED if whole else MapVerdict.IN_PART, "; ".join(lines))
 
 
 def asked_beyond(given: Map, domain: str) -> str:
@@ -290,7 +290,7 @@ def numerator(term: str) -> str:
     return written(sympy.numer(sympy.together(expression(term))))
 
 
-def moves_everywhere(lines: Lines) -> bool:
+def moves_everywhere(lines: RuleLines) -> bool:
     """Return whether each guard of a map says that the image is another state."""
     state = lines.one("state").split()
     return all(
@@ -313,7 +313,7 @@ def is_fixed_point(
     return is_certified([*head, *known, f"show {conjunction(guard, *shown)}"])
 
 
-def pieces_of(lines: Lines) -> Iterator[tuple[str, list[str]]]:
+def pieces_of(lines: RuleLines) -> Iterator[tuple[str, list[str]]]:
     """Yield the guard and the images of each piece of a map."""
     for piece in lines.all("piece"):
         guard, _, images = piece.partition(" -> ")
@@ -347,7 +347,7 @@ def in_brackets(text: str) -> str:
     return f"({text})" if " " in text or text.startswith("-") else text
 
 
-def named(lines: Lines, keyword: str) -> str:
+def named(lines: RuleLines, keyword: str) -> str:
     """The state that the line of this keyword names, with its roots written out."""
     return lines.without_roots(in_brackets(lines.one(keyword)))
 

@@ -15,7 +15,7 @@ from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.samples import (
     Arrays,
     Floats,
-    Point,
+    SamplePoint,
     at_samples,
     region,
     without_equations,
@@ -29,7 +29,7 @@ class FixedPoint:
     the space and the piece's guard holds.
     """
 
-    point: Point
+    point: SamplePoint
     piece: int
     terms: tuple[Expr, ...]  # the same in SymPy, with roots as such
 
@@ -142,7 +142,7 @@ def roots_of(equation: Expr, variable: Expr) -> Iterator[Expr]:
             yield from (sympy.together((-b + sign * root) / (2 * a)) for sign in (-1, 1))
 
 
-def as_point(terms: tuple[Expr, ...]) -> Point | None:
+def as_point(terms: tuple[Expr, ...]) -> SamplePoint | None:
     """Return the terms as text, with names for square roots; None if there are other roots."""
     roots: list[tuple[str, str]] = []
     names: dict[Expr, str] = {}
@@ -174,7 +174,7 @@ def as_point(terms: tuple[Expr, ...]) -> Point | None:
     for base, symbol in free.items():
         terms = tuple(without_root_below(t, symbol, base) for t in terms)
     try:
-        return Point(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
+        return SamplePoint(tuple(written(sympy.factor(t)) for t in terms), tuple(roots))
     except Exception:  # what SymPy solves by other functions is no term
         return None
 

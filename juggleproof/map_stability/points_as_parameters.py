@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from juggleproof.map_stability import limits
 from juggleproof.map_stability.certifying import beyond, is_certified
-from juggleproof.map_stability.findings import Meaning
+from juggleproof.map_stability.findings import ParameterMeaning
 from juggleproof.map_stability.maps import HIGH, LOW, Map, ends_of_space
 from juggleproof.map_stability.samples import (
     Arrays,
@@ -41,27 +41,27 @@ NAMES = "ecuvwz"  # for the point, the first that is free
 
 
 @dataclass(frozen=True)
-class Renamed:
+class MapWithPoint:
     """A map with its fixed point as a parameter, which replaced another: `parameter` = `term`."""
 
     system: Map
     parameter: str
     term: str
 
-    def meaning(self, before: Map) -> Meaning:
+    def meaning(self, before: Map) -> ParameterMeaning:
         """Return what the old parameter stands for, and whether each of its values has a point."""
         says, one = f"here {self.parameter} = {self.term}", f"one such {self.name()}"
         if has_one_point(before, self):
-            return Meaning(says, certified=True)
+            return ParameterMeaning(says, certified=True)
         doubt = f"where samples alone say that each {self.parameter} has {one}"
-        return Meaning(f"{says}, {doubt}", certified=False)
+        return ParameterMeaning(f"{says}, {doubt}", certified=False)
 
     def name(self) -> str:
         """The parameter that replaces the old one."""
         return self.system.parameters[-1]
 
 
-def by_its_point(system: Map, several: bool = False) -> Renamed | None:
+def by_its_point(system: Map, several: bool = False) -> MapWithPoint | None:
     """Return the map of one variable with its fixed point as a parameter, or None.  The equation of
     the point has to be linear in a parameter, which the point replaces.  At samples the point has
     to be the only one in the space; if `several`, there have to be more.
@@ -97,7 +97,7 @@ def by_its_point(system: Map, several: bool = False) -> Renamed | None:
 
 def with_parameter(
     system: Map, inside: str, name: str, point: tuple[str, ...], old: str, term: Expr
-) -> Renamed:
+) -> MapWithPoint:
     """The map with a coordinate of its point as a parameter of this name.  It replaces the
     parameter `old`, which equals the term.
     """
@@ -117,7 +117,7 @@ def with_parameter(
     space = renamed(system.space, put)
     domain = conjunction(*kept) or ANYWHERE
     changed = replace(system, parameters=over, domain=domain, space=space, pieces=pieces)
-    return Renamed(replace(changed, point=point), old, written(term))
+    return MapWithPoint(replace(changed, point=point), old, written(term))
 
 
 def needed_of(parts: Sequence[str], known: Sequence[str], over: Sequence[str]) -> list[str]:
@@ -178,7 +178,7 @@ def without_positive_factors(part: str, positive: Set[Expr]) -> str:
     return f"{written(sympy.sign(sign) * left[0][0])} {'>' if strict else '>='} 0"
 
 
-def has_one_point(before: Map, found: Renamed) -> bool:
+def has_one_point(before: Map, found: MapWithPoint) -> bool:
     """Return whether it is certified that each value of the old parameter is the term at exactly
     one value of the point.  The term is monotone on the new domain, and the equation of both has
     different signs at the ends of an interval.

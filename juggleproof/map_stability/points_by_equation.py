@@ -14,11 +14,11 @@ import numpy as np
 import sympy
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.findings import Meaning
+from juggleproof.map_stability.findings import ParameterMeaning
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.points_as_parameters import (
     NAMES,
-    Renamed,
+    MapWithPoint,
     changes_sign,
     interval,
     needed_of,
@@ -49,16 +49,18 @@ class WithEquation:
     polynomial: Expr
     where: str  # what tells it from the other zeros
 
-    def meaning(self, before: Map) -> Meaning:
+    def meaning(self, before: Map) -> ParameterMeaning:
         """Return what the name stands for, and whether there is such a zero for all parameters."""
         which = "" if self.where == ANYWHERE else f" with {self.where}"
         says = f"here {self.name} is the zero of {written(self.polynomial)}{which}"
         if has_a_zero(before, self):
-            return Meaning(says, certified=True)
-        return Meaning(f"{says}, where samples alone say that there is one", certified=False)
+            return ParameterMeaning(says, certified=True)
+        return ParameterMeaning(
+            f"{says}, where samples alone say that there is one", certified=False
+        )
 
 
-def by_an_equation(system: Map) -> WithEquation | Renamed | None:
+def by_an_equation(system: Map) -> WithEquation | MapWithPoint | None:
     """Return the map with a coordinate of its fixed point as one more parameter, which is a zero of
     a polynomial.  If the polynomial is linear in a parameter, the coordinate replaces it.  Return
     None if there is no polynomial with exactly one zero, at samples, that is such a coordinate.

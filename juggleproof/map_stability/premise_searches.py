@@ -26,7 +26,7 @@ from juggleproof.search.decrease_proofs.by_products import (
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.sums_of_squares import ProductsOfFacts, SquaresProgram
 from juggleproof.statements.nodes import Node, Proof
-from juggleproof.statements.states import State, proves, state_of
+from juggleproof.statements.states import SearchState, proves, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 RESERVED = ("value", "level", "distance")
@@ -49,7 +49,7 @@ def proof_by_signs(
 
 
 def closed_by_signs(
-    state: State,
+    state: SearchState,
     known: dict[str, checker.Statement],
     signs: Sequence[str],
     lemma: bool = False,
@@ -81,7 +81,7 @@ def closed_by_signs(
     return sign_node(signs[0], nodes) if nodes else None
 
 
-def _lemma(state: State, known: dict[str, checker.Statement], budget: Budget) -> Node | None:
+def _lemma(state: SearchState, known: dict[str, checker.Statement], budget: Budget) -> Node | None:
     """Return a node by sums of squares times facts that have the degree and the names of the last
     fact.
     """
@@ -120,7 +120,7 @@ def proof_from_few_facts(
     terms of V, and the equations of unknowns in the conclusion.
     """
 
-    def closed(state: State) -> Node | None:
+    def closed(state: SearchState) -> Node | None:
         if state.closed:
             return None
         return by_signs(state, known, few_of(state, used, terms, unknowns), signs)
@@ -129,7 +129,7 @@ def proof_from_few_facts(
 
 
 def closed_from(
-    state: State,
+    state: SearchState,
     known: dict[str, checker.Statement],
     numbers: Sequence[int],
     effort: int,
@@ -145,7 +145,7 @@ def closed_from(
 
 
 def by_signs(
-    state: State,
+    state: SearchState,
     known: dict[str, checker.Statement],
     kept: Sequence[Sequence[int]],
     signs: Sequence[str],
@@ -178,7 +178,7 @@ def by_signs(
 
 
 def few_of(
-    state: State, used: Collection[str], terms: Collection[int], unknowns: Collection[str]
+    state: SearchState, used: Collection[str], terms: Collection[int], unknowns: Collection[str]
 ) -> list[list[int]]:
     """Return lists of the numbers of the facts to use, each fact once: one list without the facts
     that bound the distance by nonlinear terms and, unless `terms` are given, one with them.
@@ -241,7 +241,7 @@ def proof_without_next(
     few = unfolded(without)
     facts = [fact_key(*fact) for fact in state_of(few).assume(few.goal(False)).facts]
 
-    def closed(state: State) -> Node | None:
+    def closed(state: SearchState) -> Node | None:
         numbers = [k for k, fact in enumerate(state.facts) if fact_key(*fact) in facts]
         if state.choices:
             return None
@@ -250,7 +250,7 @@ def proof_without_next(
     return proof_with(premise, known, Budget(limits.FEW_FACTS_WORK), closed)
 
 
-def closed_by_squares(state: State, known: dict[str, checker.Statement]) -> Node | None:
+def closed_by_squares(state: SearchState, known: dict[str, checker.Statement]) -> Node | None:
     """A node that contradicts the facts of the state, by the cases of its disjunctions."""
     if state.closed:
         return ("close",)

@@ -20,7 +20,7 @@ from juggleproof.map_stability.points import as_point, solutions
 from juggleproof.map_stability.samples import (
     Arrays,
     Floats,
-    Point,
+    SamplePoint,
     after,
     licence,
     matrices_of,
@@ -92,7 +92,7 @@ def _words(pieces: int) -> Iterator[tuple[int, ...]]:
                 yield word
 
 
-def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[Point]]:
+def periodic_points(setting: Setting, word: Sequence[int]) -> Iterator[list[SamplePoint]]:
     """Yield lists of states that come back along a word of pieces, in exact terms: an isolated
     state is alone in its list; a continuum has a list of several.
     """
@@ -156,7 +156,7 @@ def escape_rules(
             )
 
 
-def divisors_along(system: Map, start: Point, word: Sequence[int]) -> Iterator[Expr]:
+def divisors_along(system: Map, start: SamplePoint, word: Sequence[int]) -> Iterator[Expr]:
     """Yield what the images along the word divide by, in the parameters.  For a start with a root
     there is nothing, since a domain cannot name the root.
     """
@@ -170,7 +170,7 @@ def divisors_along(system: Map, start: Point, word: Sequence[int]) -> Iterator[E
         here = [sympy.cancel(image.subs(put, simultaneous=True)) for image in system.images[k]]
 
 
-def _is_escape(setting: Setting, start: Point, word: Sequence[int]) -> bool:
+def _is_escape(setting: Setting, start: SamplePoint, word: Sequence[int]) -> bool:
     """Return whether at all samples of the parameters the orbit is one of the map, and not the
     point.
     """

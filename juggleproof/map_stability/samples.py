@@ -238,7 +238,7 @@ def _count(parameters: Mapping[str, Floats]) -> int:
 
 
 @dataclass(frozen=True)
-class Point:
+class SamplePoint:
     """A point that moves with the parameters: terms as text, with the roots in them."""
 
     terms: tuple[str, ...]
@@ -260,7 +260,7 @@ class Point:
         return known
 
 
-def with_point_licences(domain: str, point: Point) -> str:
+def with_point_licences(domain: str, point: SamplePoint) -> str:
     """The domain, with the facts that license the divisors of the point's terms."""
     for text in (*point.terms, *(under for _, under in point.roots)):
         _, below = sympy.fraction(sympy.together(expression(text)))
@@ -291,7 +291,9 @@ class Samples:
         return Samples({name: v[mask] for name, v in self.points.items()}, self.which[mask])
 
 
-def around(system: Map, point: Point, parameters: Arrays, count: int, within: str = "") -> Samples:
+def around(
+    system: Map, point: SamplePoint, parameters: Arrays, count: int, within: str = ""
+) -> Samples:
     """Return some `count` states of the space for each of the parameters.  Half of them are at
     distances of many sizes from the point, half in the whole space, or in the set `within`.
     """

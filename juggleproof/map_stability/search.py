@@ -18,7 +18,7 @@ from juggleproof.map_stability.attracting import (
     attracted,
     settled_by,
 )
-from juggleproof.map_stability.certifying import Proof, Report, beyond, is_certified
+from juggleproof.map_stability.certifying import ProvedStatements, Report, beyond, is_certified
 from juggleproof.map_stability.domains import failing_at_ends, middle_of, narrowed
 from juggleproof.map_stability.failing import (
     WAYS,
@@ -31,9 +31,9 @@ from juggleproof.map_stability.failing import (
     sharp,
 )
 from juggleproof.map_stability.findings import (
-    Finding,
+    MapFinding,
     MapVerdict,
-    Meaning,
+    ParameterMeaning,
     finding_of,
     in_brackets,
     without_fixed_point,
@@ -41,7 +41,7 @@ from juggleproof.map_stability.findings import (
 from juggleproof.map_stability.functions.candidates import Setting
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.points import FixedPoint, fixed_points
-from juggleproof.map_stability.points_as_parameters import Renamed, by_its_point
+from juggleproof.map_stability.points_as_parameters import MapWithPoint, by_its_point
 from juggleproof.map_stability.points_by_equation import by_an_equation
 from juggleproof.map_stability.samples import region, with_licences
 from juggleproof.map_stability.settings import setting_of
@@ -55,8 +55,8 @@ HEAD = "fixed point "  # of the lines on what was tried for one
 class Outcome:
     """The statements with certificates, what they say, and what was tried."""
 
-    proof: Proof
-    finding: Finding
+    proof: ProvedStatements
+    finding: MapFinding
     tried: list[str]
 
 
@@ -64,13 +64,13 @@ def search_stability(
     system: Map,
     report: Report = lambda text: None,
     budget: int = limits.PREMISE_WORK,
-    meaning: Meaning | None = None,
+    meaning: ParameterMeaning | None = None,
 ) -> Outcome:
     """Return a proof that a fixed point is stable and attracts the whole space, or that none does,
     or what comes nearest to either.  `meaning` relates a parameter to the one that it replaced.
     """
     lines: list[str] = []
-    proof = Proof(budget=budget, most=limits.MAP_WORK * budget // limits.PREMISE_WORK)
+    proof = ProvedStatements(budget=budget, most=limits.MAP_WORK * budget // limits.PREMISE_WORK)
 
     def log(text: str) -> None:
         note(lines, text)
@@ -80,10 +80,10 @@ def search_stability(
     if isinstance(found, Outcome):
         return found
     finding = finding_of(system, proof.rules, proof.known, meaning)
-    return Outcome(proof, finding or Finding(MapVerdict.UNKNOWN, found), lines)
+    return Outcome(proof, finding or MapFinding(MapVerdict.UNKNOWN, found), lines)
 
 
-def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
+def search_proof_of(system: Map, proof: ProvedStatements, log: Report) -> Outcome | str:
     """Add what is certified of the map to the proof.  Return why nothing is certified, or an empty
     text; or the outcome for the map with a coordinate of its point as a parameter.
     """
@@ -160,19 +160,21 @@ def search_proof_of(system: Map, proof: Proof, log: Report) -> Outcome | str:
     return f"no fixed point was certified to be {STABLE}, or not to be"
 
 
-def of_several(other: Renamed, budget: int, log: Report) -> Outcome | None:
+def of_several(other: MapWithPoint, budget: int, log: Report) -> Outcome | None:
     """Return the outcome that none of several fixed points attracts another, with one of them as a
     parameter.  An orbit may divide by a term with a root, which a domain cannot name.
     """
     system = with_licences(other.system)
-    proof = Proof(budget=budget, most=limits.REFUTATION_WORK * budget // limits.PREMISE_WORK)
+    proof = ProvedStatements(
+        budget=budget, most=limits.REFUTATION_WORK * budget // limits.PREMISE_WORK
+    )
     if proof.add(system.rule(f"{system.name}/map")):
         for fixed in fixed_points(system):
             log(head_of(fixed))
             if by_orbit(proof, setting_of(system, fixed, system.domain), log):
                 old, e = other.parameter, other.name()
                 says = f"here {old} = {other.term}, where samples alone say that each {old} has"
-                meaning = Meaning(f"{says} such {e}", certified=False)
+                meaning = ParameterMeaning(f"{says} such {e}", certified=False)
                 found = finding_of(other.system, proof.rules, proof.known, meaning)
                 return Outcome(proof, found, []) if found else None
     return None
@@ -233,7 +235,7 @@ def head_of(fixed: FixedPoint, split: Sequence[str] = ()) -> str:
 
 
 def settled(
-    proof: Proof,
+    proof: ProvedStatements,
     system: Map,
     fixed: FixedPoint,
     split: Sequence[str],
@@ -273,7 +275,9 @@ def settled(
     return True
 
 
-def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log: Report) -> bool:
+def fails_outside(
+    proof: ProvedStatements, system: Map, fixed: FixedPoint, where: str, log: Report
+) -> bool:
     """Return whether it is certified that the point fails where the condition does not hold."""
     count = len(proof.rules)
     outside = replace(system, domain=conjunction(system.domain, negation(where)))
@@ -284,7 +288,12 @@ def fails_outside(proof: Proof, system: Map, fixed: FixedPoint, where: str, log:
 
 
 def search_outside(
-    proof: Proof, setting: Setting, fixed: FixedPoint, system: Map, where: str, log: Report
+    proof: ProvedStatements,
+    setting: Setting,
+    fixed: FixedPoint,
+    system: Map,
+    where: str,
+    log: Report,
 ) -> None:
     """Add how the point fails if these conditions fail; and, if it follows, that the point is
     stable and attracts every state nowhere else.

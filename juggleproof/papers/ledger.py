@@ -74,7 +74,7 @@ SENTENCE_END = re.compile(r"""[.?!][)"”]*[⁰¹²³⁴-⁹]*\s+(?=[A-Z\\("“\
 
 
 @dataclass(frozen=True)
-class Item:
+class PaperItem:
     """One item of the paper: its key, section and line, its kind, and its text."""
 
     key: str
@@ -95,7 +95,7 @@ class Item:
         return hashlib.sha256(" ".join(self.text.split()).encode()).hexdigest()[:16]
 
 
-def scan(paper: str) -> list[Item]:
+def scan(paper: str) -> list[PaperItem]:
     """Every item of the paper in printed order; a sentence comes before the inline formulas that
     stand in it.
 
@@ -105,11 +105,11 @@ def scan(paper: str) -> list[Item]:
      ('2.2-i01', 2, 'inline'),
      ('2.2-d01', 3, 'display')]
     """
-    items: list[Item] = []
+    items: list[PaperItem] = []
     counts: dict[tuple[str, str], int] = {}
     for section, line, kind, text in _pieces(paper):
         number = counts[section, kind] = counts.get((section, kind), 0) + 1
-        items.append(Item(f"{section}-{KINDS[kind]}{number:02d}", section, line, kind, text))
+        items.append(PaperItem(f"{section}-{KINDS[kind]}{number:02d}", section, line, kind, text))
     return items
 
 
@@ -209,7 +209,7 @@ class LedgerError(ValueError):
 
 
 @dataclass(frozen=True)
-class Row:
+class LedgerRow:
     """A row of the ledger: an item of the paper with its claims, or with the reason why it has
     none; exactly one of `claims` and `reason` is not empty.
     """
@@ -231,7 +231,7 @@ class Row:
         return self.key.rpartition("-")[0]
 
 
-def load_ledger(path: Path = ROWS) -> list[Row]:
+def load_ledger(path: Path = ROWS) -> list[LedgerRow]:
     """The rows of the ledger in the paper's order, checked as far as the ledger alone allows."""
     lines = path.read_text(encoding="utf-8").split("\n")
     if lines[0].split("\t") != list(COLUMNS):
@@ -245,14 +245,14 @@ def load_ledger(path: Path = ROWS) -> list[Row]:
     return rows
 
 
-def check_rows(rows: Sequence[Row]) -> None:
+def check_rows(rows: Sequence[LedgerRow]) -> None:
     """Raises LedgerError unless the rows are in order, each has claims or a reason, and the reasons
     are from the closed list.
     """
     if not rows:
         raise LedgerError("the ledger has no rows: rebuild it from the paper")
     _check_order(rows)
-    settled: dict[str, Row] = {row.key: row for row in rows}
+    settled: dict[str, LedgerRow] = {row.key: row for row in rows}
     earlier: set[str] = set()
     for row in rows:
         if bool(row.claims) == bool(row.reason):
@@ -266,7 +266,7 @@ def check_rows(rows: Sequence[Row]) -> None:
 
 
 def check_claims(
-    rows: Iterable[Row], register: Collection[str], unprinted: Collection[str]
+    rows: Iterable[LedgerRow], register: Collection[str], unprinted: Collection[str]
 ) -> None:
     """Raises LedgerError unless the rows name registered claims only, and every registered claim
     that the paper prints has a row.
@@ -290,7 +290,7 @@ def check_claims(
         )
 
 
-def check_against_paper(rows: Sequence[Row], items: Sequence[Item]) -> None:
+def check_against_paper(rows: Sequence[LedgerRow], items: Sequence[PaperItem]) -> None:
     """Raises LedgerError unless key, line, kind and digest of the rows are those of the items in
     the paper's text.
     """
@@ -310,7 +310,7 @@ def check_against_paper(rows: Sequence[Row], items: Sequence[Item]) -> None:
         )
 
 
-def _row(line: str, place: str) -> Row:
+def _row(line: str, place: str) -> LedgerRow:
     cells = line.split("\t")
     if len(cells) != len(COLUMNS):
         raise LedgerError(f"{place}: {len(cells)} columns instead of {len(COLUMNS)}")
@@ -321,10 +321,10 @@ def _row(line: str, place: str) -> Row:
         raise LedgerError(f"{place}: {digest!r} is no digest of sixteen hexadecimal digits")
     if claims != " ".join(claims.split()):
         raise LedgerError(f"{place}: the claims must be separated by single spaces")
-    return Row(key, int(number), kind, digest, tuple(claims.split()), reason)
+    return LedgerRow(key, int(number), kind, digest, tuple(claims.split()), reason)
 
 
-def _check_order(rows: Sequence[Row]) -> None:
+def _check_order(rows: Sequence[LedgerRow]) -> None:
     """Raises LedgerError unless keys count upward within section and kind, the rows of a section
     are contiguous, and lines never decrease.
     """
@@ -360,7 +360,7 @@ def _check_order(rows: Sequence[Row]) -> None:
         line = row.line
 
 
-def _check_reason(row: Row, settled: dict[str, Row], earlier: set[str]) -> None:
+def _check_reason(row: LedgerRow, settled: dict[str, LedgerRow], earlier: set[str]) -> None:
     name, _, key = row.reason.partition(" ")
     if name not in REASONS and name not in REASONS_WITH_KEY:
         raise LedgerError(

@@ -8,7 +8,7 @@ import re
 from functools import cache
 
 from juggleproof.judging.claims import Claim
-from juggleproof.papers.ledger import Row, load_ledger
+from juggleproof.papers.ledger import LedgerRow, load_ledger
 
 COUNTED = {"sentence": "sentence", "display": "display", "tablerow": "row of the table"}
 FORMULAS = ("display", "inline")
@@ -55,7 +55,7 @@ def _counted(claim: Claim) -> str:
     return counted if here else f"section {row.section}, {counted}"
 
 
-def is_heading(row: Row) -> bool:
+def is_heading(row: LedgerRow) -> bool:
     """Whether the row is the heading of a section or of a part of a table; the first sentence of a
     section is one, even if it has claims.
     """
@@ -63,7 +63,7 @@ def is_heading(row: Row) -> bool:
 
 
 @cache
-def load_rows() -> tuple[Row, ...]:
+def load_rows() -> tuple[LedgerRow, ...]:
     """The rows of the ledger."""
     return tuple(load_ledger())
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from juggleproof.folders import LEDGER
 from juggleproof.judging.claims import Claim
-from juggleproof.papers.ledger import Item, LedgerError
+from juggleproof.papers.ledger import LedgerError, PaperItem
 from juggleproof.reading.tree import Name, Tree, spelled
 
 NAMES, CITATIONS = (LEDGER / f"{name}.tsv" for name in ("names", "citations"))
@@ -128,7 +128,7 @@ def check_names(table: Sequence[Meant], printed: set[tuple[str, str]]) -> None:
         )
 
 
-def check_citations(table: Sequence[Citation], items: Sequence[Item]) -> None:
+def check_citations(table: Sequence[Citation], items: Sequence[PaperItem]) -> None:
     """Raises LedgerError, one line, unless the table has each citation of the paper, in order."""
     found = [(item.key, cited_in(item.text)) for item in items if item.kind not in _FORMULAS]
     wanted = [one for one in found if one[1]]

@@ -15,8 +15,8 @@ from juggleproof.reports.errata import GROUPS, WRONG
 from juggleproof.reports.results import (
     COLUMNS,
     OWN_COLUMNS,
-    Result,
-    Results,
+    ClaimResult,
+    RunResults,
     writable,
 )
 
@@ -27,7 +27,7 @@ LABEL = "juggleproof"
 GOOD, BAD = "brightgreen", "red"
 
 
-def badge(contents: Contents | Results) -> bytes:
+def badge(contents: Contents | RunResults) -> bytes:
     """The badge in the schema of shields.io's endpoint (https://shields.io/badges/endpoint-badge),
     the same bytes for the same verdicts.
     """
@@ -36,7 +36,7 @@ def badge(contents: Contents | Results) -> bytes:
     return (json.dumps(shown) + "\n").encode()
 
 
-def message_of(results: Results) -> tuple[str, str]:
+def message_of(results: RunResults) -> tuple[str, str]:
     """The message and its colour: red where the theorem is not proved, a stated claim is unknown, a
     statement is rejected, or a verdict is not as registered.
     """
@@ -65,7 +65,7 @@ def message_of(results: Results) -> tuple[str, str]:
 # where it does not hold. An unknown claim, and a statement that the checker rejects, is an error.
 
 
-def as_junit(contents: Contents | Results, seconds: Mapping[str, float] | None = None) -> bytes:
+def as_junit(contents: Contents | RunResults, seconds: Mapping[str, float] | None = None) -> bytes:
     """The report as XML: each claim has its file and line, and a class that is named after the
     file; `time` is there only if the seconds of the claims are given, by id.
     """
@@ -145,7 +145,7 @@ def _case(
         ElementTree.SubElement(case, "system-out").text = out
 
 
-def _failure(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
+def _failure(one: ClaimResult, change: Change | None, results: RunResults) -> tuple[str, str]:
     """The kind, "failure", "error" or empty, and the message: what differs from the register, then
     where the claim fails.
     """
@@ -167,17 +167,17 @@ def _failure(one: Result, change: Change | None, results: Results) -> tuple[str,
 NEITHER = f"neither {PROVED} nor {REFUTED}"
 
 
-def verdict_line(one: Result) -> str:
+def verdict_line(one: ClaimResult) -> str:
     """The verdict, and how the claim was settled."""
     return f"{one.verdict_text}{f'; {one.detail}' if one.detail else ''}; {one.settled_by}"
 
 
-def failing(one: Result) -> str:
+def failing(one: ClaimResult) -> str:
     """The reason why a claim does not hold: its verdict with detail, then where statements fail."""
     return "\n".join([one.verdict_text + (f": {one.detail}" if one.detail else ""), *fails_at(one)])
 
 
-def fails_at(one: Result) -> list[str]:
+def fails_at(one: ClaimResult) -> list[str]:
     """A line for each refuted statement, with its counterexample, and for each open statement, with
     the reason.
     """
@@ -202,7 +202,7 @@ LONGEST = 2_000  # characters of one text
 ROOM = 2_000  # bytes kept for the lines at the end, which say how many lines are left out
 
 
-def markdown(contents: Contents | Results) -> str:
+def markdown(contents: Contents | RunResults) -> str:
     """The summary of a run or of a report's contents."""
     results = results_of(contents)
     page = _Page()
@@ -295,7 +295,7 @@ def _table(rows: Iterable[tuple[str, ...]]) -> Iterable[str]:
             yield "|" + " --- |" * len(row)
 
 
-def _head(results: Results) -> list[str]:
+def _head(results: RunResults) -> list[str]:
     theorem = [" ".join(line.split()) for line in results.theorem.splitlines()]
     if not (results.own or theorem):
         theorem = ["theorem: the store does not hold it"]
@@ -317,7 +317,7 @@ def _head(results: Results) -> list[str]:
     ]
 
 
-def _title(results: Results) -> str:
+def _title(results: RunResults) -> str:
     if not results.own:
         return f"The theorem is {'' if results.is_proved else 'NOT '}{PROVED}"
     holds = results.verdicts()["holds"]
@@ -332,7 +332,7 @@ def _many(count: int, thing: str) -> str:
     return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
-def _unknown(results: Results) -> list[str]:
+def _unknown(results: RunResults) -> list[str]:
     open_claims = [one for one in results.claims if one.is_open]
     if not open_claims:
         return []
@@ -348,7 +348,7 @@ def _unknown(results: Results) -> list[str]:
     ]
 
 
-def _rejected(results: Results) -> list[str]:
+def _rejected(results: RunResults) -> list[str]:
     if not results.rejected:
         return []
     return [
@@ -359,7 +359,7 @@ def _rejected(results: Results) -> list[str]:
     ]
 
 
-def _changes(results: Results) -> list[str]:
+def _changes(results: RunResults) -> list[str]:
     if results.own:
         return []
     heading = "## Changes of verdicts " + (
@@ -394,7 +394,7 @@ def _change(change: Change) -> list[tuple[str, str, str, str]]:
     ]
 
 
-def _errata(results: Results) -> Iterable[str]:
+def _errata(results: RunResults) -> Iterable[str]:
     wrong = [one for one in results.claims if one.group in WRONG]
     if not wrong:
         return
@@ -415,7 +415,7 @@ def _errata(results: Results) -> Iterable[str]:
         yield ""
 
 
-def _erratum(one: Result) -> str:
+def _erratum(one: ClaimResult) -> str:
     reasons = [line for line in one.wrong if line != one.verdict_text] or [one.says]
     parts = [
         f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.verdict_text)};"
@@ -429,9 +429,9 @@ def _erratum(one: Result) -> str:
     return "; ".join(parts)
 
 
-def _place(one: Result) -> str:
+def _place(one: ClaimResult) -> str:
     return f" ({escaped(one.locator)})" if one.locator else ""
 
 
-def _verdict(one: Result) -> str:
+def _verdict(one: ClaimResult) -> str:
     return one.verdict_text + (f": {one.detail}" if one.detail else "")

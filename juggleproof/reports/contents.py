@@ -38,7 +38,7 @@ from juggleproof.papers.derivations import behind, derivations_of
 from juggleproof.papers.paper import opened
 from juggleproof.reports import errata, tree
 from juggleproof.reports import results as table
-from juggleproof.reports.results import Result, Results, reading_of
+from juggleproof.reports.results import ClaimResult, RunResults, reading_of
 from juggleproof.statements.language import ClaimError, lemmas_of, rests_on
 from juggleproof.statements.nodes import Json
 from juggleproof.statements.store import DEFAULT, Store, canonical
@@ -58,7 +58,7 @@ TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownText:
     """A statement as reports show it: the text that the checker reads, its outcome, the certificate
     as stored, the counterexample with its numbers and in words, the answers of the routes.
     """
@@ -90,7 +90,7 @@ class Entry:
     group: str
     correction: Correction | None
     steps: tuple[Derivation, ...]
-    statements: tuple[Shown, ...]
+    statements: tuple[ShownText, ...]
     rests_on: tuple[str, ...]
 
     @property
@@ -113,7 +113,7 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Rule:
+class TheoremRule:
     """A node of the theorem's tree: a map rule, its premises as the checker writes them, the rules
     that it rests on, and the statements that it uses.
     """
@@ -122,7 +122,7 @@ class Rule:
     kind: str
     text: str
     outcome: str
-    premises: tuple[Shown, ...]
+    premises: tuple[ShownText, ...]
     rests_on: tuple[str, ...]
     uses: tuple[str, ...]
 
@@ -138,7 +138,7 @@ class Contents:
     outcomes: Mapping[str, int]
     votes: tuple[str, ...]
     theorem: str
-    rules: tuple[Rule, ...]
+    rules: tuple[TheoremRule, ...]
     derivations: tuple[Derivation, ...]
     changes: tuple[str, ...]
     tools: Mapping[str, str]
@@ -148,7 +148,7 @@ class Contents:
         """The sentence on whether the theorem survives the errors."""
         return errata.theorem_stands([one.claim for one in self.entries], self.theorem)
 
-    def first_page(self) -> list[tuple[Entry, list[errata.Line]]]:
+    def first_page(self) -> list[tuple[Entry, list[errata.FirstPageLine]]]:
         """The errors that matter to those who cite the theorem: each claim with its three lines."""
         claims = [one.claim for one in self.entries]
         matters = errata.what_matters(claims, {one.claim.id: one.group for one in self.entries})
@@ -339,9 +339,11 @@ def _entry(
     )
 
 
-def _shown(name: str, text: str, outcome: str, certificate: object, votes: Sequence[Vote]) -> Shown:
+def _shown(
+    name: str, text: str, outcome: str, certificate: object, votes: Sequence[Vote]
+) -> ShownText:
     refuted = certificate.get("refuted") if isinstance(certificate, dict) else None
-    return Shown(
+    return ShownText(
         name,
         text,
         outcome,
@@ -355,10 +357,10 @@ def _shown(name: str, text: str, outcome: str, certificate: object, votes: Seque
 
 def _rules(
     store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Vote]]
-) -> tuple[Rule, ...]:
+) -> tuple[TheoremRule, ...]:
     if opened().theorem.name not in store.texts:
         return ()
-    rules, nodes = tree.rules_of(store, [opened().theorem.name]), list[Rule]()
+    rules, nodes = tree.rules_of(store, [opened().theorem.name]), list[TheoremRule]()
     for name in tree.with_all_below(opened().theorem.name, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
@@ -373,7 +375,7 @@ def _rules(
             for label, premise in checker.premises_of(rules[name], rules).items()
         )
         nodes.append(
-            Rule(
+            TheoremRule(
                 name,
                 rules[name].kind,
                 store.texts[name],
@@ -395,16 +397,16 @@ SCHEMA_FILE = Path(__file__).with_name("schema.json")
 PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 
-def results_of(contents: Contents | Results, register: Register | None = None) -> Results:
+def results_of(contents: Contents | RunResults, register: Register | None = None) -> RunResults:
     """The results of which reports are made: the argument itself, or the contents of a report
     converted to results.
     """
-    if isinstance(contents, Results):
+    if isinstance(contents, RunResults):
         return contents
     if register is None:
         register = load_register()
     results = [
-        Result(
+        ClaimResult(
             one.claim.id,
             one.claim.section,
             one.claim.place,
@@ -438,16 +440,16 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
         for one in contents.entries
     ]
     return table.compared(
-        results, register, (), Results((), contents.theorem, tuple(contents.votes))
+        results, register, (), RunResults((), contents.theorem, tuple(contents.votes))
     )
 
 
-def as_json(contents: Contents | Results) -> bytes:
+def as_json(contents: Contents | RunResults) -> bytes:
     """The document of a run or of a report's contents, in canonical bytes."""
     return canonical(document(results_of(contents)))
 
 
-def document(results: Results) -> dict[str, Json]:
+def document(results: RunResults) -> dict[str, Json]:
     """The document as data; every field is described in `schema.json`."""
     verdicts, outcomes, changes = results.verdicts(), results.outcomes(), results.change_of()
     return {
@@ -475,7 +477,7 @@ def document(results: Results) -> dict[str, Json]:
     }
 
 
-def _claim(one: Result, change: Change | None) -> dict[str, Json]:
+def _claim(one: ClaimResult, change: Change | None) -> dict[str, Json]:
     texts = {
         name: getattr(one, name)
         for name in (
@@ -514,7 +516,7 @@ def _claim(one: Result, change: Change | None) -> dict[str, Json]:
     }
 
 
-def _correction(one: Result) -> dict[str, Json] | None:
+def _correction(one: ClaimResult) -> dict[str, Json] | None:
     if not one.correction:
         return None
     return {

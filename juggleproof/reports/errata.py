@@ -145,7 +145,7 @@ def stored(claim: Claim, store: Store) -> list[Settled]:
     return [(name, store.texts[name], store.certificate(name, store.texts[name])) for name in names]
 
 
-class Row(NamedTuple):
+class ErrataRow(NamedTuple):
     """A row of an entry: its title, which is empty where the row continues the one before, and its
     text.
 
@@ -163,7 +163,7 @@ def rows_of(
     register: Register,
     finding: Finding,
     settled: Sequence[Settled],
-) -> list[Row]:
+) -> list[ErrataRow]:
     """The rows of an entry: a heading with place and verdict, then the claim's sentence, its print,
     the fault, the correction, and exact counterexamples, also in words.
     """
@@ -181,30 +181,32 @@ def rows_of(
             else ", which prints it right"
         )
         heading += f"; repeats {claim.repeats}{which}"
-    rows = [Row("", heading), Row("said", claim.says)]
+    rows = [ErrataRow("", heading), ErrataRow("said", claim.says)]
     if claim.as_it_stands:
-        rows.append(Row("transcribed", claim.as_it_stands, code=True))
+        rows.append(ErrataRow("transcribed", claim.as_it_stands, code=True))
     if claim.printed:
-        rows.append(Row("restored" if claim.as_it_stands else "printed", claim.printed, latex=True))
+        rows.append(
+            ErrataRow("restored" if claim.as_it_stands else "printed", claim.printed, latex=True)
+        )
     if claim.as_it_stands and entry["verdict"] == "holds":
-        rows.append(Row("why", why_restored(claim)))
+        rows.append(ErrataRow("why", why_restored(claim)))
     title = "readings" if entry["verdict"] == "ambiguous" else "wrong"
     if entry["verdict"] != "holds":
         wrong = what_is_wrong(entry, finding.get("sharp", {}), passages_of(claim))
-        rows.append(Row(title, "\n".join(wrong)))
+        rows.append(ErrataRow(title, "\n".join(wrong)))
     correction = finding.get("correction")
     if correction:
-        rows.append(Row("correction", correction["text"], latex=is_latex(correction)))
+        rows.append(ErrataRow("correction", correction["text"], latex=is_latex(correction)))
         change = note_of(correction["change"])
-        rows.append(Row("", change, code="\\" in change or "=" in change))
+        rows.append(ErrataRow("", change, code="\\" in change or "=" in change))
     elif entry["verdict"] in ("misprint", "false"):
-        rows.append(Row("correction", "none found"))
+        rows.append(ErrataRow("correction", "none found"))
     if claim.remark:
-        rows.append(Row("remark", told(claim.remark)))
+        rows.append(ErrataRow("remark", told(claim.remark)))
     for one in _counterexamples(settled):
-        rows.append(Row("fails at", one.text, code=True))
+        rows.append(ErrataRow("fails at", one.text, code=True))
         if one.words:
-            rows.append(Row("in words", one.words))
+            rows.append(ErrataRow("in words", one.words))
     return rows
 
 
@@ -275,7 +277,7 @@ def first_page(
 
 def three_lines_of(
     claim: Claim, register: Register, finding: Finding, settled: Sequence[Settled]
-) -> list[Line]:
+) -> list[FirstPageLine]:
     """The three lines of a claim on the first page."""
     wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
     fails = [at_a_glance(one.values, one.numbers, one.words) for one in _counterexamples(settled)]
@@ -307,7 +309,7 @@ def at_a_glance(values: str, numbers: str, words: str) -> str:
     return " ".join([f"{values}: {numbers}." if numbers else f"{values}.", words]).rstrip()
 
 
-class Line(NamedTuple):
+class FirstPageLine(NamedTuple):
     """A line of the first page: its title, a formula as LaTeX or empty, and words."""
 
     title: str
@@ -322,16 +324,16 @@ class Line(NamedTuple):
 
 def in_three_lines(
     claim: Claim, wrong: Sequence[str], fails: Sequence[str], correction: Correction | None
-) -> list[Line]:
+) -> list[FirstPageLine]:
     """The three lines of a claim: what is said, why it is wrong, and what is true instead."""
     mended = correction["text"] if correction else ""
     latex, words = (mended, "") if correction and is_latex(correction) else ("", mended)
     parts = [words, told(claim.remark) if claim.remark else ""]
     true = ". ".join(part for part in parts if part)
     return [
-        Line("said", claim.says.partition(". ")[0].rstrip(".")),
-        Line("wrong", "; fails at ".join(["; ".join(wrong), *fails[:1]])),
-        Line("true", true or ("" if latex else "the conclusion itself"), latex),
+        FirstPageLine("said", claim.says.partition(". ")[0].rstrip(".")),
+        FirstPageLine("wrong", "; fails at ".join(["; ".join(wrong), *fails[:1]])),
+        FirstPageLine("true", true or ("" if latex else "the conclusion itself"), latex),
     ]
 
 

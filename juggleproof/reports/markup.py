@@ -47,7 +47,7 @@ ARROW = r"\mapsto"
 
 
 @dataclass(frozen=True)
-class Row:
+class MarkedLine:
     """A line of a statement: the word for its keyword, and its content as markup, in parts between
     which a line may break; or names to link to.
     """
@@ -174,32 +174,32 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
     ]
 
 
-def rows_of(lines: Sequence[tuple[str, Sequence[str]]]) -> list[Row]:
+def rows_of(lines: Sequence[tuple[str, Sequence[str]]]) -> list[MarkedLine]:
     """The lines as markup."""
     return [_row(keyword, parts) for keyword, parts in lines]
 
 
-def _row(keyword: str, parts: Sequence[str]) -> Row:
+def _row(keyword: str, parts: Sequence[str]) -> MarkedLine:
     word = WORDS.get(keyword, keyword)
     if keyword in LINKS:
-        return Row(word, links=tuple(parts[0].split()))
+        return MarkedLine(word, links=tuple(parts[0].split()))
     if keyword in NAMES:
-        return Row(word, (mathml(", ".join(map(glyph, parts[0].split()))),))
+        return MarkedLine(word, (mathml(", ".join(map(glyph, parts[0].split()))),))
     if keyword == "holds" and parts == ("0 = 1",):
-        return Row(word, ("never",))
+        return MarkedLine(word, ("never",))
     if keyword in FORMULAS:
-        return Row(word, tuple(shown(one, ONE_LINE.get(keyword, ELSE)) for one in parts))
+        return MarkedLine(word, tuple(shown(one, ONE_LINE.get(keyword, ELSE)) for one in parts))
     if keyword in TUPLES:
-        return Row(word, (_tuple(parts_of(parts[0])),))
+        return MarkedLine(word, (_tuple(parts_of(parts[0])),))
     if keyword in ("let", "root", "number"):
         name, _, value = parts[0].partition(" = ")
-        return Row(word, (named(name, value),))
+        return MarkedLine(word, (named(name, value),))
     if keyword == "value":
-        return Row(word, (f" {mathml(ARROW)} ".join(map(formula, parts[0].split(" -> "))),))
+        return MarkedLine(word, (f" {mathml(ARROW)} ".join(map(formula, parts[0].split(" -> "))),))
     if keyword in ("piece", "iterates", "after"):
         before, _, images = parts[0].partition(" -> ")
         source = _tuple(_listed(before)) if keyword == "iterates" else formula(before)
-        return Row(
+        return MarkedLine(
             word,
             (
                 (
@@ -208,7 +208,7 @@ def _row(keyword: str, parts: Sequence[str]) -> Row:
                 ),
             ),
         )
-    return Row(word, (escape(parts[0], quote=False),))
+    return MarkedLine(word, (escape(parts[0], quote=False),))
 
 
 def _listed(text: str) -> list[str]:
@@ -387,7 +387,7 @@ class Chip:
 
 
 @dataclass(frozen=True)
-class Node:
+class MarkedStatement:
     """A rule or statement: its lines of text, its link, its outcome, its premises, and the names of
     the nodes that it rests on.
     """
@@ -436,13 +436,13 @@ class _Place:
 
     layer: int
     width: float
-    node: Node | None = None
+    node: MarkedStatement | None = None
     x: float = 0.0
     above: list[_Place] = field(default_factory=list)
     below: list[_Place] = field(default_factory=list)
 
 
-def picture(nodes: Sequence[Node], title: str) -> str:
+def picture(nodes: Sequence[MarkedStatement], title: str) -> str:
     """The SVG of the nodes; names below a node that are not nodes themselves are left out."""
     rows = _laid_out(nodes)
     heights = [max((place.node.height for place in row if place.node), default=0.0) for row in rows]
@@ -460,7 +460,7 @@ def picture(nodes: Sequence[Node], title: str) -> str:
     )
 
 
-def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
+def depths(nodes: Sequence[MarkedStatement]) -> Mapping[str, int]:
     """The length of the longest path to each node from above; raises ValueError for a cycle.
 
     >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
@@ -480,7 +480,7 @@ def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
     raise ValueError("a rule rests on itself")
 
 
-def _laid_out(nodes: Sequence[Node]) -> list[list[_Place]]:
+def _laid_out(nodes: Sequence[MarkedStatement]) -> list[list[_Place]]:
     depth = depths(nodes)
     places = {node.name: _Place(depth[node.name], node.width, node) for node in nodes}
     rows: list[list[_Place]] = [[] for _ in range(max(depth.values()) + 1)]

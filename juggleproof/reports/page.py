@@ -24,13 +24,13 @@ from juggleproof.judging.extras import needed
 from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
 from juggleproof.reports import markup
-from juggleproof.reports.contents import Contents, Entry, Rule, Shown
+from juggleproof.reports.contents import Contents, Entry, ShownText, TheoremRule
 from juggleproof.reports.errata import FIRST, GROUPS, goal_of, is_latex
 from juggleproof.reports.figures import saved
 from juggleproof.reports.latex import NOTATION, glyph, latex_of
-from juggleproof.reports.markup import Chip, Node, picture
+from juggleproof.reports.markup import Chip, MarkedStatement, picture
 from juggleproof.reports.mathml import mathml
-from juggleproof.reports.part import HEADS, Results
+from juggleproof.reports.part import HEADS, TableResults
 from juggleproof.reports.tex_words import SYMBOLS
 from juggleproof.statements.store import CERTIFICATES
 
@@ -47,13 +47,13 @@ MARKS_OF_VERDICTS = dict(zip(VERDICTS, "✓✎✗⋯⇄≈?"))
 
 
 @dataclass(frozen=True)
-class Statement:
+class ShownStatement:
     """A statement with its lines as markup, its outcome, and its certificate as text."""
 
     name: str
     label: str
     outcome: str
-    rows: Sequence[markup.Row]
+    rows: Sequence[markup.MarkedLine]
     text: str
     at: str
     numbers: str
@@ -68,7 +68,7 @@ class Statement:
 Line = tuple[str, str]  # a keyword and one of its formulas or names
 
 
-def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) -> Statement:
+def statement(shown: ShownText, whole: bool = False, shared: Sequence[Line] = ()) -> ShownStatement:
     """A statement for the page; a long certificate is left out unless `whole` is set.
 
     The `shared` lines of all statements of the claim are left out, since the page shows them once.
@@ -82,7 +82,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
     votes = ", ".join(
         f"{route} {answer}" for route, answer in shown.votes.items() if answer != "not applicable"
     )
-    return Statement(
+    return ShownStatement(
         shown.name,
         shown.name.partition("/")[2],
         shown.outcome,
@@ -102,7 +102,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
 SHARED = ("given", "let", "root")
 
 
-def shared_lines(statements: Sequence[Shown]) -> list[Line]:
+def shared_lines(statements: Sequence[ShownText]) -> list[Line]:
     """The lines that all statements of a claim assume, if there are several; rules and sharp ranges
     are not counted.
     """
@@ -154,8 +154,8 @@ class ClaimView:
     sharp: str
     steps: Sequence[tuple[str, str]]  # title, anchor
     letters: Sequence[tuple[str, str]]
-    shared: Sequence[markup.Row]
-    statements: Sequence[Statement]
+    shared: Sequence[markup.MarkedLine]
+    statements: Sequence[ShownStatement]
     note: str
 
     @property
@@ -164,9 +164,9 @@ class ClaimView:
         return self.entry.claim.id
 
     @property
-    def refuted(self) -> list[Statement]:
+    def refuted(self) -> list[ShownStatement]:
         """The refuted statements, without those that repeat a counterexample."""
-        by_values: dict[tuple[str, str], Statement] = {}
+        by_values: dict[tuple[str, str], ShownStatement] = {}
         for one in self.statements:
             if one.outcome == "refuted":
                 by_values.setdefault((one.at, one.words), one)
@@ -216,7 +216,7 @@ def view_of(entry: Entry) -> ClaimView:
 
 
 @dataclass(frozen=True)
-class Derived:
+class ShownDerivation:
     """A derived expression: its anchor, the paper's name for it, its title, its equation as markup
     (empty where it is too long to be read), its entries as text, its letters, and the derivations
     that it uses.
@@ -231,14 +231,14 @@ class Derived:
     uses: Sequence[tuple[str, str]]
 
 
-def derivations(contents: Contents) -> list[Derived]:
+def derivations(contents: Contents) -> list[ShownDerivation]:
     """The derived expressions, each once."""
     titles = {one.function: markup.prose(one.title) for one in contents.derivations}
     texts = {
         one.function: one.line.rpartition(f"{one.sentence} ")[2] for one in contents.derivations
     }
     return [
-        Derived(
+        ShownDerivation(
             anchor(one.function),
             mathml(SYMBOLS[one.function]) if one.function in SYMBOLS else "",
             titles[one.function],
@@ -279,7 +279,7 @@ def equation(function: str, entries: Sequence[Sequence[str]]) -> str:
     return mathml(rf"{left} = \begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
 
 
-def _rows(lines: Sequence[Line]) -> list[markup.Row]:
+def _rows(lines: Sequence[Line]) -> list[markup.MarkedLine]:
     joined: dict[str, list[str]] = {}
     for keyword, content in lines:
         joined.setdefault(
@@ -334,13 +334,13 @@ class Panel:
     title: str
     kind: str
     gives: str
-    shown: Statement
-    premises: Sequence[Statement]
+    shown: ShownStatement
+    premises: Sequence[ShownStatement]
     rests_on: Sequence[str]
     uses: Sequence[str]
 
 
-def panels(rules: Sequence[Rule]) -> list[Panel]:
+def panels(rules: Sequence[TheoremRule]) -> list[Panel]:
     """The panels of the rules; `gives` is the checker's own docstring of the rule."""
     return [
         Panel(
@@ -348,7 +348,9 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name.partition("/")[2],
             rule.kind,
             inspect.cleandoc(checker.orbit_rules()[rule.kind]),
-            statement(Shown(rule.name, rule.text, rule.outcome, None, "", "", "", {}), whole=True),
+            statement(
+                ShownText(rule.name, rule.text, rule.outcome, None, "", "", "", {}), whole=True
+            ),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,
             rule.uses,
@@ -357,12 +359,12 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
     ]
 
 
-def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
+def tree(rules: Sequence[TheoremRule], outcomes: Mapping[str, str]) -> str:
     """The picture of the theorem's tree; it also has the statements that rules use."""
     if not rules:
         return ""
     nodes = [
-        Node(
+        MarkedStatement(
             rule.name,
             rule.name,
             RULES[rule.kind].label,
@@ -378,7 +380,9 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
     ]
     for used in sorted({name for rule in rules for name in rule.uses}):
         nodes.append(
-            Node(used, used, "a statement on numbers", f"#{used}", outcomes.get(used, "unknown"))
+            MarkedStatement(
+                used, used, "a statement on numbers", f"#{used}", outcomes.get(used, "unknown")
+            )
         )
     return picture(
         nodes,
@@ -426,7 +430,7 @@ def pictures(contents: Contents) -> list[Picture]:
     ]
 
 
-def scene_picture(scene: Results | None) -> list[Picture]:
+def scene_picture(scene: TableResults | None) -> list[Picture]:
     """Figure 2 for the page; none where it was not drawn."""
     if scene is None or not scene.figure:
         return []
@@ -451,7 +455,9 @@ def _environment() -> Environment:
     return made
 
 
-def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
+def build(
+    contents: Contents, drawn: Sequence[Picture] = (), scene: TableResults | None = None
+) -> bytes:
     """The page, the same to the byte for the same contents; `scene` has the kept results of the
     part on the vibrating table.
 
@@ -491,7 +497,7 @@ def packed(parts: Mapping[str, str]) -> str:
 def _shown(
     contents: Contents,
     drawn: Sequence[Picture],
-    scene: Results | None,
+    scene: TableResults | None,
     raw: Callable[[str], str],
     part: Callable[..., str],
 ) -> dict[str, object]:

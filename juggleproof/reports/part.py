@@ -17,13 +17,13 @@ from juggleproof.judging import report_cache
 from juggleproof.reports.tables import draw
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.ensemble import Run, frames, in_words, no_vibration
+from juggleproof.scenes.part.ensemble import EnsembleRun, frames, in_words, no_vibration
 from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
     ENSEMBLES,
     HORIZON,
-    Row,
-    Table,
+    OnsetRow,
+    OnsetTable,
     discrepancies,
 )
 from juggleproof.scenes.part.readings import (
@@ -31,8 +31,8 @@ from juggleproof.scenes.part.readings import (
     BANDWIDTH,
     ONSETS,
     SCATTER,
-    Point,
-    Stage,
+    AlikeReadings,
+    ReadingOutcome,
     as_good,
     assumptions,
     chosen,
@@ -83,7 +83,7 @@ def seconds(value: float, horizon: float) -> str:
     return f"> {horizon:g}" if math.isinf(value) else f"{value:.2f}"
 
 
-def line(row: Row) -> tuple[str, ...]:
+def line(row: OnsetRow) -> tuple[str, ...]:
     """A row of table I: vibration, the paper's onset, median or `chaotic`, 16 to 84 percent, and
     the numbers of chaotic and of censored ensembles.
     """
@@ -99,7 +99,7 @@ def line(row: Row) -> tuple[str, ...]:
     )
 
 
-def table(computed: Table, setting: Scene, amplitudes: str) -> None:
+def table(computed: OnsetTable, setting: Scene, amplitudes: str) -> None:
     """Prints table I beside the paper's, its assumptions, and the rows that differ."""
     count = len(computed.rows[0].chaotic)
     print(
@@ -131,7 +131,7 @@ def table(computed: Table, setting: Scene, amplitudes: str) -> None:
     print(RULE_NAMES)
 
 
-def violations(run: Run, setting: Scene) -> bool:
+def violations(run: EnsembleRun, setting: Scene) -> bool:
     """Prints how often guarantees of the impact law and of depth were broken; returns whether any
     was.
     """
@@ -149,7 +149,7 @@ def violations(run: Run, setting: Scene) -> bool:
     return any(broken.values())
 
 
-def point(one: Point) -> str:
+def point(one: ReadingOutcome) -> str:
     """The line of a point of a sweep."""
     rows = "  ".join(
         f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.last, one.chaotic)
@@ -161,7 +161,7 @@ def point(one: Point) -> str:
     )
 
 
-def likeliest(stages: Sequence[Stage]) -> str:
+def likeliest(stages: Sequence[AlikeReadings]) -> str:
     """A line on the most likely point of a sweep, the way to read its onset, and the number of
     points that are as likely within scatter.
     """
@@ -184,7 +184,7 @@ def followed() -> list[list[str]]:
     ]
 
 
-def name_of(one: Point) -> str:
+def name_of(one: ReadingOutcome) -> str:
     """A reading in words."""
     what = one.reading
     return (
@@ -209,7 +209,7 @@ Lines = Sequence[Sequence[str]]
 
 
 @dataclass(frozen=True)
-class Results:
+class TableResults:
     """The results of table I as texts: its rows (columns `HEADS`), the rules for judging them, the
     assumptions (name, value, standing, why), the logarithm of its likelihood, and the likeliest
     stored readings with theirs.
@@ -230,7 +230,7 @@ class Results:
     ]  # slug, title, caption, alt and svg; empty where matplotlib was absent
 
 
-def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
+def is_of_the_report(setting: Scene, computed: OnsetTable, amplitudes: str, seed: int) -> bool:
     """Whether a run of table I is the one that the report shows: the likeliest stored reading, full
     ensembles, and no other choices.
     """
@@ -245,10 +245,10 @@ def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int
     )
 
 
-def results(setting: Scene, computed: Table, amplitudes: str) -> Results:
+def results(setting: Scene, computed: OnsetTable, amplitudes: str) -> TableResults:
     """The results of a run as texts, with figure 2 and the still table of the same scene."""
     first = computed.rows[0]
-    return Results(
+    return TableResults(
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
         [[*line(row)] for row in computed.rows],
         [*RULES],
@@ -280,7 +280,7 @@ def figure_two(setting: Scene, peak: float) -> dict[str, str]:
     }
 
 
-def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
+def keep_results(setting: Scene, computed: OnsetTable, amplitudes: str, seed: int) -> bool:
     """Keeps the results of a run of table I if the report shows it; returns whether it does."""
     if report_cache.folder() is None or not is_of_the_report(setting, computed, amplitudes, seed):
         return False
@@ -288,13 +288,13 @@ def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) ->
     return True
 
 
-def kept_results() -> Results | None:
+def kept_results() -> TableResults | None:
     """The results that a run with the present sources and sweep kept; None where there is no such
     run.
     """
     records = report_cache.load(key()) if report_cache.folder() else []
     try:
-        return Results(**records[0])
+        return TableResults(**records[0])
     except (IndexError, TypeError):
         return None
 

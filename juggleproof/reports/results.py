@@ -260,7 +260,7 @@ class Stated:
 
 
 @dataclass(frozen=True)
-class Result:
+class ClaimResult:
     """The result for a claim; `wrong` and `group` are its faults and its group in the errata;
     `source` is its file and line.
     """
@@ -308,7 +308,7 @@ class Result:
 
 
 @dataclass(frozen=True)
-class Results:
+class RunResults:
     """The results of a run; `own` says that they are about a user's files, for which there is no
     register.
 
@@ -316,7 +316,7 @@ class Results:
     the changes have been written to the register.
     """
 
-    claims: tuple[Result, ...]
+    claims: tuple[ClaimResult, ...]
     theorem: str = ""
     votes: tuple[str, ...] = ()
     changes: tuple[Change, ...] = ()
@@ -373,7 +373,7 @@ def results_of_run(
     rejected: Sequence[tuple[str, str]] = (),
     partial: bool = False,
     accepted: bool = False,
-) -> Results:
+) -> RunResults:
     """The results of judgements; without a register they are about a user's claims."""
     findings = {one.id: one.finding() for one in judgements}
     judged_claims = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
@@ -396,7 +396,7 @@ def results_of_run(
         grouped,
         register,
         rejected,
-        Results(
+        RunResults(
             (),
             theorem,
             tuple(summary(judgements).splitlines()[2:]),
@@ -407,7 +407,7 @@ def results_of_run(
     )
 
 
-def _result(claim: Claim, judged: Judgement) -> Result:
+def _result(claim: Claim, judged: Judgement) -> ClaimResult:
     def at(name: str) -> str:
         certificate = judged.certificates[name]
         return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""
@@ -429,7 +429,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         )
         for name, text in judged.statements
     )
-    return Result(
+    return ClaimResult(
         claim.id,
         claim.section,
         claim.place,
@@ -458,11 +458,11 @@ def where(outcome: str, at: str) -> str:
 
 
 def compared(
-    results: Sequence[Result],
+    results: Sequence[ClaimResult],
     register: Register | None,
     rejected: Sequence[tuple[str, str]],
-    about: Results,
-) -> Results:
+    about: RunResults,
+) -> RunResults:
     """The results `about` a run with these claims: those with rejected statements become unknown,
     the changes from the register are added, and characters that no file can hold are replaced.
     """
@@ -478,7 +478,7 @@ def compared(
     return replace(about, claims=claims, changes=changes, rejected=tuple(reasons.items()))
 
 
-def _without(one: Result, reasons: Mapping[str, str]) -> Result:
+def _without(one: ClaimResult, reasons: Mapping[str, str]) -> ClaimResult:
     """The result, which becomes unknown where the checker rejects statements of the claim."""
     lost = [stated.name for stated in one.statements if stated.name in reasons]
     if not lost:
@@ -500,10 +500,10 @@ def _without(one: Result, reasons: Mapping[str, str]) -> Result:
     )
 
 
-def _written(one: Result) -> Result:
+def _written(one: ClaimResult) -> ClaimResult:
     """The result with `writable` texts, since the docstring of a claim may have any characters."""
     texts = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
-    return Result(**(vars(one) | texts))
+    return ClaimResult(**(vars(one) | texts))
 
 
 def writable(text: str) -> str:

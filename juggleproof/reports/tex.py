@@ -237,7 +237,7 @@ def _theorem(contents: Contents) -> dict[str, object]:
         """
         return with_macros(",\\; ".join(latex_of(part) for part in text.split(" and ")[:most]))
 
-    steps = tex_words.Steps(entry(opened().hook("proof-claim", str)))
+    steps = tex_words.ProofSteps(entry(opened().hook("proof-claim", str)))
     pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
     stages = rows("theorem/descends", "stage")
     scaling = next(one for one in contents.derivations if one.function == "scaling")

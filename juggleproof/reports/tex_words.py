@@ -338,7 +338,7 @@ def settled(entry: Entry) -> str:
     return plain(entry.settled_by)
 
 
-class Steps:
+class ProofSteps:
     """The lines of the written proof: the statements of a claim, by label."""
 
     def __init__(self, entry: Entry) -> None:
@@ -386,7 +386,7 @@ def _chained(relations: Sequence[str]) -> str:
 
 
 __all__ = [
-    "Steps",
+    "ProofSteps",
     "change",
     "code",
     "corrected",

@@ -18,7 +18,7 @@ from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
 from juggleproof.search.one_variable import dense_poly, dense_text
 from juggleproof.statements.nodes import Adjoined, Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 
 class AdjoinedNumber:
@@ -59,7 +59,7 @@ class AdjoinedNumber:
         return self.name, text, str(self.low), str(self.high), ("close",), ("close",)
 
 
-def close_at_number(state: State, adjoined: AdjoinedNumber) -> Node | None:
+def close_at_number(state: SearchState, adjoined: AdjoinedNumber) -> Node | None:
     """A node that closes the state, whose only variable is the adjoined number; None where a fact's
     sign is not yet visible.
     """
@@ -82,7 +82,7 @@ def close_at_number(state: State, adjoined: AdjoinedNumber) -> Node | None:
     return "cases", 0, nodes
 
 
-def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node | None:
+def _contradiction(state: SearchState, index: int, adjoined: AdjoinedNumber) -> Node | None:
     poly, relation = state.facts[index]
     dense, modulus = dense_poly(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
@@ -105,7 +105,7 @@ def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node |
     return None if tree is None else ("boxes", index, [(low, high)], tree)
 
 
-def _own_facts(state: State, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
+def _own_facts(state: SearchState, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
     """The numbers of the facts low <= number, number <= high and p(number) = 0."""
     shift = checker.BITS * state.context.index[adjoined.name]
     one = 1 << shift

@@ -13,17 +13,17 @@ from collections.abc import Sequence
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
 from juggleproof.search.psatz.linear import close_by_equations
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 MOST_VARIABLES = 8
 STAGES = ((1, 0, False), (1, 2, False), (1, 4, False))
 
 
-def close_by_variables(state: State, ring: Ring, budget: Budget) -> Node | None:
+def close_by_variables(state: SearchState, ring: Ring, budget: Budget) -> Node | None:
     """A node that closes a state by its facts that are forms of even degree: by sums of squares
     where a variable is 1, and again where it is 0; None where none was found.
 
@@ -42,7 +42,7 @@ def close_by_variables(state: State, ring: Ring, budget: Budget) -> Node | None:
     return None if forms is None else _closed(forms, ring, budget)
 
 
-def _closed(forms: State, ring: Ring, budget: Budget) -> Node | None:
+def _closed(forms: SearchState, ring: Ring, budget: Budget) -> Node | None:
     used = _variables(forms)
     node = _by_squares(forms, ring, budget, STAGES[:1])
     if node is not None or not 1 < len(used) <= MOST_VARIABLES:
@@ -58,14 +58,14 @@ def _closed(forms: State, ring: Ring, budget: Budget) -> Node | None:
 
 
 def _by_squares(
-    state: State, ring: Ring, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
+    state: SearchState, ring: Ring, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
 ) -> Node | None:
-    problem = Problem(state, ring, True)
+    problem = LeafProblem(state, ring, True)
     node = close_by_equations(problem)
     return node or search_squares(programs_of_facts(problem, budget, stages), budget)
 
 
-def _forms_of(state: State) -> State | None:
+def _forms_of(state: SearchState) -> SearchState | None:
     """The state in which 1 >= 0 stands for what is no form of even degree: so facts keep their
     numbers.  None where no other fact is left.
     """
@@ -77,7 +77,7 @@ def _forms_of(state: State) -> State | None:
     return forms if _variables(forms) else None
 
 
-def _variables(forms: State) -> list[str]:
+def _variables(forms: SearchState) -> list[str]:
     """The variables of the forms, but for those that are 0."""
     zero: set[str] = set()
     used: set[str] = set()

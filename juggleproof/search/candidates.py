@@ -117,10 +117,10 @@ class Cells:
 
     def signs(self, at: Value) -> dict[int, int]:
         """The sign of every polynomial at a value, found where it is asked for."""
-        return Signs(self.polys, at)
+        return SignsAtValue(self.polys, at)
 
 
-class Signs(dict[int, int]):
+class SignsAtValue(dict[int, int]):
     """The signs of polynomials at a value; most conditions are decided by a few of them."""
 
     def __init__(self, polys: Mapping[int, fmpq_poly], at: Value) -> None:

@@ -22,7 +22,7 @@ from juggleproof.statements.nodes import (
     Values,
     by_sign,
 )
-from juggleproof.statements.states import State, proves, state_of
+from juggleproof.statements.states import SearchState, proves, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -161,7 +161,7 @@ def _search(
                 if refutes:
                     refuted = search_values(
                         statement,
-                        State(checker.Context()),
+                        SearchState(checker.Context()),
                         "counterexample",
                         {},
                         known,
@@ -213,7 +213,7 @@ def search_point(
 
     Raises Exhausted where the budget ends.
     """
-    start = State(checker.Context())
+    start = SearchState(checker.Context())
     for effort in (0, 1, 2):
         point = search_values(statement, start, "point", {}, known, budget, sharp, effort, roles)
         if point is not None:
@@ -308,7 +308,7 @@ def lemma_atoms(context: checker.Context, text: str) -> list[checker.Atom]:
 
 
 def search_by_lemmas(
-    state: State, lemmas: Sequence[checker.Atom], close: Callable[[State], Node | None]
+    state: SearchState, lemmas: Sequence[checker.Atom], close: Callable[[SearchState], Node | None]
 ) -> Node | None:
     """A node that closes the state: by the signs of each polynomial, of which those are closed
     first that its lemma says it has not.

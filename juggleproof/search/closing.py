@@ -30,13 +30,13 @@ from juggleproof.search.psatz.linear import (
 )
 from juggleproof.search.psatz.orthant import search_orthant
 from juggleproof.search.psatz.problem import (
-    Problem,
+    LeafProblem,
     has_interior_point,
     high_facts,
 )
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.nodes import Node, Sign
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
@@ -72,7 +72,7 @@ class Hints:
 
 
 def search_closing(
-    state: State,
+    state: SearchState,
     known: dict[str, checker.Statement],
     budget: Budget,
     effort: int = 2,
@@ -105,10 +105,10 @@ def search_closing(
 
 
 def with_uses(
-    state: State,
+    state: SearchState,
     known: dict[str, checker.Statement],
     wanted: Sequence[tuple[str, Mapping[str, str]]],
-) -> tuple[list[tuple[str, dict[str, str]]], State]:
+) -> tuple[list[tuple[str, dict[str, str]]], SearchState]:
     """The instances of earlier statements that a hint names, as far as they are known and exist,
     and the state that assumes them.
     """
@@ -131,7 +131,7 @@ def with_uses(
     return uses, state
 
 
-def has_high_facts(state: State) -> bool:
+def has_high_facts(state: SearchState) -> bool:
     """Whether some facts are left out at first for their degree."""
     ring = Ring(tuple(state.context.index))
     return bool(high_facts([ring.read(poly) for poly, _ in state.facts]))
@@ -150,13 +150,13 @@ class Closing:
         self.known, self.budget, self.effort, self.high = known, budget, effort, high
         self.rings: dict[tuple[str, ...], Ring] = {}
 
-    def problem(self, state: State, whole: bool = False) -> Problem:
+    def problem(self, state: SearchState, whole: bool = False) -> LeafProblem:
         """The facts of a state, ready for a search."""
         self.count(300, [len(poly.terms) for poly, _ in state.facts])
         names = tuple(state.context.index)
         if names not in self.rings:
             self.rings[names] = Ring(names)
-        problem = Problem(state, self.rings[names], whole, high=self.high)
+        problem = LeafProblem(state, self.rings[names], whole, high=self.high)
         self.count(0, [len(poly) for poly in problem.polys()])
         return problem
 
@@ -166,7 +166,7 @@ class Closing:
 
     # -------------------------------------------------------- disjunctions
 
-    def close(self, state: State) -> Node | None:
+    def close(self, state: SearchState) -> Node | None:
         """The node for this state: at once, by its facts, or by the cases of a disjunction."""
         if state.closed:
             return ("close",)
@@ -183,7 +183,7 @@ class Closing:
             return search_by_conflicts(state, lambda few: self.leaf(few, 0), self.budget)
         return node if node is not None else self.cases(state, sizes)
 
-    def cases(self, state: State, sizes: Mapping[int, int]) -> Node | None:
+    def cases(self, state: SearchState, sizes: Mapping[int, int]) -> Node | None:
         """Splits the last of these disjunctions with the fewest alternatives that no fact
         contradicts at sight; sizes: how many, by the number of the disjunction.
         """
@@ -200,7 +200,7 @@ class Closing:
 
     # -------------------------------------------------------- facts alone
 
-    def attempt(self, state: State, stages: Sequence[Stage]) -> Node | None:
+    def attempt(self, state: SearchState, stages: Sequence[Stage]) -> Node | None:
         """Closes a state by its facts alone, strict integer facts rounded first."""
         if state.closed:
             return ("close",)
@@ -208,7 +208,7 @@ class Closing:
         problem = self.problem(inside)
         return wrapped(rounded, close_by_equations(problem) or search(problem, stages, self.budget))
 
-    def rounded(self, state: State) -> tuple[list[int], State]:
+    def rounded(self, state: SearchState) -> tuple[list[int], SearchState]:
         """The strict integer facts p > 0 of a state, and the state in which p - 1 >= 0 as well."""
         numbers: list[int] = []
         if state.context.integers:
@@ -227,7 +227,7 @@ class Closing:
                         state = state.branch(checker.fold(less, ">="))
         return numbers, state
 
-    def leaf(self, state: State, depth: int) -> Node | None:
+    def leaf(self, state: SearchState, depth: int) -> Node | None:
         """A state without disjunctions: positive combinations, then cases by sign, then larger
         combinations.
         """
@@ -260,7 +260,7 @@ class Closing:
             )
         return wrapped(rounded, node)
 
-    def by_few(self, problem: Problem, node: Node | None) -> Node | None:
+    def by_few(self, problem: LeafProblem, node: Node | None) -> Node | None:
         """The same, or in place of none or of a long one a node that a few facts make."""
         if node is not None and (node[0] != "psatz" or len(node[1]) <= LONG):
             return node
@@ -270,14 +270,14 @@ class Closing:
             return node
         return few if node is None or few and len(str(few)) < len(str(node)) else node
 
-    def by_monomials(self, problem: Problem) -> Node | None:
+    def by_monomials(self, problem: LeafProblem) -> Node | None:
         """Products of bounds along the monomials of the goal, with little work."""
         try:
             return search_by_monomials(problem, self.budget.part(BY_MONOMIALS))
         except Exhausted:
             return None
 
-    def forms(self, state: State) -> Node | None:
+    def forms(self, state: SearchState) -> Node | None:
         """Quadratic forms with parameters in a box, with little work."""
         part = self.budget.part(FORMS)
         facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
@@ -298,7 +298,7 @@ class Closing:
         return node
 
     def by_factors(
-        self, state: State, factors: Sequence[str], depth: int, level: int = 0
+        self, state: SearchState, factors: Sequence[str], depth: int, level: int = 0
     ) -> Node | None:
         """Cases by the signs of the two factors of an equation, as of that of sqrt(term^2): in each
         of them one is 0, and the same for the next equation.
@@ -327,7 +327,7 @@ class Closing:
             nodes.append(node)
         return sign_node(first, nodes)
 
-    def usual(self, problem: Problem, again: bool) -> Node | None:
+    def usual(self, problem: LeafProblem, again: bool) -> Node | None:
         """Products of two facts, and single facts times squares; then the same with facts divided
         by their positive factors.
         """
@@ -336,7 +336,7 @@ class Closing:
             node = search(problem, (*FIRST, *USUAL), self.budget)
         return node
 
-    def with_lemmas(self, state: State, problem: Problem, depth: int) -> Node | None:
+    def with_lemmas(self, state: SearchState, problem: LeafProblem, depth: int) -> Node | None:
         """Signs that can be shown are added to the facts; where that is not enough, there are
         cases by sign.
         """
@@ -373,7 +373,9 @@ class Closing:
             node = self.split(state, problem, depth)
         return under(lemmas, node)
 
-    def lemma(self, state: State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, State]:
+    def lemma(
+        self, state: SearchState, text: str, stages: Sequence[Stage]
+    ) -> tuple[Lemma | None, SearchState]:
         """The sign of a polynomial where two of the three cases close quickly, and the state with
         it.
         """
@@ -387,7 +389,7 @@ class Closing:
         rounded, inside = self.rounded(cases[place])
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
-    def split(self, state: State, problem: Problem, depth: int) -> Node | None:
+    def split(self, state: SearchState, problem: LeafProblem, depth: int) -> Node | None:
         """Cases by the sign of a candidate; one of whose cases most close quickly comes first."""
         known = [
             text
@@ -451,7 +453,7 @@ def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
     return node
 
 
-def two_factors(problem: Problem) -> list[str]:
+def two_factors(problem: LeafProblem) -> list[str]:
     """The factors of the first equation that has two; none where there is none."""
     for equation in problem.reduction.left:
         factors = problem.ring.factors(equation.poly)
@@ -460,7 +462,7 @@ def two_factors(problem: Problem) -> list[str]:
     return []
 
 
-def candidates(state: State, problem: Problem, kind: str) -> list[str]:
+def candidates(state: SearchState, problem: LeafProblem, kind: str) -> list[str]:
     """Polynomials worth cases by sign: integers and their differences, factors of
     facts, variables, factors of resultants.
     """

@@ -26,9 +26,9 @@ from juggleproof.search.ranges import MIRRORED, QUICK
 from juggleproof.search.samples import state_condition
 from juggleproof.search.scales import Normal
 from juggleproof.search.templates import TemplateSearch
-from juggleproof.search.terms import SPARE, Choice, Quotient, Sample
+from juggleproof.search.terms import SPARE, Sample, TermChoice, TermQuotient
 from juggleproof.search.witness_terms import (
-    Task,
+    TermTask,
     confirmed,
     length,
     margins_of,
@@ -36,7 +36,7 @@ from juggleproof.search.witness_terms import (
 )
 from juggleproof.statements.language import End, SharpRange, bounds_of
 from juggleproof.statements.nodes import Values, by_sign
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
@@ -48,11 +48,11 @@ ROUNDS = 3  # of choices, each with the points at which those before do not serv
 
 
 def cover(
-    task: Task,
-    state: State,
+    task: TermTask,
+    state: SearchState,
     samples: Sequence[Sample],
     depth: int = 3,
-    former: Sequence[Choice] = (),
+    former: Sequence[TermChoice] = (),
 ) -> Values | None:
     """Values that serve on the whole state; None where none were found.
 
@@ -75,7 +75,7 @@ def cover(
             return "empty", node
     for _ in range(ROUNDS):
         given = [normal.sample(sample) for sample in samples]
-        tried: list[Choice] = list(former)
+        tried: list[TermChoice] = list(former)
         if samples:
             search = TemplateSearch(
                 base,
@@ -118,7 +118,7 @@ def cover(
 
 
 def _failing_point(
-    task: Task, normal: Normal, state: State, condition: Condition, choice: Choice
+    task: TermTask, normal: Normal, state: SearchState, condition: Condition, choice: TermChoice
 ) -> Sample | None:
     """A point of the state at which a choice of terms does not serve, where Z3 sees one."""
     if choice.roots:
@@ -136,12 +136,12 @@ def _failing_point(
 
 
 def _split(
-    task: Task,
-    state: State,
+    task: TermTask,
+    state: SearchState,
     poly: fmpq_mpoly,
     samples: Sequence[Sample],
     depth: int,
-    former: Sequence[Choice],
+    former: Sequence[TermChoice],
 ) -> Values | None:
     text = to_text(poly)
     groups: list[list[Sample]] = [[], [], []]
@@ -162,7 +162,7 @@ def _split(
 
 
 def _splitters(
-    condition: Condition, choice: Choice, samples: Sequence[Sample], base: Sequence[str]
+    condition: Condition, choice: TermChoice, samples: Sequence[Sample], base: Sequence[str]
 ) -> list[fmpq_mpoly]:
     """Polynomials in the base whose sign separates the samples that a choice serves from others."""
     if choice.roots or len(choice.serves) == len(samples):
@@ -183,7 +183,7 @@ def _splitters(
     return [f for _, f in sorted(found, key=lambda pair: pair[0])]
 
 
-def _shortest(choices: Sequence[Choice]) -> list[Choice]:
+def _shortest(choices: Sequence[TermChoice]) -> list[TermChoice]:
     return sorted(choices, key=length)
 
 
@@ -224,7 +224,7 @@ def implies_domain(statement: SharpRange, whole: Collection[str]) -> bool:
     """Whether the condition, with what the domain demands of each parameter alone and the whole
     numbers being whole, implies the rest of the domain: proved.
     """
-    state = State(_state(statement, whole).context)
+    state = SearchState(_state(statement, whole).context)
     context = state.context
     domain = context.formula(checker.parse(str(statement.domain)))
     own = [
@@ -241,8 +241,8 @@ def implies_domain(statement: SharpRange, whole: Collection[str]) -> bool:
     return _impossible(state.assume(checker.negate(domain)))
 
 
-def _state(statement: SharpRange, whole: Collection[str]) -> State:
-    state = State(checker.Context())
+def _state(statement: SharpRange, whole: Collection[str]) -> SearchState:
+    state = SearchState(checker.Context())
     for name in statement.over:
         state.context.declare(name, name in whole)
     return state.assume(state.context.formula(checker.parse(str(statement.domain))))
@@ -251,7 +251,7 @@ def _state(statement: SharpRange, whole: Collection[str]) -> State:
 def _interval(
     atoms: Sequence[checker.Formula],
     parameter: str,
-    state: State,
+    state: SearchState,
     ends: tuple[End | None, End | None],
 ) -> str | None:
     """The bounds that relations set, as text, else the ends of the domain; None where one is not
@@ -283,14 +283,14 @@ def _interval(
 
 
 def _bound(
-    poly: checker.Poly, relation: str, parameter: str, state: State
+    poly: checker.Poly, relation: str, parameter: str, state: SearchState
 ) -> tuple[str, str] | None:
     """(relation, text) of the bound that poly relation 0 is."""
     ring = ring_of(state.context)
     parts = coefficients_in(to_flint(poly, ring, len(state.context.index)), parameter)
     if len(parts) != 2:
         return None
-    value = Quotient.reduced(-parts[0], parts[1])
+    value = TermQuotient.reduced(-parts[0], parts[1])
     rising, up = (_positive(part, state) for part in (parts[1], value.bottom))
     if rising is None or up is None:
         return None
@@ -302,7 +302,7 @@ def _bound(
     )
 
 
-def _positive(poly: fmpq_mpoly, state: State) -> bool | None:
+def _positive(poly: fmpq_mpoly, state: SearchState) -> bool | None:
     """Whether a polynomial is positive on the whole of a state, or negative there; None where
     neither is proved.
     """
@@ -313,7 +313,7 @@ def _positive(poly: fmpq_mpoly, state: State) -> bool | None:
     return None
 
 
-def _impossible(state: State) -> bool:
+def _impossible(state: SearchState) -> bool:
     try:
         return search_closing(state, {}, Budget(WORK)) is not None
     except Exhausted:

@@ -20,19 +20,19 @@ from juggleproof.algebra.numbers import (
 from juggleproof.search.candidates import separate
 from juggleproof.search.closing import search_closing
 from juggleproof.search.hints.asking import ask
-from juggleproof.search.ranges import Interval, Line
+from juggleproof.search.ranges import CutDomain, DomainCell
 from juggleproof.search.samples import state_condition
 from juggleproof.search.scales import Normal
 from juggleproof.search.templates import CornerSearch, TemplateSearch
 from juggleproof.search.terms import (
     NEGLIGIBLE,
-    Choice,
     Sample,
+    TermChoice,
     reduced_by,
     root_values,
 )
 from juggleproof.search.witness_terms import (
-    Task,
+    TermTask,
     confirmed,
     failing_goal,
     length,
@@ -40,7 +40,7 @@ from juggleproof.search.witness_terms import (
     setting,
 )
 from juggleproof.statements.nodes import Values, by_sign
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Exhausted
 
 # -------------------------------------------------------------------------------------------------
@@ -52,7 +52,9 @@ def linear_text(value: fmpq, parameter: str) -> str:
     return polynomial_text([-int(value.p), int(value.q)], parameter)
 
 
-def cut_between(left: Interval, right: Interval, parameter: str) -> tuple[str, int | None] | None:
+def cut_between(
+    left: DomainCell, right: DomainCell, parameter: str
+) -> tuple[str, int | None] | None:
     """(a polynomial that rises through the border of two pieces, which of them has the border
     itself; None: neither).
     """
@@ -98,24 +100,26 @@ PARTS = (
 
 
 @dataclass
-class Piece:
+class ParameterPiece:
     """An interval of the parameter and the choice of terms that serves on all of it."""
 
-    interval: Interval
-    choice: Choice
+    interval: DomainCell
+    choice: TermChoice
 
 
 class LineCover:
     """The search for values that serve on a state in one parameter."""
 
-    def __init__(self, task: Task, state: State, parameter: str, samples: Sequence[Sample]) -> None:
+    def __init__(
+        self, task: TermTask, state: SearchState, parameter: str, samples: Sequence[Sample]
+    ) -> None:
         self.task, self.state, self.parameter, self.samples = task, state, parameter, list(samples)
         self.condition, self.keys, self.integers = setting(task, state)
         self.normal = Normal(state, self.condition, equations=False)
         self.allowed = state_condition(state)
         self.margins = margins_of(state, self.condition, self.normal)
         self.goal, self.borders = failing_goal(task, state, self.condition, task.budget)
-        self.served: list[tuple[Choice, list[Interval]]] = []
+        self.served: list[tuple[TermChoice, list[DomainCell]]] = []
 
     def search(self) -> Values | None:
         """Values for the whole state, or None.
@@ -180,7 +184,7 @@ class LineCover:
                     self.served.append((choice, intervals))
         self.served.sort(key=lambda pair: length(pair[0]))
 
-    def _failing(self, choices: Iterator[Choice]) -> Iterator[Choice]:
+    def _failing(self, choices: Iterator[TermChoice]) -> Iterator[TermChoice]:
         """The first choices; where the goals speak of further variables, those at which Z3 sees no
         values that meet the goals.
         """
@@ -217,7 +221,7 @@ class LineCover:
                 if count >= 4:
                     return
 
-    def _intervals_of(self, choice: Choice) -> list[Interval]:
+    def _intervals_of(self, choice: TermChoice) -> list[DomainCell]:
         """Where in the state the choice meets the condition, up to the accuracy with which roots
         are known.
         """
@@ -244,21 +248,21 @@ class LineCover:
         self.task.budget.spend(300 + 200 * len(whole.polys))
         return _intervals(self.allowed, self.parameter, whole, choice)
 
-    def _plan(self, regions: Sequence[Interval]) -> list[Piece] | Sample:
+    def _plan(self, regions: Sequence[DomainCell]) -> list[ParameterPiece] | Sample:
         """Pieces that cover the regions from left to right, or a sample just where nothing
         serves.
         """
-        pieces: list[Piece] = []
+        pieces: list[ParameterPiece] = []
         for region in regions:
             low, closed = region.low, region.low_closed
             while True:
-                best: Piece | None = None
+                best: ParameterPiece | None = None
                 for choice, intervals in self.served:
                     for interval in intervals:
                         if _starts(interval, low, closed) and (
                             best is None or _further(interval, best.interval)
                         ):
-                            best = Piece(interval, choice)
+                            best = ParameterPiece(interval, choice)
                 if best is None:
                     return {self.parameter: _just_above(low, region.high)}
                 pieces.append(best)
@@ -267,7 +271,9 @@ class LineCover:
                 low, closed = best.interval.high, not best.interval.high_closed
         return pieces
 
-    def _build(self, state: State, plan: Sequence[Piece], depth: int) -> Values | None:
+    def _build(
+        self, state: SearchState, plan: Sequence[ParameterPiece], depth: int
+    ) -> Values | None:
         if len(plan) == 1:
             return self._leaf(state, plan[0], depth)
         k = len(plan) // 2
@@ -288,11 +294,11 @@ class LineCover:
         above = None if at is None else self._build(branches[2], plan[k:], depth)
         return None if at is None or above is None else ("sign", text, below, at, above)
 
-    def _empty(self, state: State) -> Values | None:
+    def _empty(self, state: SearchState) -> Values | None:
         node = search_closing(state, self.task.known, self.task.budget, 1)
         return None if node is None else ("empty", node)
 
-    def _leaf(self, state: State, piece: Piece, depth: int) -> Values | None:
+    def _leaf(self, state: SearchState, piece: ParameterPiece, depth: int) -> Values | None:
         """The piece's choice, or another that serves there, or the piece in two halves."""
         others = [
             c
@@ -317,15 +323,15 @@ class LineCover:
         gap = high._low - low._high
         value = simplest_between(low._high + gap / 3, high._low - gap / 3)
         halves = (
-            Interval(low, piece.interval.low_closed, AlgebraicNumber.rational(value), True),
-            Interval(AlgebraicNumber.rational(value), True, high, piece.interval.high_closed),
+            DomainCell(low, piece.interval.low_closed, AlgebraicNumber.rational(value), True),
+            DomainCell(AlgebraicNumber.rational(value), True, high, piece.interval.high_closed),
         )
         return self._build_halves(
-            state, [Piece(half, piece.choice) for half in halves], value, depth - 1
+            state, [ParameterPiece(half, piece.choice) for half in halves], value, depth - 1
         )
 
     def _build_halves(
-        self, state: State, halves: Sequence[Piece], value: fmpq, depth: int
+        self, state: SearchState, halves: Sequence[ParameterPiece], value: fmpq, depth: int
     ) -> Values | None:
         text = linear_text(value, self.parameter)
         cases: list[Values] = []
@@ -338,8 +344,11 @@ class LineCover:
 
 
 def _intervals(
-    allowed: Condition, parameter: str, whole: Condition | None = None, choice: Choice | None = None
-) -> list[Interval]:
+    allowed: Condition,
+    parameter: str,
+    whole: Condition | None = None,
+    choice: TermChoice | None = None,
+) -> list[DomainCell]:
     """The maximal intervals on which the allowed condition, and the other one where there is one,
     hold.
     """
@@ -371,10 +380,10 @@ def _intervals(
             _holds(allowed, parameter, at)
             and (whole is None or _holds(whole, parameter, at, choice))
         )
-    return Line(tuple(numbers), tuple(verdicts)).intervals(True)
+    return CutDomain(tuple(numbers), tuple(verdicts)).intervals(True)
 
 
-def _norm(poly: fmpq_mpoly, choice: Choice | None) -> fmpq_mpoly:
+def _norm(poly: fmpq_mpoly, choice: TermChoice | None) -> fmpq_mpoly:
     """A polynomial in the parameter alone that vanishes where this one does, for some sign of the
     roots.
     """
@@ -385,7 +394,10 @@ def _norm(poly: fmpq_mpoly, choice: Choice | None) -> fmpq_mpoly:
 
 
 def _holds(
-    condition: Condition, parameter: str, at: fmpq | AlgebraicNumber, choice: Choice | None = None
+    condition: Condition,
+    parameter: str,
+    at: fmpq | AlgebraicNumber,
+    choice: TermChoice | None = None,
 ) -> bool:
     if isinstance(condition.tree, bool):
         return condition.tree
@@ -405,7 +417,7 @@ def _holds(
     return evaluate(condition.tree, signs)
 
 
-def _starts(interval: Interval, low: AlgebraicNumber | None, closed: bool) -> bool:
+def _starts(interval: DomainCell, low: AlgebraicNumber | None, closed: bool) -> bool:
     """Whether an interval has the first numbers above `low`, and `low` itself where that is
     asked.
     """
@@ -420,7 +432,7 @@ def _starts(interval: Interval, low: AlgebraicNumber | None, closed: bool) -> bo
     return interval.low == low and (interval.low_closed or not closed)
 
 
-def _further(interval: Interval, than: Interval) -> bool:
+def _further(interval: DomainCell, than: DomainCell) -> bool:
     """Whether an interval ends beyond another."""
     if than.high is None:
         return False
@@ -431,7 +443,7 @@ def _further(interval: Interval, than: Interval) -> bool:
     )
 
 
-def _within(inner: Interval, outer: Interval) -> bool:
+def _within(inner: DomainCell, outer: DomainCell) -> bool:
     return _starts(outer, inner.low, inner.low_closed) and not _further(inner, outer)
 
 

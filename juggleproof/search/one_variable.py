@@ -29,7 +29,7 @@ from juggleproof.algebra.numbers import (
 from juggleproof.algebra.trees import HOLDS, leaves
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 MOST = 60  # the degree of all factors together
@@ -47,7 +47,7 @@ def dense_text(poly: fmpq_poly, name: str) -> str:
     return text if denominator == 1 else f"({text})/{denominator}"
 
 
-def close_in_one_variable(state: State, budget: Budget) -> Node | None:
+def close_in_one_variable(state: SearchState, budget: Budget) -> Node | None:
     """A node that closes a state over one variable; None where some value of it meets what is
     assumed, or the degree of all factors together is over 60.
 
@@ -75,7 +75,7 @@ def close_in_one_variable(state: State, budget: Budget) -> Node | None:
     whole = fmpq_poly([1])
     for factor in factors.values():
         whole *= factor
-    return Line(name, budget).whole(state, real_roots(whole), *_bounds(whole))
+    return LineSearch(name, budget).whole(state, real_roots(whole), *_bounds(whole))
 
 
 def _bounds(poly: fmpq_poly) -> tuple[fmpq, fmpq]:
@@ -86,7 +86,7 @@ def _bounds(poly: fmpq_poly) -> tuple[fmpq, fmpq]:
 
 
 @dataclass(frozen=True)
-class End:
+class PieceEnd:
     """An end of a piece, and the number of the fact that bounds the variable there."""
 
     at: fmpq
@@ -94,7 +94,7 @@ class End:
 
 
 @dataclass(frozen=True)
-class Piece:
+class OpenPiece:
     """Where a state is to be closed: between two ends, or at a root; what fails at the sample fails
     in all of it.
 
@@ -103,8 +103,8 @@ class Piece:
     """
 
     sample: AlgebraicNumber | fmpq
-    low: End | None = None
-    high: End | None = None
+    low: PieceEnd | None = None
+    high: PieceEnd | None = None
     zero: int | None = None
     side: int | None = None
 
@@ -115,20 +115,20 @@ class Piece:
         return sign(poly(self.sample))
 
 
-class Line:
+class LineSearch:
     """The search over one variable, with its budget."""
 
     def __init__(self, name: str, budget: Budget) -> None:
         self.name, self.budget = name, budget
 
-    def dense(self, state: State, index: int) -> fmpq_poly:
+    def dense(self, state: SearchState, index: int) -> fmpq_poly:
         """The polynomial of a fact."""
         return dense_poly(state.context, state.facts[index][0], self.name)
 
     # ------------------------------------------------------------ the pieces
 
     def whole(
-        self, state: State, roots: Sequence[AlgebraicNumber], low: fmpq, high: fmpq
+        self, state: SearchState, roots: Sequence[AlgebraicNumber], low: fmpq, high: fmpq
     ) -> Node | None:
         """All of the line, with its roots between two bounds."""
         cuts = [low]
@@ -141,11 +141,11 @@ class Line:
 
     def between(
         self,
-        state: State,
+        state: SearchState,
         roots: Sequence[AlgebraicNumber],
         cuts: Sequence[fmpq],
-        low: End | None,
-        high: End | None,
+        low: PieceEnd | None,
+        high: PieceEnd | None,
     ) -> Node | None:
         """The part of the line between two ends, with the cuts in it."""
         if cuts:
@@ -162,28 +162,28 @@ class Line:
         sample = low.at + 1 if low and not high else high.at - 1 if high and not low else fmpq(0)
         if low and high:
             sample = (low.at + high.at) / 2
-        return self.settle(state, Piece(sample, low, high))
+        return self.settle(state, OpenPiece(sample, low, high))
 
     def cut(
         self,
-        state: State,
+        state: SearchState,
         at: fmpq,
-        lower: Callable[[State, End], Node | None],
-        upper: Callable[[State, End], Node | None],
+        lower: Callable[[SearchState, PieceEnd], Node | None],
+        upper: Callable[[SearchState, PieceEnd], Node | None],
     ) -> Node | None:
         """A part of the line cut at a rational, with what closes it below and above that."""
         text = dense_text(fmpq_poly([-at.p, at.q]), self.name)
         below, there, above = state.by_sign(text)
-        end = End(at, len(state.facts))
+        end = PieceEnd(at, len(state.facts))
         return _by_sign(
             text,
             lambda: lower(below, end),
-            lambda: self.settle(there, Piece(at, zero=end.fact)),
+            lambda: self.settle(there, OpenPiece(at, zero=end.fact)),
             lambda: upper(above, end),
         )
 
     def at_root(
-        self, state: State, root: AlgebraicNumber, low: End | None, high: End | None
+        self, state: SearchState, root: AlgebraicNumber, low: PieceEnd | None, high: PieceEnd | None
     ) -> Node | None:
         """A piece with one root: where the root's polynomial is negative, 0 and positive."""
         text, fact = polynomial_text(root.coefficients, self.name), len(state.facts)
@@ -196,14 +196,14 @@ class Line:
         below, there, above = state.by_sign(text)
         return _by_sign(
             text,
-            lambda: self.settle(below, Piece(left, low, high, side=fact)),
-            lambda: self.settle(there, Piece(root, low, high, zero=fact)),
-            lambda: self.settle(above, Piece(right, low, high, side=fact)),
+            lambda: self.settle(below, OpenPiece(left, low, high, side=fact)),
+            lambda: self.settle(there, OpenPiece(root, low, high, zero=fact)),
+            lambda: self.settle(above, OpenPiece(right, low, high, side=fact)),
         )
 
     # ------------------------------------------------------------ what fails in a piece
 
-    def settle(self, state: State, piece: Piece) -> Node | None:
+    def settle(self, state: SearchState, piece: OpenPiece) -> Node | None:
         """A node by a fact that fails, or by cases in each of which one does."""
         self.budget.spend(20 + 5 * len(state.facts))
         if state.closed:
@@ -224,7 +224,7 @@ class Line:
                 return "cases", index, nodes
         return None
 
-    def refuted(self, state: State, index: int, piece: Piece) -> Node | None:
+    def refuted(self, state: SearchState, index: int, piece: OpenPiece) -> Node | None:
         """The node for a fact that fails at the sample of a piece."""
         poly, relation = self.dense(state, index), state.facts[index][1]
         value = piece.sign_of(poly)
@@ -264,7 +264,7 @@ class Line:
             return "psatz", [("1", ((index, 2),), "1")], times(-cofactor * poly)
         return "psatz", [("1", ((index, 1),), "1"), *constant], times(-cofactor)
 
-    def halved(self, state: State, index: int, piece: Piece) -> Node | None:
+    def halved(self, state: SearchState, index: int, piece: OpenPiece) -> Node | None:
         """The same fact in the two halves of a piece, and what fails between them."""
         low, high = piece.low, piece.high
         if low is None or high is None:
@@ -277,7 +277,7 @@ class Line:
         )
 
     def form(
-        self, state: State, poly: fmpq_poly, low: End | None, high: End | None
+        self, state: SearchState, poly: fmpq_poly, low: PieceEnd | None, high: PieceEnd | None
     ) -> list[tuple[Fraction, list[tuple[int, int]]]] | None:
         """A polynomial without a root between the ends as a positive combination of powers of what
         is positive there; None where its coefficients differ in sign.
@@ -291,7 +291,7 @@ class Line:
             constant = fraction(poly[0])
             return None if degree or constant < 0 else [(constant, [])] if constant else []
 
-        def scaled(end: End | None) -> tuple[Fraction, Fraction] | None:
+        def scaled(end: PieceEnd | None) -> tuple[Fraction, Fraction] | None:
             if end is None:
                 return None
             return fraction(end.at), abs(fraction(self.dense(state, end.fact)[1]))
@@ -307,12 +307,12 @@ class Line:
         return [(value, powers(k)) for k, value in enumerate(values) if value]
 
 
-def _after(end: End | None, root: AlgebraicNumber, root_only: bool = True) -> bool:
+def _after(end: PieceEnd | None, root: AlgebraicNumber, root_only: bool = True) -> bool:
     """Whether the root, or all of its interval, is above the end."""
     return end is None or (fraction(end.at) < (root if root_only else root.low))
 
 
-def _before(root: AlgebraicNumber, end: End | None, root_only: bool = True) -> bool:
+def _before(root: AlgebraicNumber, end: PieceEnd | None, root_only: bool = True) -> bool:
     """Whether the root, or all of its interval, is below the end."""
     return end is None or (root < fraction(end.at) if root_only else root.high < fraction(end.at))
 

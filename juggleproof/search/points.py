@@ -26,10 +26,10 @@ from juggleproof.search.hints.models import (
 from juggleproof.search.samples import Assignment, Sampler, base_samples
 from juggleproof.search.scales import with_scales
 from juggleproof.search.towers_of_roots import DIGITS, Towers, values_of_tower
-from juggleproof.search.witness_terms import Known, Task, nodes_at
+from juggleproof.search.witness_terms import Known, TermTask, nodes_at
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import Node, Values, values_at
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 # For each effort: rounds of (values tried for a variable, values kept for the last one,
@@ -45,7 +45,7 @@ VOTE = 100_000  # of Z3
 
 def search_values(
     statement: checker.Statement,
-    state: State,
+    state: SearchState,
     purpose: str,
     base: dict[str, checker.Poly],
     known: Known,
@@ -62,7 +62,7 @@ def search_values(
     """
     unfolding = unfolded(statement, sharp)
     roles = with_scales(roles, unfolding)
-    task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
+    task = TermTask(statement, purpose, base, known, budget, sharp, effort, roles=roles)
     if base:
         return _terms_on_state(task, state)
     exists = bool(statement.get("exists"))
@@ -100,8 +100,8 @@ def search_values(
 
 
 def _sampled(
-    task: Task,
-    state: State,
+    task: TermTask,
+    state: SearchState,
     condition: Condition,
     goal: Condition | None,
     names: Sequence[str],
@@ -123,7 +123,7 @@ def _sampled(
 
 
 def _by_towers(
-    task: Task, state: State, condition: Condition, names: Sequence[str]
+    task: TermTask, state: SearchState, condition: Condition, names: Sequence[str]
 ) -> Values | None:
     """A point with several irrational values, guided by points in floats."""
     for guide in approximate_points(condition, names, task.budget):
@@ -159,7 +159,7 @@ def _beyond(
     return ask(there, budget, integers, 200_000).verdict == "unsat"
 
 
-def _terms_on_state(task: Task, state: State) -> Values | None:
+def _terms_on_state(task: TermTask, state: SearchState) -> Values | None:
     """Terms in the base variables, on all of the state."""
     if task.effort == 0:
         task = replace(task, effort=1, nodes=40, tries=2)
@@ -208,7 +208,7 @@ def disjunctions(condition: Condition) -> int:
 
 
 def values_of_assignment(
-    task: Task, state: State, assignment: Assignment, names: Sequence[str]
+    task: TermTask, state: SearchState, assignment: Assignment, names: Sequence[str]
 ) -> Values | None:
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
     does not serve.
@@ -243,7 +243,7 @@ def values_of_assignment(
     return None
 
 
-def _served(task: Task, state: State, values: Values) -> Values | None:
+def _served(task: TermTask, state: SearchState, values: Values) -> Values | None:
     """The values, where the checker accepts them."""
     ok = state.is_served_by(values, task.known, task.purpose, task.statement, sharp=task.sharp)
     return values if ok else None

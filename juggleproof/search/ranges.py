@@ -130,7 +130,7 @@ MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 @dataclass(frozen=True)
-class Interval:
+class DomainCell:
     """The numbers between two ends; None is where the domain itself ends."""
 
     low: AlgebraicNumber | None
@@ -140,7 +140,7 @@ class Interval:
 
 
 @dataclass(frozen=True)
-class Line:
+class CutDomain:
     """The domain cut at numbers: the verdicts on its open cells and at the numbers, in order: cell,
     number, cell, ..., cell.
     """
@@ -148,7 +148,7 @@ class Line:
     numbers: tuple[AlgebraicNumber, ...]
     verdicts: tuple[bool, ...]
 
-    def simplified(self) -> Line:
+    def simplified(self) -> CutDomain:
         """The same set, cut only where the verdict changes."""
         numbers: list[AlgebraicNumber] = []
         verdicts = [self.verdicts[0]]
@@ -157,11 +157,11 @@ class Line:
             if not verdicts[-1] == at == after:
                 numbers.append(number)
                 verdicts += [at, after]
-        return Line(tuple(numbers), tuple(verdicts))
+        return CutDomain(tuple(numbers), tuple(verdicts))
 
-    def intervals(self, verdict: bool) -> list[Interval]:
+    def intervals(self, verdict: bool) -> list[DomainCell]:
         """The maximal intervals of one verdict, in order."""
-        found: list[Interval] = []
+        found: list[DomainCell] = []
         start: tuple[AlgebraicNumber | None, bool] | None = None
         for k, own in enumerate(self.verdicts):
             here = self.numbers[k // 2] if k % 2 else None
@@ -169,12 +169,12 @@ class Line:
                 start = (here, True) if here else (self.numbers[k // 2 - 1] if k else None, False)
             if start is not None and own != verdict:
                 end = (here, False) if here else (self.numbers[k // 2 - 1], True)
-                found.append(Interval(*start, *end))
+                found.append(DomainCell(*start, *end))
                 start = None
-        return [*found, Interval(*start, None, False)] if start is not None else found
+        return [*found, DomainCell(*start, None, False)] if start is not None else found
 
 
-def line_on(condition: ast.expr, parameter: str, domain: ast.expr) -> Line | None:
+def line_on(condition: ast.expr, parameter: str, domain: ast.expr) -> CutDomain | None:
     """The set of one parameter on which a condition holds, within a domain; None where this is not
     one interval.
 
@@ -196,10 +196,10 @@ def line_on(condition: ast.expr, parameter: str, domain: ast.expr) -> Line | Non
     verdicts = [holds.univariate_truth(parameter, samples[0], own)]
     for number, sample in zip(inner, samples[1:]):
         verdicts += [holds.univariate_truth(parameter, at, own) for at in (number, sample)]
-    return Line(tuple(inner), tuple(verdicts))
+    return CutDomain(tuple(inner), tuple(verdicts))
 
 
-def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
+def condition_of(line: CutDomain, parameter: str, domain: Formula) -> Formula:
     """A condition that holds, within the domain, on the cells and numbers of verdict True.
 
     >>> from juggleproof.statements.language import reals
@@ -227,7 +227,7 @@ def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
     )
 
 
-def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
+def one_relation(line: CutDomain, parameter: str, domain: Formula) -> Formula | None:
     """p relation 0 for the one irreducible polynomial p of all the ends, where that is equivalent
     on the domain.
 
@@ -256,7 +256,7 @@ def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
     return Formula(relation, polynomial_term(poly, parameter), term(0)) if relation else None
 
 
-def _interval_formula(interval: Interval, domain: Formula, parameter: str) -> Formula:
+def _interval_formula(interval: DomainCell, domain: Formula, parameter: str) -> Formula:
     if interval.low is not None and interval.low is interval.high:
         return _bound(interval.low, "=", domain, parameter)
     parts = []
@@ -439,7 +439,7 @@ class Undecided(Exception):
 
 
 @dataclass
-class Verdict:
+class CellVerdict:
     """One statement's verdicts on the cells and at the numbers between them; None where Z3 has
     none.
     """
@@ -449,7 +449,7 @@ class Verdict:
     numbers: list[bool | None]
 
 
-class Lines:
+class VerdictLines:
     """The verdicts of all statements along a domain that is one interval of one parameter.
 
     Raises Undecided where Z3 has no verdict on an open cell, or the domain is not such.
@@ -483,7 +483,7 @@ class Lines:
             raise Undecided("the domain is not one interval")
         self.each = [self._verdict(violation, samples) for violation in violations]
 
-    def _verdict(self, violation: Violation, samples: Sequence[fmpq]) -> Verdict:
+    def _verdict(self, violation: Violation, samples: Sequence[fmpq]) -> CellVerdict:
         cells = []
         for sample in samples:
             verdict = violation.absent(self.parameter, sample, self.budget)
@@ -494,7 +494,7 @@ class Lines:
             self._at(violation, number, before, after)
             for number, before, after in zip(self.inner, cells, cells[1:])
         ]
-        return Verdict(violation, cells, numbers)
+        return CellVerdict(violation, cells, numbers)
 
     def _at(
         self, violation: Violation, number: AlgebraicNumber, before: bool, after: bool
@@ -511,7 +511,7 @@ class Lines:
             return before if verdict is None else verdict
         return violation.absent(self.parameter, number, self.budget)
 
-    def guesses(self) -> Iterator[tuple[Line, Verdicts]]:
+    def guesses(self) -> Iterator[tuple[CutDomain, Verdicts]]:
         """The lines to try: undecided numbers held to be in, then out; then with Z3 asked at every
         number; each line once.
         """
@@ -524,11 +524,13 @@ class Lines:
                 if verdicts not in seen:
                     seen.append(verdicts)
                     yield (
-                        Line(tuple(self.inner), tuple(all(v) for v in zip(*verdicts.values()))),
+                        CutDomain(
+                            tuple(self.inner), tuple(all(v) for v in zip(*verdicts.values()))
+                        ),
                         verdicts,
                     )
 
-    def _asked_again(self, one: Verdict) -> list[bool | None]:
+    def _asked_again(self, one: CellVerdict) -> list[bool | None]:
         found = []
         for number, before, after, verdict in zip(
             self.inner, one.cells, one.cells[1:], one.numbers
@@ -540,7 +542,7 @@ class Lines:
         return found
 
 
-def _joined(one: Verdict, doubtful: bool) -> tuple[bool, ...]:
+def _joined(one: CellVerdict, doubtful: bool) -> tuple[bool, ...]:
     joined = [one.cells[0]]
     for at, after in zip(one.numbers, one.cells[1:]):
         joined += [doubtful if at is None else at, after]

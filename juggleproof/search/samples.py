@@ -30,7 +30,7 @@ from juggleproof.search.candidates import (
 )
 from juggleproof.search.terms import Sample
 from juggleproof.statements.language import NO_ROLES, Roles
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -318,13 +318,13 @@ CLOSENESS = tuple(
 )
 
 
-def state_condition(state: State) -> Condition:
+def state_condition(state: SearchState) -> Condition:
     """What a state assumes, as a condition."""
     formula = checker.join("and", state.formulas)
     return Condition.of(state.context, formula, ring_of(state.context))
 
 
-def base_samples(state: State, budget: Budget, roles: Roles, count: int = 12) -> list[Sample]:
+def base_samples(state: SearchState, budget: Budget, roles: Roles, count: int = 12) -> list[Sample]:
     """Points of the state, in a fixed order."""
     condition = state_condition(state)
     if condition.tree is False:

@@ -19,9 +19,9 @@ from juggleproof.algebra.polynomials import Ring
 from juggleproof.algebra.trees import leaves
 from juggleproof.certificates import checker
 from juggleproof.search.psatz.facts import Scaling, Weight
-from juggleproof.search.terms import Root, Sample
+from juggleproof.search.terms import AdjoinedRoot, Sample
 from juggleproof.statements.language import Roles
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 
 # -------------------------------------------------------------------------------------------------
 # Which variables are scales: positive ones that a change of units makes 1, where no polynomial
@@ -85,7 +85,7 @@ class Normal:
     that an equation gives is what it gives.
     """
 
-    def __init__(self, state: State, condition: Condition, equations: bool = True) -> None:
+    def __init__(self, state: SearchState, condition: Condition, equations: bool = True) -> None:
         self.ring: fmpq_mpoly_ctx = condition.ring
         names = tuple(self.ring.names())
         size = len(state.context.index)
@@ -169,7 +169,7 @@ class Normal:
 
     # ------------------------------------------------ the way back
 
-    def weight_of_root(self, root: Root) -> Weight:
+    def weight_of_root(self, root: AdjoinedRoot) -> Weight:
         """The weight that makes the polynomial of an adjoined root liftable; from now on that of
         its name.
         """

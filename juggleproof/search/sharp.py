@@ -23,9 +23,9 @@ from juggleproof.search.closing import search_closing
 from juggleproof.search.families import cover
 from juggleproof.search.ranges import (
     QUICK,
-    Line,
-    Lines,
+    CutDomain,
     Undecided,
+    VerdictLines,
     Verdicts,
     Violation,
     condition_of,
@@ -35,7 +35,7 @@ from juggleproof.search.ranges import (
 )
 from juggleproof.search.samples import base_samples
 from juggleproof.search.scales import with_scales
-from juggleproof.search.witness_terms import Task
+from juggleproof.search.witness_terms import TermTask
 from juggleproof.statements.language import (
     NO_ROLES,
     Formula,
@@ -45,7 +45,7 @@ from juggleproof.statements.language import (
     disjunction,
 )
 from juggleproof.statements.nodes import Certificate, Proof, Sharp, Values, by_sign
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -111,12 +111,12 @@ class RangeSearch:
             points[each.name] = point
         return points
 
-    def outside_state(self, statement: checker.Statement) -> State:
+    def outside_state(self, statement: checker.Statement) -> SearchState:
         """The state that assumes the domain and not the condition."""
         (over,), (domain,), (condition,) = (
             statement.get(keyword) for keyword in ("over", "domain", "holds")
         )
-        state = State(checker.Context())
+        state = SearchState(checker.Context())
         for parameter in over:
             state.context.declare(parameter, parameter in whole_parameters(over, self.statements))
         state.assume(state.context.formula(domain))
@@ -126,7 +126,7 @@ class RangeSearch:
     def family(
         self,
         each: checker.Statement,
-        state: State,
+        state: SearchState,
         domain: ast.expr,
         budget: Budget,
         depth: int,
@@ -135,7 +135,7 @@ class RangeSearch:
         base = {name: state.context.values[name] for name in state.context.index}
         scaled = with_scales(self.roles, unfolded(each, [domain]))
         known = dict(self.known)
-        task = Task(each, "counterexample", base, known, budget, [domain], roles=scaled)
+        task = TermTask(each, "counterexample", base, known, budget, [domain], roles=scaled)
         return cover(task, state, base_samples(state, budget, scaled), depth=depth)
 
     def checked(self, statement: checker.Statement, certificate: Sharp) -> bool:
@@ -161,7 +161,7 @@ class LineSearch(RangeSearch):
     parameter: str
 
     def certified(
-        self, statement: checker.Statement, line: Line, verdicts: Verdicts, budget: Budget
+        self, statement: checker.Statement, line: CutDomain, verdicts: Verdicts, budget: Budget
     ) -> tuple[Sharp | None, str]:
         """(certificate, "") that the checker accepts, or (None, what could not be certified);
         nothing is raised where the budget ends.
@@ -187,7 +187,12 @@ class LineSearch(RangeSearch):
         return certificate, ""
 
     def outside(
-        self, state: State, line: Line, verdicts: Verdicts, domain: ast.expr, budget: Budget
+        self,
+        state: SearchState,
+        line: CutDomain,
+        verdicts: Verdicts,
+        domain: ast.expr,
+        budget: Budget,
     ) -> Values | None:
         """Families of counterexamples where the line has failures, cut where no single one serves;
         None where one is missing.
@@ -208,7 +213,7 @@ class LineSearch(RangeSearch):
         cases: list[Values] = []
         for branch, piece in zip(state.by_sign(text), pieces):
             own = tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts))
-            values = self.outside(branch, Line(line.numbers, own), verdicts, domain, budget)
+            values = self.outside(branch, CutDomain(line.numbers, own), verdicts, domain, budget)
             if values is None:
                 return None
             cases.append(values)
@@ -216,7 +221,7 @@ class LineSearch(RangeSearch):
 
 
 def _cut(
-    line: Line,
+    line: CutDomain,
     failing: Sequence[int],
     verdicts: Mapping[str, Sequence[bool]],
     parameter: str,
@@ -254,7 +259,7 @@ def _cut(
 
 def _separates(
     number: AlgebraicNumber,
-    line: Line,
+    line: CutDomain,
     failing: Sequence[int],
     ends: tuple[Fraction | None, Fraction | None],
 ) -> bool:
@@ -290,7 +295,7 @@ class Range:
     ends: list[AlgebraicNumber] = field(default_factory=list)
     certificate: Sharp | None = None
     failure: str = ""
-    line: Line | None = None
+    line: CutDomain | None = None
 
 
 def find_sharp_range(
@@ -335,7 +340,9 @@ def find_sharp_range(
             )
             if simple is not None:
                 return simple
-        for line, verdicts in Lines(violations, parameter, tree, budget.part(VERDICTS)).guesses():
+        for line, verdicts in VerdictLines(
+            violations, parameter, tree, budget.part(VERDICTS)
+        ).guesses():
             stated = stated_range(name, statements, parameter, domain, line)
             result = Range(stated, list(line.simplified().numbers), line=line)
             if certify:
@@ -374,7 +381,11 @@ def probes_of(low: Fraction | None, high: Fraction | None) -> list[fmpq]:
 
 
 def stated_range(
-    name: str, statements: Sequence[checker.Statement], parameter: str, domain: Formula, line: Line
+    name: str,
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    domain: Formula,
+    line: CutDomain,
 ) -> SharpRange:
     """The range as a statement; it has a `number` line for every root in the domain of the
     polynomials in its condition.
@@ -401,7 +412,7 @@ def find_everywhere(search: LineSearch, domain: Formula, name: str, budget: Budg
     """
     names = tuple(each.name for each in search.statements)
     stated = SharpRange(name, names, (search.parameter,), domain, domain)
-    line = Line((), (True,))
+    line = CutDomain((), (True,))
     verdicts: Verdicts = dict.fromkeys(names, (True,))
     part = budget.part(EVERYWHERE)
     certificate, _ = search.certified(read(stated), line, verdicts, part)
@@ -416,7 +427,7 @@ def find_nowhere(
     """
     names = tuple(each.name for each in search.statements)
     stated = SharpRange(name, names, (search.parameter,), domain, disjunction([]))
-    line = Line((), (False,))
+    line = CutDomain((), (False,))
     for one in (each for each in names if each in failing):
         verdicts: Verdicts = {each: (each != one,) for each in names}
         part = budget.part(NOWHERE)

@@ -41,7 +41,7 @@ from juggleproof.statements.language import (
     disjunction,
 )
 from juggleproof.statements.nodes import Sharp, Values
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 RELATIONS = ("=", "!=", ">", ">=")
@@ -65,7 +65,7 @@ def find_sharp_region(
     """
     tree = checker.parse(str(domain))
     roles = among(roles, dict.fromkeys(parameters, ()))
-    state = State(checker.Context())
+    state = SearchState(checker.Context())
     for parameter in parameters:
         state.context.declare(parameter, parameter in whole_parameters(parameters, statements))
     state.assume(state.context.formula(tree))
@@ -93,7 +93,7 @@ def find_sharp_region(
 
 
 def _borders(
-    state: State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget
+    state: SearchState, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget
 ) -> list[fmpq_mpoly]:
     """Polynomials from resultants, and for whole numbers those of the next one."""
     empty = Condition.of(state.context, True)
@@ -106,7 +106,7 @@ def _borders(
 
 
 def _samples(
-    state: State,
+    state: SearchState,
     polys: Sequence[fmpq_mpoly],
     parameters: Sequence[str],
     budget: Budget,

@@ -22,12 +22,12 @@ from juggleproof.search.candidates import (
 )
 from juggleproof.search.terms import (
     SPARE,
-    Choice,
+    AdjoinedRoot,
     Partial,
-    Point,
-    Quotient,
-    Root,
+    RingPoint,
     Sample,
+    TermChoice,
+    TermQuotient,
     Trial,
     among,
     between,
@@ -47,7 +47,7 @@ from juggleproof.statements.work import Budget
 # base: roots, vertices, averages.
 
 Candidate = tuple[
-    Quotient, Quotient | None, Root | None
+    TermQuotient, TermQuotient | None, AdjoinedRoot | None
 ]  # a quotient, what is added to it, and the root adjoined for it
 UNKNOWN = fmpq(0)  # itself stands for a value that was not asked for yet
 BESIDE = tuple(
@@ -66,7 +66,7 @@ class TemplateSearch:
         integers: frozenset[str] = frozenset(),
         nodes: int = 400,
         least: int | None = None,
-        hints: Mapping[str, Sequence[Quotient]] | None = None,
+        hints: Mapping[str, Sequence[TermQuotient]] | None = None,
         margins: Sequence[fmpq_mpoly] = (),
         borders: Sequence[fmpq_mpoly] | None = None,
         roles: Roles = NO_ROLES,
@@ -82,19 +82,19 @@ class TemplateSearch:
         self.given: dict[
             tuple[int, str], dict[str, fmpq]
         ] = {}  # samples with the values of adjoined roots
-        self.points: dict[tuple[int, ...], tuple[list[Root], list[Point]]] = {}
+        self.points: dict[tuple[int, ...], tuple[list[AdjoinedRoot], list[RingPoint]]] = {}
         self.shifts: dict[tuple[int, int], fmpq | None] = {}
         self.slight = [
-            Quotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
+            TermQuotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
         ]
         small = [
             (m, k) for m in self.margins if roles.parameter not in ring_names(m) for k in (4, 20)
         ]
-        self.small = [Quotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
+        self.small = [TermQuotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
         self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
 
-    def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
+    def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[TermChoice]:
         """Choices of terms for the unknowns that meet the condition on enough samples, in the order
         that they are met.
         """
@@ -102,14 +102,14 @@ class TemplateSearch:
         self.ring = condition.ring
         yield from self._descend(start, list(unknowns))
 
-    def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[Choice]:
+    def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[TermChoice]:
         alive = [i for i, c in enumerate(partial.sampled) if c.tree is not False]
         if len(alive) < self.least or self.nodes < 0:
             return
         if not unknowns:
             serves = [i for i, c in enumerate(partial.sampled) if c.tree is True]
             if len(serves) >= self.least:
-                yield Choice(self._completed(partial), partial.roots, serves, self.ring)
+                yield TermChoice(self._completed(partial), partial.roots, serves, self.ring)
             return
         self.nodes -= 1
         self.budget.spend(100 + 60 * len(self.samples) * (1 + len(partial.condition.polys)))
@@ -129,7 +129,7 @@ class TemplateSearch:
             spare = next((n for n in SPARE if n not in [root.name for root in partial.roots]), None)
             if spare is not None:  # the smaller root, from the larger
                 gen = poly.context().gen(poly.context().variable_to_index(spare))
-                larger = Root(spare, replace(poly, name, gen, gen**0))
+                larger = AdjoinedRoot(spare, replace(poly, name, gen, gen**0))
                 widened = partial.with_root(larger)
                 value = -coefficients_in(poly, name)[1] - gen
                 yield from self._descend(
@@ -158,8 +158,8 @@ class TemplateSearch:
         self,
         partial: Partial,
         rows: Sequence[Trial | None],
-        value: Quotient,
-        more: Quotient | None,
+        value: TermQuotient,
+        more: TermQuotient | None,
         values: dict[tuple[int, int], fmpq | None],
     ) -> bool:
         """Whether value + more may serve at enough samples; `values` keeps what a quotient of this
@@ -184,7 +184,7 @@ class TemplateSearch:
                 return False
         return True
 
-    def _points(self, partial: Partial) -> list[Point]:
+    def _points(self, partial: Partial) -> list[RingPoint]:
         """The samples with the values of the adjoined roots, as points of the ring."""
         key = tuple(map(id, partial.roots))
         if (
@@ -192,11 +192,11 @@ class TemplateSearch:
         ):  # the roots are kept with their points, so that their ids stay theirs
             self.points[key] = (
                 partial.roots,
-                [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples],
+                [RingPoint.of(self.ring, self._given(partial, sample)) for sample in self.samples],
             )
         return self.points[key][1]
 
-    def _shift(self, more: Quotient, k: int) -> fmpq | None:
+    def _shift(self, more: TermQuotient, k: int) -> fmpq | None:
         key = id(more), k
         if key not in self.shifts:
             self.shifts[key] = more.at(self.samples[k])
@@ -282,7 +282,7 @@ class TemplateSearch:
         """The condition with the unknown taken as a root: every polynomial is reduced modulo its
         equation.
         """
-        root = Root(name, poly)
+        root = AdjoinedRoot(name, poly)
         changed = partial.condition.mapped(lambda p: reduced_by(root, p))
         roots = [*partial.roots, root]
         result = Partial(lambda: changed, [], partial.steps, roots)
@@ -312,16 +312,16 @@ class TemplateSearch:
         """Quotients to try for an unknown, made only as far as they are asked for."""
         one = self.ring.constant(1)
         if self.roles.is_scale(name):
-            yield Quotient(one, one), None, None
+            yield TermQuotient(one, one), None, None
             return
         simple = list(self.hints.get(name, ()))
         likely = [
-            Quotient(self.ring.constant(v), one)
+            TermQuotient(self.ring.constant(v), one)
             for v in favourites(name, name in self.integers, self.roles)[:8]
         ]
         if name in self.integers:
             gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
-            whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
+            whole = [TermQuotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
             yield from (
                 (q, None, None) for q in [*simple, *likely, *self._constants(partial, name), *whole]
             )
@@ -331,11 +331,15 @@ class TemplateSearch:
         yield from ((q, None, None) for q in simple)
         parts = (fmpq(1), fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))
         yield from (
-            (Quotient(margin * part, one), None, None) for margin in self.margins for part in parts
+            (TermQuotient(margin * part, one), None, None)
+            for margin in self.margins
+            for part in parts
         )
         yield from (
             (q, None, None)
-            for q in among(self._ordered(partial, [*lines, Quotient(self.ring.constant(0), one)]))
+            for q in among(
+                self._ordered(partial, [*lines, TermQuotient(self.ring.constant(0), one)])
+            )
         )
         yield from ((q, None, None) for q in [*likely[3:], *self._constants(partial, name)])
         yield from ((q, None, None) for q in between(lines))
@@ -344,7 +348,7 @@ class TemplateSearch:
         for more in (self.small, self.slight):
             yield from ((q, shift, root) for q, root in nearby for shift in more)
 
-    def _constants(self, partial: Partial, name: str) -> list[Quotient]:
+    def _constants(self, partial: Partial, name: str) -> list[TermQuotient]:
         """Numbers that serve at the middle sample or at the first and the last."""
         found: list[fmpq] = []
         alive = [c for c in partial.sampled if c.tree is not False]
@@ -364,11 +368,11 @@ class TemplateSearch:
             else:
                 values = trials(condition, name, name in self.integers, 2, self.roles)
             found += [v for v in values if v not in found]
-        return [Quotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
+        return [TermQuotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
 
     def _lines(
         self, partial: Partial, name: str, rest: Sequence[str]
-    ) -> tuple[list[Quotient], list[tuple[Quotient, Root | None]]]:
+    ) -> tuple[list[TermQuotient], list[tuple[TermQuotient, AdjoinedRoot | None]]]:
         """The zeros, as quotients or with square roots, of polynomials and of resultants of two of
         them, as functions of the base.
         """
@@ -391,13 +395,13 @@ class TemplateSearch:
                             and not any(resultant.degrees()[place[n]] for n in rest)
                         ):
                             direct.append(resultant)
-        found: list[Quotient] = []
-        roots: list[tuple[Quotient, Root | None]] = []
+        found: list[TermQuotient] = []
+        roots: list[tuple[TermQuotient, AdjoinedRoot | None]] = []
         for p in direct:
             for factor, _ in p.factor()[1] if len(p) <= 200 else ():
                 if factor.degrees()[place[name]] == 1:
                     constant, slope = coefficients_in(factor, name)
-                    quotient = Quotient.reduced(-constant, slope)
+                    quotient = TermQuotient.reduced(-constant, slope)
                     if quotient not in found:
                         found.append(quotient)
                 elif factor.degrees()[place[name]] == 2 and len(factor) <= 40:
@@ -415,31 +419,31 @@ class TemplateSearch:
             borders = [replace(p, name, top, bottom) for p in borders]
         return [p for p in borders if p != 0]
 
-    def _ordered(self, partial: Partial, lines: list[Quotient]) -> list[Quotient]:
+    def _ordered(self, partial: Partial, lines: list[TermQuotient]) -> list[TermQuotient]:
         """The quotients in the order of their values at the middle sample, each value once."""
         if not self.samples:
             return []
         sample = self.samples[len(self.samples) // 2]
         given = self._given(partial, sample)
-        valued: dict[fmpq, Quotient] = {}
+        valued: dict[fmpq, TermQuotient] = {}
         for q in lines:
             at = q.at(given)
             if at is not None:
                 valued.setdefault(at, q)
         return [valued[v] for v in sorted(valued)]
 
-    def _completed(self, partial: Partial) -> dict[str, Quotient]:
+    def _completed(self, partial: Partial) -> dict[str, TermQuotient]:
         """The values of all unknowns: what was solved for earlier may speak of what was chosen
         later.
         """
-        values: dict[str, Quotient] = {}
+        values: dict[str, TermQuotient] = {}
         for name, top, bottom in reversed(partial.steps):
-            value = Quotient(top, bottom)
+            value = TermQuotient(top, bottom)
             for other, known in values.items():
                 value = insert(value, other, known)
             for root in partial.roots:
-                value = Quotient(reduced_by(root, value.top), reduced_by(root, value.bottom))
-            values[name] = Quotient.reduced(value.top, value.bottom)
+                value = TermQuotient(reduced_by(root, value.top), reduced_by(root, value.bottom))
+            values[name] = TermQuotient.reduced(value.top, value.bottom)
         return values
 
 
@@ -449,7 +453,7 @@ class TemplateSearch:
 
 STEPS = 120  # substitutions in one search
 MOST_FACTORS = 200  # a polynomial with more terms is not factored
-Move = tuple[str, Quotient, "Root | None"]
+Move = tuple[str, TermQuotient, "AdjoinedRoot | None"]
 
 
 class CornerSearch(TemplateSearch):
@@ -460,7 +464,7 @@ class CornerSearch(TemplateSearch):
     that break a statement begin there.
     """
 
-    def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
+    def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[TermChoice]:
         """Choices of terms for the unknowns, those on the most borders first."""
         self.steps, self.seen = STEPS, set[frozenset[int]]()
         if (
@@ -476,12 +480,12 @@ class CornerSearch(TemplateSearch):
             ]
         yield from super().search(condition, unknowns)
 
-    def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[Choice]:
+    def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[TermChoice]:
         yield from self._corner(partial, unknowns, frozenset())
 
     def _corner(
         self, partial: Partial, unknowns: list[str], chosen: frozenset[int]
-    ) -> Iterator[Choice]:
+    ) -> Iterator[TermChoice]:
         if sum(c.tree is not False for c in partial.sampled) < self.least:
             return
         if not unknowns:
@@ -490,7 +494,9 @@ class CornerSearch(TemplateSearch):
         scale = next((name for name in unknowns if self.roles.is_scale(name)), None)
         if scale is not None:
             one = partial.condition.ring.constant(1)
-            yield from self._follow(partial, unknowns, chosen, [(scale, Quotient(one, one), None)])
+            yield from self._follow(
+                partial, unknowns, chosen, [(scale, TermQuotient(one, one), None)]
+            )
             return
         forced = next(
             (
@@ -520,7 +526,7 @@ class CornerSearch(TemplateSearch):
 
     def _follow(
         self, partial: Partial, unknowns: list[str], chosen: frozenset[int], moves: Sequence[Move]
-    ) -> Iterator[Choice]:
+    ) -> Iterator[TermChoice]:
         seen = self.seen
         for name, value, root in moves:
             self.steps -= 1
@@ -577,4 +583,4 @@ class CornerSearch(TemplateSearch):
             return []
         if any(valued(parts[1], self._given(partial, sample)) == 0 for sample in self.samples):
             return []
-        return [(name, Quotient.reduced(-parts[0], parts[1]), None)]
+        return [(name, TermQuotient.reduced(-parts[0], parts[1]), None)]

@@ -34,21 +34,21 @@ SPARE = ("root1", "root2")  # names in the ring for square roots that a search a
 
 
 @dataclass(frozen=True)
-class Quotient:
+class TermQuotient:
     """top / bottom, polynomials in the base variables and the adjoined ones."""
 
     top: fmpq_mpoly
     bottom: fmpq_mpoly
 
     @staticmethod
-    def reduced(top: fmpq_mpoly, bottom: fmpq_mpoly) -> Quotient:
+    def reduced(top: fmpq_mpoly, bottom: fmpq_mpoly) -> TermQuotient:
         """The same quotient without common factors, its bottom with leading coefficient 1."""
         if bottom.total_degree() > 0:
             common = top.gcd(bottom)
             if common.total_degree() > 0:
                 top, bottom = top / common, bottom / common
         lead = bottom.leading_coefficient()
-        return Quotient(top, bottom) if lead == 1 else Quotient(top / lead, bottom / lead)
+        return TermQuotient(top, bottom) if lead == 1 else TermQuotient(top / lead, bottom / lead)
 
     def at(self, sample: Sample) -> fmpq | None:
         """The value at a sample of the base; None where the bottom vanishes."""
@@ -67,7 +67,7 @@ class Quotient:
             if d[0] > 0 or d[1] > 0
         )
 
-    def within(self, point: Point) -> fmpq | None:
+    def within(self, point: RingPoint) -> fmpq | None:
         """The value at a point; None where the bottom vanishes or a value is missing."""
         if not self.used <= point.known:
             return None
@@ -76,11 +76,11 @@ class Quotient:
         bottom = self.bottom(*point.values)
         return self.top(*point.values) / bottom if bottom else None
 
-    def plus(self, other: Quotient) -> Quotient:
+    def plus(self, other: TermQuotient) -> TermQuotient:
         """The sum of two quotients."""
         if other.bottom == 1:
-            return Quotient.reduced(self.top + other.top * self.bottom, self.bottom)
-        return Quotient.reduced(
+            return TermQuotient.reduced(self.top + other.top * self.bottom, self.bottom)
+        return TermQuotient.reduced(
             self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom
         )
 
@@ -99,7 +99,7 @@ class Quotient:
 
 
 @dataclass(frozen=True)
-class Point:
+class RingPoint:
     """Values of all variables of a ring in their order, 0 where none is known, and the numbers of
     those that are.
     """
@@ -108,16 +108,16 @@ class Point:
     known: frozenset[int]
 
     @staticmethod
-    def of(ring: fmpq_mpoly_ctx, given: Mapping[str, fmpq]) -> Point:
+    def of(ring: fmpq_mpoly_ctx, given: Mapping[str, fmpq]) -> RingPoint:
         """The point that a mapping by names gives."""
         place = places(ring)
-        return Point(
+        return RingPoint(
             [given.get(name, ZERO) for name in place], frozenset(place[name] for name in given)
         )
 
 
 @dataclass
-class Root:
+class AdjoinedRoot:
     """An adjoined root: the variable that stands for it, and its polynomial."""
 
     name: str
@@ -125,16 +125,16 @@ class Root:
 
 
 @dataclass
-class Choice:
+class TermChoice:
     """Values of all unknowns, the roots adjoined for them, and the samples on which they serve."""
 
-    values: dict[str, Quotient]
-    roots: list[Root]
+    values: dict[str, TermQuotient]
+    roots: list[AdjoinedRoot]
     serves: list[int]
     ring: fmpq_mpoly_ctx
 
 
-def root_values(roots: Sequence[Root], sample: Sample) -> dict[str, fmpq]:
+def root_values(roots: Sequence[AdjoinedRoot], sample: Sample) -> dict[str, fmpq]:
     """Rational values close to the adjoined roots at a sample; the larger root of each equation."""
     values: dict[str, fmpq] = {}
     for root in roots:
@@ -152,7 +152,7 @@ def root_values(roots: Sequence[Root], sample: Sample) -> dict[str, fmpq]:
     return values
 
 
-def reduced_by(root: Root, poly: fmpq_mpoly) -> fmpq_mpoly:
+def reduced_by(root: AdjoinedRoot, poly: fmpq_mpoly) -> fmpq_mpoly:
     """The polynomial modulo the equation of an adjoined root: linear in it."""
     lower, parts = coefficients_in(root.poly, root.name), coefficients_in(poly, root.name)
     while len(parts) > 2:
@@ -164,8 +164,8 @@ def reduced_by(root: Root, poly: fmpq_mpoly) -> fmpq_mpoly:
 
 
 def square_roots(
-    factor: fmpq_mpoly, name: str, roots: Sequence[Root]
-) -> tuple[list[Quotient], Root | None]:
+    factor: fmpq_mpoly, name: str, roots: Sequence[AdjoinedRoot]
+) -> tuple[list[TermQuotient], AdjoinedRoot | None]:
     """Both zeros of a polynomial of degree 2 in a variable, and the square root to be adjoined for
     them, if none at hand serves.
     """
@@ -194,12 +194,12 @@ def square_roots(
         root, fresh = taken[0], None
     else:
         gen = ring.gen(ring.variable_to_index(free[0]))
-        root = fresh = Root(free[0], gen * gen - inner)
+        root = fresh = AdjoinedRoot(free[0], gen * gen - inner)
     gen = ring.gen(ring.variable_to_index(root.name))
-    return [Quotient.reduced(-b + sign * outer * gen, 2 * a) for sign in (1, -1)], fresh
+    return [TermQuotient.reduced(-b + sign * outer * gen, 2 * a) for sign in (1, -1)], fresh
 
 
-def insert(value: Quotient, name: str, known: Quotient) -> Quotient:
+def insert(value: TermQuotient, name: str, known: TermQuotient) -> TermQuotient:
     """The quotient with another in place of a variable."""
     tops, bottoms = coefficients_in(value.top, name), coefficients_in(value.bottom, name)
     degree = max(len(tops), len(bottoms)) - 1
@@ -212,7 +212,7 @@ def insert(value: Quotient, name: str, known: Quotient) -> Quotient:
             total += c * known.top**k * known.bottom ** (degree - k)
         return total
 
-    return Quotient(cleared(tops), cleared(bottoms))
+    return TermQuotient(cleared(tops), cleared(bottoms))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -348,24 +348,24 @@ def ring_names(poly: fmpq_mpoly) -> set[str]:
     return {name for name, e in zip(poly.context().names(), poly.degrees()) if e}
 
 
-def among(ordered: Sequence[Quotient]) -> Iterator[Quotient]:
+def among(ordered: Sequence[TermQuotient]) -> Iterator[TermQuotient]:
     """Averages of neighbours, and what lies one below the least and one above the largest."""
     for left, right in zip(ordered, ordered[1:]):
         for weight in (fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)):
             top = left.top * right.bottom * (1 - weight) + right.top * left.bottom * weight
-            yield Quotient.reduced(top, left.bottom * right.bottom)
+            yield TermQuotient.reduced(top, left.bottom * right.bottom)
     for end, shift in ((ordered[:1], -1), (ordered[-1:], 1)):
-        yield from (Quotient.reduced(q.top + shift * q.bottom, q.bottom) for q in end)
+        yield from (TermQuotient.reduced(q.top + shift * q.bottom, q.bottom) for q in end)
 
 
-def between(lines: Sequence[Quotient]) -> list[Quotient]:
+def between(lines: Sequence[TermQuotient]) -> list[TermQuotient]:
     """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a
     and b where both are above it.
     """
     found = []
     for k, low in enumerate(lines[:3]):
         above = [
-            Quotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom)
+            TermQuotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom)
             for j, q in enumerate(lines[:5])
             if j != k
         ]
@@ -374,7 +374,7 @@ def between(lines: Sequence[Quotient]) -> list[Quotient]:
                 total = a.top * b.bottom + b.top * a.bottom
                 if total != 0:
                     found.append(
-                        Quotient.reduced(
+                        TermQuotient.reduced(
                             low.top * total + low.bottom * a.top * b.top, low.bottom * total
                         )
                     )
@@ -395,14 +395,14 @@ class Partial:
     make: Callable[[], Condition]
     sampled: list[Condition]
     steps: list[tuple[str, fmpq_mpoly, fmpq_mpoly]] = field(default_factory=list)
-    roots: list[Root] = field(default_factory=list)
+    roots: list[AdjoinedRoot] = field(default_factory=list)
 
     @cached_property
     def condition(self) -> Condition:
         """The condition on base and unknowns."""
         return self.make()
 
-    def with_root(self, root: Root | None) -> Partial:
+    def with_root(self, root: AdjoinedRoot | None) -> Partial:
         """The same with one more adjoined root, if one is given."""
         return replace(self, roots=[*self.roots, root]) if root else self
 

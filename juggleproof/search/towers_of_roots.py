@@ -31,10 +31,10 @@ from juggleproof.algebra.numbers import (
 )
 from juggleproof.search.candidates import trials
 from juggleproof.search.closing import search_closing
-from juggleproof.search.witness_terms import Task, adjoined_entry, nodes_at
+from juggleproof.search.witness_terms import TermTask, adjoined_entry, nodes_at
 from juggleproof.statements.language import Roles
 from juggleproof.statements.nodes import Adjoined, Values, values_at
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 TINY = fmpq(1, 10**15)
@@ -213,7 +213,7 @@ class Towers:
         return Tower(roots, values)
 
 
-def values_of_tower(task: Task, state: State, tower: Tower, digits: int) -> Values | None:
+def values_of_tower(task: TermTask, state: SearchState, tower: Tower, digits: int) -> Values | None:
     """The point as `states.finds` takes it, with roots between neighbouring decimals; None where a
     node is missing.
     """

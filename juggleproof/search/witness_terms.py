@@ -22,10 +22,10 @@ from juggleproof.certificates import checker
 from juggleproof.search.closing import search_closing
 from juggleproof.search.psatz.facts import Weight
 from juggleproof.search.scales import Normal
-from juggleproof.search.terms import SPARE, Choice, Quotient, Root
+from juggleproof.search.terms import SPARE, AdjoinedRoot, TermChoice, TermQuotient
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import Adjoined, Node, Values, by_sign, values_at
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 Known = dict[str, checker.Statement]
@@ -35,7 +35,7 @@ Known = dict[str, checker.Statement]
 
 
 @dataclass
-class Task:
+class TermTask:
     """What terms are sought for: a statement, the purpose, the variables that are given, and those
     that are unknown.
     """
@@ -47,13 +47,13 @@ class Task:
     budget: Budget
     sharp: list[ast.expr] | None = None  # the domain of a sharp range, and its condition if inside
     effort: int = 2
-    hints: Mapping[str, Sequence[Quotient]] = field(default_factory=dict)
+    hints: Mapping[str, Sequence[TermQuotient]] = field(default_factory=dict)
     nodes: int = 400
     tries: int = 6
     roles: Roles = NO_ROLES
 
 
-def setting(task: Task, state: State) -> tuple[Condition, dict[str, str], frozenset[str]]:
+def setting(task: TermTask, state: SearchState) -> tuple[Condition, dict[str, str], frozenset[str]]:
     """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
     are integers.
     """
@@ -94,7 +94,7 @@ def setting(task: Task, state: State) -> tuple[Condition, dict[str, str], frozen
 
 
 def failing_goal(
-    task: Task, state: State, condition: Condition, budget: Budget
+    task: TermTask, state: SearchState, condition: Condition, budget: Budget
 ) -> tuple[Condition | None, list[fmpq_mpoly]]:
     """For a counterexample to a statement of existence: the goals, and the borders of the set on
     which they can be met.
@@ -114,7 +114,7 @@ def failing_goal(
         return goal, []
 
 
-def margins_of(state: State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
+def margins_of(state: SearchState, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
     """What is positive by the state, dehomogenised, as long as it is short, and products:
     small where the state ends.
     """
@@ -138,7 +138,7 @@ def margins_of(state: State, condition: Condition, normal: Normal) -> list[fmpq_
     return least + [least[0] * q for q in least[1:3]]
 
 
-def length(choice: Choice) -> int:
+def length(choice: TermChoice) -> int:
     """How long a choice of terms is to read."""
     return sum(sum(q.size()) for q in choice.values.values()) + 20 * len(choice.roots)
 
@@ -193,7 +193,7 @@ class TermWriter:
         """What is licensed and has this factor, as it is and dehomogenised."""
         return next((pair for pair in self.licensed if (pair[1] % factor) == 0), None)
 
-    def unlicensed(self, value: Quotient) -> list[fmpq_mpoly]:
+    def unlicensed(self, value: TermQuotient) -> list[fmpq_mpoly]:
         """The factors of the bottom that no licence has."""
         return [
             f
@@ -201,7 +201,7 @@ class TermWriter:
             if not f.is_constant() and self.licence(f) is None
         ]
 
-    def text(self, value: Quotient, weight: Weight = ()) -> str:
+    def text(self, value: TermQuotient, weight: Weight = ()) -> str:
         """The quotient as text, of this weight.  Raises ValueError where no licence has a factor of
         its bottom.
         """
@@ -240,10 +240,10 @@ def _whole(text: str) -> str:
 
 
 def confirmed(
-    task: Task,
+    task: TermTask,
     normal: Normal,
-    state: State,
-    choice: Choice,
+    state: SearchState,
+    choice: TermChoice,
     keys: dict[str, str],
 ) -> Values | None:
     """The choice as values with all nodes, confirmed by the checker; None where a node is missing.
@@ -258,10 +258,10 @@ def confirmed(
 
 
 def _with_nodes(
-    task: Task,
+    task: TermTask,
     normal: Normal,
-    state: State,
-    choice: Choice,
+    state: SearchState,
+    choice: TermChoice,
     keys: dict[str, str],
     depth: int,
 ) -> Values | None:
@@ -314,7 +314,10 @@ def _with_nodes(
 
 
 def nodes_at(
-    task: Task, state: State, terms: Mapping[str, str], close: Callable[[State], Node | None]
+    task: TermTask,
+    state: SearchState,
+    terms: Mapping[str, str],
+    close: Callable[[SearchState], Node | None],
 ) -> list[Node] | None:
     """The nodes that show of terms in a state that they serve; None where one is missing, or a term
     cannot be read.
@@ -339,7 +342,7 @@ def nodes_at(
 
 
 def _adjoined_root(
-    task: Task, state: State, root: Root, renamed: Renamed, writer: TermWriter
+    task: TermTask, state: SearchState, root: AdjoinedRoot, renamed: Renamed, writer: TermWriter
 ) -> Adjoined | None:
     """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its
     vertex and a bound.
@@ -355,7 +358,7 @@ def _adjoined_root(
     low = renamed.text(normal.lift(half, weight))
     highs = [renamed.text(normal.lift(one * k, weight)) for k in range(1, 5)]
     quotients = [half + 1 + under]
-    for high in [*highs, *(writer.text(Quotient(q, one), weight) for q in quotients)]:
+    for high in [*highs, *(writer.text(TermQuotient(q, one), weight) for q in quotients)]:
         entry = adjoined_entry(
             state, name, renamed.text(poly), low, high, task.known, task.budget, task.effort
         )
@@ -365,7 +368,7 @@ def _adjoined_root(
 
 
 def adjoined_entry(
-    state: State,
+    state: SearchState,
     name: str,
     text: str,
     low: str,

@@ -39,7 +39,7 @@ WORDS = {"certified": "unsat", "refuted": "sat"}
 
 
 @dataclass(frozen=True)
-class Question:
+class ScriptQuestion:
     """A question whether a problem has a solution.  The first of `texts` states that it has none; a
     second one, if the first has givens, states that these alone contradict one another.
 
@@ -53,7 +53,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answer:
+class ScriptAnswer:
     """An answer: sat, unsat or unknown, with the statement that was settled and its certificate."""
 
     name: str
@@ -86,16 +86,18 @@ class Answer:
 
 def question(
     problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
-) -> Question:
+) -> ScriptQuestion:
     """The question whether a problem has a solution, whose statements have this name."""
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
     stored = {text: store.certificate(name, text) for text in texts} if store else {}
-    return Question(name, texts, budget, {text: kept for text, kept in stored.items() if kept})
+    return ScriptQuestion(
+        name, texts, budget, {text: kept for text, kept in stored.items() if kept}
+    )
 
 
-def answer(asked: Question) -> Answer:
+def answer(asked: ScriptQuestion) -> ScriptAnswer:
     """The answer, which the checker has accepted.
 
     >>> text = "statement f/check-1\\nforall x\\nshow not x^2 = 2"
@@ -105,14 +107,14 @@ def answer(asked: Question) -> Answer:
     for text, certificate in asked.stored.items():
         word = settled(asked.name, text, certificate)
         if word != "unknown" and not (word == "sat" and text != asked.texts[0]):
-            return Answer(asked.name, word, text, certificate)
-    first: Answer | None = None
+            return ScriptAnswer(asked.name, word, text, certificate)
+    first: ScriptAnswer | None = None
     for text in asked.texts:
         found = _searched(asked, text)
         if found.word != "unknown":
             return found
         first = first or found
-    return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
+    return first or ScriptAnswer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
 
 def settled(name: str, text: str, certificate: Certificate) -> str:
@@ -125,18 +127,18 @@ def settled_as(statement: checker.Statement, certificate: Certificate) -> str:
     return WORDS.get(checker.check_one(statement, certificate, {}, {})[0], "unknown")
 
 
-def _searched(asked: Question, text: str) -> Answer:
+def _searched(asked: ScriptQuestion, text: str) -> ScriptAnswer:
     """The answer by a search on one of the texts of a question; only the first can give sat."""
     try:
         statement = checker.read_statements(text)[asked.name]
     except checker.Rejected as reason:
-        return Answer(asked.name, "unknown", "", {"unknown": beyond_reading(text, reason)})
+        return ScriptAnswer(asked.name, "unknown", "", {"unknown": beyond_reading(text, reason)})
     unknown: Certificate = {"unknown": "the checker rejects what was found"}
     try:
         for certificate in certificates_in_turn(statement, Budget(asked.budget)):
             word = settled_as(statement, certificate)
             if word == "unsat" or word == "sat" and text == asked.texts[0]:
-                return Answer(asked.name, word, text, certificate)
+                return ScriptAnswer(asked.name, word, text, certificate)
             if "unknown" in certificate:
                 unknown = certificate
     except Exhausted:
@@ -150,7 +152,7 @@ def _searched(asked: Question, text: str) -> Answer:
             raise
         # too large for a float, or for Python to write as text
         unknown = {"unknown": "its numbers grow too long for the search"}
-    return Answer(asked.name, "unknown", text, unknown)
+    return ScriptAnswer(asked.name, "unknown", text, unknown)
 
 
 def beyond_reading(text: str, reason: checker.Rejected) -> str:
@@ -161,7 +163,7 @@ def beyond_reading(text: str, reason: checker.Rejected) -> str:
     return f"beyond the checker's limits: a formula of {longest} letters when it is written out"
 
 
-def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
+def in_script(answered: ScriptAnswer, problem: Problem) -> list[tuple[str, str]]:
     """The model in the script's own symbols, in its order; a variable that no assertion mentions is
     0.
 
@@ -200,7 +202,7 @@ class Answered:
 
     path: Path
     problem: Problem
-    answer: Answer
+    answer: ScriptAnswer
     rejected: str = ""
 
     @property
@@ -263,7 +265,7 @@ def answer_files(
     fresh: bool = False,
     executor: Executor | None = None,
     jobs: int = 1,
-    progress: Callable[[Answer], None] = lambda answered: None,
+    progress: Callable[[ScriptAnswer], None] = lambda answered: None,
 ) -> list[Answered]:
     """Every problem of the scripts with its answer, in order, by an executor or by `jobs`
     processes; statements and certificates are written, and the checker reads them again.
@@ -283,7 +285,7 @@ def answer_files(
             raise ClaimError(
                 f"{path}: its statements would have the names of those of {paths[same]}; rename one"
             )
-    asked: list[Question] = []
+    asked: list[ScriptQuestion] = []
     for (_, problems), script, folder in zip(read, ids, folders):
         stored = Store(Path(os.devnull) if fresh else folder)
         for problem, name in zip(problems, names_of(script, problems)):
@@ -308,11 +310,11 @@ def answer_files(
 
 
 def _answers(
-    asked: Sequence[Question],
+    asked: Sequence[ScriptQuestion],
     executor: Executor | None,
     jobs: int,
-    progress: Callable[[Answer], None],
-) -> list[Answer]:
+    progress: Callable[[ScriptAnswer], None],
+) -> list[ScriptAnswer]:
     if executor is None and (jobs == 1 or len(asked) == 1):
         answers = []
         for one in asked:
@@ -324,7 +326,7 @@ def _answers(
         processes.own_pool(jobs) if executor is None else nullcontext(executor)
     )
     with pool as own:
-        spread: list[Answer] = processes.spread(
+        spread: list[ScriptAnswer] = processes.spread(
             partial(processes.one_at_a_time, answer), asked, own, lambda _, one: progress(one)
         )
     return spread

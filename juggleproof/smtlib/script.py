@@ -15,13 +15,13 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from juggleproof.smtlib.sexpr import Expression, Node, Script, Word
+from juggleproof.smtlib.sexpr import Expression, Script, SexprList, SexprWord
 from juggleproof.smtlib.terms import (
     RESERVED,
     SORTS,
-    Function,
+    DefinedFunction,
     Meaning,
-    Reader,
+    TermReader,
     brief,
 )
 from juggleproof.smtlib.values import Value, plain
@@ -96,7 +96,7 @@ class Problem:
     number: int
     variables: tuple[Variable, ...]
     assertions: tuple[tuple[int, Formula], ...]
-    commands: tuple[Node, ...]
+    commands: tuple[SexprList, ...]
     meanings: Mapping[str, Term | Formula]
     status: str = ""
     name: str = ""
@@ -120,7 +120,7 @@ class Problem:
 
 
 @dataclass
-class Frame:
+class ScriptFrame:
     """A scope of a script: declarations, definitions and assertions since a push, and their
     commands.
     """
@@ -128,32 +128,32 @@ class Frame:
     symbols: list[str] = field(default_factory=list)
     variables: list[Variable] = field(default_factory=list)
     assertions: list[tuple[int, Formula]] = field(default_factory=list)
-    commands: list[Node] = field(default_factory=list)
+    commands: list[SexprList] = field(default_factory=list)
 
 
-class Session:
+class ScriptSession:
     """A session that reads a script: a stack of frames, and the problems so far."""
 
     def __init__(self, script: Script) -> None:
         self.script = script
         self.scope: dict[str, Meaning] = {}  # all declared and defined symbols
         self.names: set[str] = set()  # the names of the variables in our language
-        self.reader = Reader(script, lambda: self.names)
-        self.frames, self.problems = [Frame()], list[Problem]()
+        self.reader = TermReader(script, lambda: self.names)
+        self.frames, self.problems = [ScriptFrame()], list[Problem]()
         self.status, self.name, self.source, self.ended = "", "", "", False
         self.lasting = False  # declarations outlive their (pop)
 
     @property
-    def declared(self) -> Frame:
+    def declared(self) -> ScriptFrame:
         """The frame of new declarations and definitions."""
         return self.frames[0 if self.lasting else -1]
 
     def execute(self, command: Expression) -> None:
         """Carries out one command."""
         if (
-            not isinstance(command, Node)
+            not isinstance(command, SexprList)
             or not command.items
-            or not isinstance(command.items[0], Word)
+            or not isinstance(command.items[0], SexprWord)
         ):
             self.script.fail(
                 command, f"{brief(command)} is no command", "write commands as (assert ..)"
@@ -182,12 +182,12 @@ class Session:
 
     # ------------------------------------------------------------ settings
 
-    def _set_logic(self, command: Node, logic: Expression) -> None:
-        if not isinstance(logic, Word) or logic.kind != "symbol":
+    def _set_logic(self, command: SexprList, logic: Expression) -> None:
+        if not isinstance(logic, SexprWord) or logic.kind != "symbol":
             self.script.fail(logic, f"{brief(logic)} names no logic", "write (set-logic QF_NRA)")
 
     def _set_info(
-        self, command: Node, keyword: Expression, value: Expression | None = None
+        self, command: SexprList, keyword: Expression, value: Expression | None = None
     ) -> None:
         if str(keyword) == ":status":
             if str(value) not in STATUSES:
@@ -195,26 +195,26 @@ class Session:
                     command, f"the status {value} is none", f"write one of {', '.join(STATUSES)}"
                 )
             self.status = str(value)
-        elif str(keyword) == ":name" and isinstance(value, Word):
+        elif str(keyword) == ":name" and isinstance(value, SexprWord):
             self.name = value.text
-        elif str(keyword) == ":source" and isinstance(value, Word):
+        elif str(keyword) == ":source" and isinstance(value, SexprWord):
             self.source = value.text
 
     def _set_option(
-        self, command: Node, keyword: Expression, value: Expression | None = None
+        self, command: SexprList, keyword: Expression, value: Expression | None = None
     ) -> None:
         if str(keyword) == ":global-declarations":
             if str(value) not in ("true", "false"):
                 self.script.fail(command, f"{keyword} is true or false", "mend the option")
             self.lasting = str(value) == "true"
 
-    def _exit(self, command: Node) -> None:
+    def _exit(self, command: SexprList) -> None:
         self.ended = True
 
     # ------------------------------------------------------------ declarations
 
     def _symbol(self, word: Expression) -> str:
-        if not isinstance(word, Word) or word.kind != "symbol":
+        if not isinstance(word, SexprWord) or word.kind != "symbol":
             self.script.fail(word, f"{brief(word)} is no symbol", "name what is declared")
         if word.text in RESERVED or word.text in self.scope:
             self.script.fail(
@@ -229,7 +229,7 @@ class Session:
             )
         return str(node)
 
-    def _declare_const(self, command: Node, word: Expression, sort: Expression) -> None:
+    def _declare_const(self, command: SexprList, word: Expression, sort: Expression) -> None:
         variable = Variable(
             symbol := self._symbol(word),
             our_name(symbol, self.names | self.reader.parts.meanings.keys()),
@@ -245,9 +245,9 @@ class Session:
         self.scope[symbol] = meaning
 
     def _declare_fun(
-        self, command: Node, word: Expression, parameters: Expression, sort: Expression
+        self, command: SexprList, word: Expression, parameters: Expression, sort: Expression
     ) -> None:
-        if not isinstance(parameters, Node) or parameters.items:
+        if not isinstance(parameters, SexprList) or parameters.items:
             self.script.fail(
                 command,
                 f"{brief(word)} is declared with parameters: uninterpreted functions are not"
@@ -258,7 +258,7 @@ class Session:
 
     def _define_fun(
         self,
-        command: Node,
+        command: SexprList,
         word: Expression,
         parameters: Expression,
         sort: Expression,
@@ -266,12 +266,12 @@ class Session:
     ) -> None:
         symbol, sort_name = self._symbol(word), self._sort(sort)
         pairs = self.reader.pairs(parameters, "define-fun name")
-        if not isinstance(parameters, Node):
+        if not isinstance(parameters, SexprList):
             self.script.fail(
                 command, f"{brief(parameters)} is no list of parameters", "write ((x Real) ..)"
             )
         scope = {name: self.scope[name] for name in words_of(body) if name in self.scope}
-        function = Function(
+        function = DefinedFunction(
             tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, scope
         )
         # the body is read once with arbitrary arguments, so that an error names the line of the
@@ -287,27 +287,29 @@ class Session:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
 
     def _define_const(
-        self, command: Node, word: Expression, sort: Expression, body: Expression
+        self, command: SexprList, word: Expression, sort: Expression, body: Expression
     ) -> None:
-        self._define_fun(command, word, Node((), command.line), sort, body)
+        self._define_fun(command, word, SexprList((), command.line), sort, body)
 
     # ------------------------------------------------------------ assertions
 
-    def _assert(self, command: Node, body: Expression) -> None:
+    def _assert(self, command: SexprList, body: Expression) -> None:
         self.frames[-1].assertions.append((command.line, self.reader.formula(body, self.scope)))
 
-    def _check_sat_assuming(self, command: Node, literals: Expression) -> None:
-        if not isinstance(literals, Node):
+    def _check_sat_assuming(self, command: SexprList, literals: Expression) -> None:
+        if not isinstance(literals, SexprList):
             self.script.fail(
                 command, f"{brief(literals)} is no list", "write (check-sat-assuming (a (not b)))"
             )
         self._push(command)
         for literal in literals.items:
-            self.execute(Node((Word("assert", "symbol", command.line), literal), command.line))
+            self.execute(
+                SexprList((SexprWord("assert", "symbol", command.line), literal), command.line)
+            )
         self._check_sat(command)
         self._pop(command)
 
-    def _check_sat(self, command: Node) -> None:
+    def _check_sat(self, command: SexprList) -> None:
         variables = tuple(variable for frame in self.frames for variable in frame.variables)
         assertions = tuple(pair for frame in self.frames for pair in frame.assertions)
         self.problems.append(
@@ -326,10 +328,10 @@ class Session:
         )
         self.status, self.name = "", ""
 
-    def _push(self, command: Node, count: Expression | None = None) -> None:
-        self.frames += [Frame() for _ in range(self._levels(command, count))]
+    def _push(self, command: SexprList, count: Expression | None = None) -> None:
+        self.frames += [ScriptFrame() for _ in range(self._levels(command, count))]
 
-    def _pop(self, command: Node, count: Expression | None = None) -> None:
+    def _pop(self, command: SexprList, count: Expression | None = None) -> None:
         levels = self._levels(command, count)
         if levels >= len(self.frames):
             self.script.fail(command, f"(pop {levels}) without that many (push)", "mend the count")
@@ -337,28 +339,28 @@ class Session:
         self._forget(self.frames[kept:])
         del self.frames[kept:]
 
-    def _forget(self, frames: Sequence[Frame]) -> None:
+    def _forget(self, frames: Sequence[ScriptFrame]) -> None:
         for frame in frames:
             for symbol in frame.symbols:
                 del self.scope[symbol]
             self.names -= {variable.name for variable in frame.variables}
 
-    def _levels(self, command: Node, count: Expression | None) -> int:
+    def _levels(self, command: SexprList, count: Expression | None) -> int:
         if count is not None and (
-            not isinstance(count, Word) or count.kind != "numeral" or len(count.text) > 3
+            not isinstance(count, SexprWord) or count.kind != "numeral" or len(count.text) > 3
         ):
             self.script.fail(
                 command, f"{brief(count)} is no number of levels", "write a numeral up to 999"
             )
         return 1 if count is None else int(str(count))
 
-    def _reset(self, command: Node) -> None:
+    def _reset(self, command: SexprList) -> None:
         self._forget(self.frames)
-        self.frames, self.lasting = [Frame()], False
+        self.frames, self.lasting = [ScriptFrame()], False
         self.status, self.name, self.source = "", "", ""
 
-    def _reset_assertions(self, command: Node) -> None:
-        kept = self.frames[0] if self.lasting else Frame()
+    def _reset_assertions(self, command: SexprList) -> None:
+        kept = self.frames[0] if self.lasting else ScriptFrame()
         self._forget(self.frames[int(self.lasting) :])
         kept.assertions = []
         kept.commands = [one for one in kept.commands if str(one.items[0]) != "assert"]
@@ -370,7 +372,7 @@ def words_of(node: Expression) -> set[str]:
     words, left = set[str](), [node]
     while left:
         one = left.pop()
-        if isinstance(one, Node):
+        if isinstance(one, SexprList):
             left += one.items
         else:
             words.add(one.text)
@@ -409,7 +411,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
     Raises ClaimError, one line with file and line, where the text is no such script, or has no
     check-sat.
     """
-    session = Session(Script(text, file))
+    session = ScriptSession(Script(text, file))
     for command in session.script.expressions():
         if not session.ended:
             session.execute(command)

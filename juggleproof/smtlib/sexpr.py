@@ -24,7 +24,7 @@ TOKEN = re.compile(
 
 
 @dataclass(frozen=True)
-class Word:
+class SexprWord:
     """A symbol, numeral, decimal, keyword or string; the symbol |x| is equal to x.  `str` gives the
     text in SMT-LIB.
     """
@@ -41,7 +41,7 @@ class Word:
 
 
 @dataclass(frozen=True)
-class Node:
+class SexprList:
     """A list in parentheses; `str` gives its text, on one line unless a symbol has several."""
 
     items: tuple[Expression, ...]
@@ -52,14 +52,14 @@ class Node:
         left: list[Expression | str] = [self]
         while left:
             one = left.pop()
-            if isinstance(one, Node):
+            if isinstance(one, SexprList):
                 left += [")", *one.items[::-1]]
-            piece = "(" if isinstance(one, Node) else str(one)
+            piece = "(" if isinstance(one, SexprList) else str(one)
             pieces += [piece] if not pieces or piece == ")" or pieces[-1] == "(" else [" ", piece]
         return "".join(pieces)
 
 
-Expression = Union[Word, Node]
+Expression = Union[SexprWord, SexprList]
 
 
 class Script:
@@ -90,9 +90,9 @@ class Script:
                 if not opened:
                     self.fail(line, "a parenthesis is closed that was not opened", "remove it")
                 began, items = opened.pop()
-                done: Expression = Node(tuple(items), began)
+                done: Expression = SexprList(tuple(items), began)
             else:
-                done = Word(text, kind, line)
+                done = SexprWord(text, kind, line)
             if opened:
                 opened[-1][1].append(done)
             else:

@@ -16,10 +16,10 @@ from functools import partial, reduce
 from operator import add, mul, sub
 from typing import TypeVar, Union
 
-from juggleproof.smtlib.sexpr import Expression, Node, Script, Word
+from juggleproof.smtlib.sexpr import Expression, Script, SexprList, SexprWord
 from juggleproof.smtlib.values import (
     Parts,
-    Real,
+    RealCases,
     TooLarge,
     Value,
     balanced,
@@ -90,7 +90,7 @@ RESERVED = frozenset(
 
 
 @dataclass(frozen=True)
-class Function:
+class DefinedFunction:
     """A function that is defined in the script: the names and sorts of its parameters, its sort,
     its body, and the meanings of the names in the body.
     """
@@ -101,13 +101,13 @@ class Function:
     scope: Mapping[str, Meaning]
 
 
-Compared = TypeVar("Compared", Formula, Real)
-Meaning = Union[Value, Function]  # the meaning of a name
+Compared = TypeVar("Compared", Formula, RealCases)
+Meaning = Union[Value, DefinedFunction]  # the meaning of a name
 MOST_STEPS = 2_000_000  # terms that are read; the body of a function counts at each application
 
 
 @dataclass
-class Scope:
+class NameScope:
     """The meanings of names: `own` has those of `let` and of parameters, `around` all others."""
 
     around: Mapping[str, Meaning]
@@ -120,28 +120,28 @@ class Scope:
 
 
 # the reading of a term yields its parts, is sent their values, and returns the term's value
-Reading = Generator[tuple[Expression, Scope], Value, Value]
+Reading = Generator[tuple[Expression, NameScope], Value, Value]
 
 
-class Reader:
+class TermReader:
     """A reader of the terms of one script; `taken` gives the names of its variables."""
 
     def __init__(self, script: Script, taken: Callable[[], Collection[str]]) -> None:
         self.script, self.parts, self.steps = script, Parts(taken), 0
         # values of functions, which are not read again for the same arguments
-        self._known: dict[tuple[int, tuple[Value, ...]], tuple[Function, Value]] = {}
+        self._known: dict[tuple[int, tuple[Value, ...]], tuple[DefinedFunction, Value]] = {}
 
     def formula(self, node: Expression, scope: Mapping[str, Meaning]) -> Formula:
         """The value of a term of sort Bool."""
         return self._bool(node, self.value(node, scope))
 
-    def real(self, node: Expression, scope: Mapping[str, Meaning]) -> Real:
+    def real(self, node: Expression, scope: Mapping[str, Meaning]) -> RealCases:
         """The value of a term of sort Real."""
         return self._real(node, self.value(node, scope))
 
     def value(self, node: Expression, scope: Mapping[str, Meaning]) -> Value:
         """The value of a term, read with an explicit stack."""
-        opened = [self._read(node, Scope(scope, {}))]
+        opened = [self._read(node, NameScope(scope, {}))]
         step = partial(next, opened[0])
         while True:
             try:
@@ -157,7 +157,7 @@ class Reader:
                 step = partial(next, opened[-1])
 
     def _bool(self, node: Expression, value: Value) -> Formula:
-        if isinstance(value, Real):
+        if isinstance(value, RealCases):
             self.script.fail(
                 node,
                 f"{brief(node)} is a Real where a Bool is expected",
@@ -165,7 +165,7 @@ class Reader:
             )
         return value
 
-    def _real(self, node: Expression, value: Value) -> Real:
+    def _real(self, node: Expression, value: Value) -> RealCases:
         if isinstance(value, Formula):
             self.script.fail(
                 node, f"{brief(node)} is a Bool where a Real is expected", "use (ite condition a b)"
@@ -175,7 +175,7 @@ class Reader:
     def _of_sort(self, sort: str, node: Expression, value: Value) -> Value:
         return self._real(node, value) if sort == "Real" else self._bool(node, value)
 
-    def _read(self, node: Expression, scope: Scope) -> Reading:
+    def _read(self, node: Expression, scope: NameScope) -> Reading:
         self.steps += 1
         if self.steps > MOST_STEPS:
             self.script.fail(
@@ -183,9 +183,11 @@ class Reader:
                 f"more than {MOST_STEPS} terms, those of functions counted where they are applied",
                 "split the problem",
             )
-        return self._word(node, scope) if isinstance(node, Word) else self._applied(node, scope)
+        return (
+            self._word(node, scope) if isinstance(node, SexprWord) else self._applied(node, scope)
+        )
 
-    def _word(self, word: Word, scope: Scope) -> Reading:
+    def _word(self, word: SexprWord, scope: NameScope) -> Reading:
         if word.kind in ("numeral", "decimal"):
             if len(word.text) > LONGEST_NUMBER:
                 self.script.fail(
@@ -209,22 +211,22 @@ class Reader:
                 f"{word.text} is not declared",
                 f"add (declare-const {word.text} Real) before it",
             )
-        if isinstance(meant, Function):
+        if isinstance(meant, DefinedFunction):
             return (yield from self._call(word, meant, [], scope))
         return meant
 
-    def _applied(self, node: Node, scope: Scope) -> Reading:
+    def _applied(self, node: SexprList, scope: NameScope) -> Reading:
         if not node.items:
             self.script.fail(node, "() where a term is expected", "write a term")
         head, rest = node.items[0], node.items[1:]
-        if not isinstance(head, Word) or head.kind != "symbol":
+        if not isinstance(head, SexprWord) or head.kind != "symbol":
             self.script.fail(
                 node,
                 f"{brief(head)} is not the name of a function",
                 "only functions of the theory of reals are known",
             )
         name, meant = head.text, scope.get(head.text)
-        if isinstance(meant, Function):
+        if isinstance(meant, DefinedFunction):
             return (yield from self._call(node, meant, rest, scope))
         if meant is not None:
             self.script.fail(node, f"{name} is no function", "write it without parentheses")
@@ -246,7 +248,11 @@ class Reader:
             self.script.fail(node, str(problem), "split the problem")
 
     def _call(
-        self, at: Expression, function: Function, arguments: Sequence[Expression], scope: Scope
+        self,
+        at: Expression,
+        function: DefinedFunction,
+        arguments: Sequence[Expression],
+        scope: NameScope,
     ) -> Reading:
         count = len(function.parameters)
         self._arity(at, "the function", len(arguments), count, count)
@@ -256,11 +262,11 @@ class Reader:
         key = id(function), tuple(values)
         if key not in self._known:
             own = {name: value for (name, _), value in zip(function.parameters, values)}
-            value = yield function.body, Scope(function.scope, dict(own))
+            value = yield function.body, NameScope(function.scope, dict(own))
             self._known[key] = function, self._of_sort(function.sort, function.body, value)
         return self._known[key][1]
 
-    def _let(self, node: Node, scope: Scope) -> Reading:
+    def _let(self, node: SexprList, scope: NameScope) -> Reading:
         self._arity(node, "let", len(node.items) - 1, 2, 2)
         values: dict[str, Meaning] = {}
         for name, part in self.pairs(node.items[1], "let"):
@@ -279,11 +285,11 @@ class Reader:
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:
         """The pairs of a list ((name expression) ..), in which no name occurs twice."""
         bound: dict[str, Expression] = {}
-        for pair in node.items if isinstance(node, Node) else [node]:
+        for pair in node.items if isinstance(node, SexprList) else [node]:
             if (
-                not isinstance(pair, Node)
+                not isinstance(pair, SexprList)
                 or len(pair.items) != 2
-                or not isinstance(pair.items[0], Word)
+                or not isinstance(pair.items[0], SexprWord)
                 or pair.items[0].kind != "symbol"
             ):
                 self.script.fail(
@@ -299,7 +305,7 @@ class Reader:
             bound[name] = pair.items[1]
         return list(bound.items())
 
-    def _made(self, node: Node, name: str, values: Sequence[Value]) -> Value:
+    def _made(self, node: SexprList, name: str, values: Sequence[Value]) -> Value:
         """The value of a function of the theory at these values."""
         parts = list(zip(node.items[1:], values))
         if name == "ite":
@@ -310,7 +316,7 @@ class Reader:
             return self._relation(node, name, values)
         return self._operation(node, name, [self._real(*part) for part in parts])
 
-    def _ite(self, node: Node, values: Sequence[Value]) -> Value:
+    def _ite(self, node: SexprList, values: Sequence[Value]) -> Value:
         condition = self._bool(node.items[1], values[0])
         first, second = values[1:]
         if isinstance(first, Formula) and isinstance(second, Formula):
@@ -318,7 +324,7 @@ class Reader:
                 lambda own: (own[0] & own[1]) | (Formula("not", own[0]) & own[2]),
                 [condition, first, second],
             )
-        if isinstance(first, Real) and isinstance(second, Real):
+        if isinstance(first, RealCases) and isinstance(second, RealCases):
             return self.parts.chosen(condition, first, second)
         self.script.fail(node, "ite between a Bool and a Real", "give both the same sort")
 
@@ -333,9 +339,9 @@ class Reader:
             return reduce(lambda right, left: joined(_implies, [left, right]), premises[::-1], goal)
         return reduce(lambda left, right: joined(_xor, [left, right]), parts)
 
-    def _relation(self, node: Node, name: str, values: Sequence[Value]) -> Value:
+    def _relation(self, node: SexprList, name: str, values: Sequence[Value]) -> Value:
         formulas = [value for value in values if isinstance(value, Formula)]
-        reals = [value for value in values if isinstance(value, Real)]
+        reals = [value for value in values if isinstance(value, RealCases)]
         if formulas and (reals or name not in ("=", "distinct")):
             self.script.fail(
                 node,
@@ -357,7 +363,7 @@ class Reader:
             ],
         )
 
-    def _operation(self, node: Node, name: str, values: Sequence[Real]) -> Value:
+    def _operation(self, node: SexprList, name: str, values: Sequence[RealCases]) -> Value:
         combined = self.parts.combined
         if name == "^":
             return self._power(node, values)
@@ -370,7 +376,7 @@ class Reader:
         join = add if name == "+" else mul
         return combined(values, lambda parts: balanced(join, parts))
 
-    def _power(self, node: Node, values: Sequence[Real]) -> Value:
+    def _power(self, node: SexprList, values: Sequence[RealCases]) -> Value:
         exponent = values[1].plain
         if (
             exponent is None

@@ -40,7 +40,7 @@ Guards = tuple[tuple[Formula, bool], ...]
 
 
 @dataclass(frozen=True)
-class Real:
+class RealCases:
     """A real term as cases (conditions, value), exactly one of which applies at each point."""
 
     cases: tuple[tuple[Guards, Term], ...]
@@ -51,12 +51,12 @@ class Real:
         return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
 
 
-Value = Union[Formula, Real]
+Value = Union[Formula, RealCases]
 
 
-def plain(value: Term | int) -> Real:
+def plain(value: Term | int) -> RealCases:
     """The real term with this value as its only case."""
-    return Real((((), term(value)),))
+    return RealCases((((), term(value)),))
 
 
 def merged(parts: Sequence[Guards]) -> Guards | None:
@@ -68,7 +68,7 @@ def merged(parts: Sequence[Guards]) -> Guards | None:
     return tuple(joined.items())
 
 
-def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
+def together(values: Sequence[RealCases]) -> list[tuple[Guards, tuple[Term, ...]]]:
     """The joint cases of several values: the conditions, and the value of each under them."""
     if all(value.plain is not None for value in values):
         return [((), tuple(value.cases[0][1] for value in values))]
@@ -82,7 +82,7 @@ def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
     return joined
 
 
-def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) -> Formula:
+def relation(values: Sequence[RealCases], make: Callable[[Sequence[Term]], Formula]) -> Formula:
     """The formula that in one of the joint cases, its conditions and the result of `make` on its
     values hold.
 
@@ -102,14 +102,14 @@ def holding(guard: tuple[Formula, bool]) -> Formula:
     return guard[0] if guard[1] else Formula("not", guard[0])
 
 
-def choice(condition: Formula, first: Real, second: Real) -> Real:
+def choice(condition: Formula, first: RealCases, second: RealCases) -> RealCases:
     """The real term that is the first value where the condition holds, else the second."""
     pairs = [
         (merged((((condition, truth),), guards)), value)
         for truth, one in ((True, first), (False, second))
         for guards, value in one.cases
     ]
-    return Real(tuple((guards, value) for guards, value in pairs if guards is not None))
+    return RealCases(tuple((guards, value) for guards, value in pairs if guards is not None))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -302,22 +302,22 @@ class Parts:
             if part.op in ("var", "num") or not size.is_part:
                 return part
             named = self.named(plain(part))
-            return named.cases[0][1] if isinstance(named, Real) else part
+            return named.cases[0][1] if isinstance(named, RealCases) else part
         if size.depth > DEEPEST // 3 or size.symbols > LARGE_FORMULA and part.op not in RELATIONS:
             named = self.named(part)
             return named if isinstance(named, Formula) else part
         return part
 
-    def few(self, values: Sequence[Real]) -> list[Real]:
+    def few(self, values: Sequence[RealCases]) -> list[RealCases]:
         """The values, some replaced by names so that they have at most `MOST_CASES` joint cases."""
         few = list(values)
         while prod(len(one.cases) for one in few) > MOST_CASES:
             k = max(range(len(few)), key=lambda k: len(few[k].cases))
             named = self.named(few[k])
-            few[k] = named if isinstance(named, Real) else few[k]
+            few[k] = named if isinstance(named, RealCases) else few[k]
         return few
 
-    def chosen(self, condition: Formula, first: Real, second: Real) -> Value:
+    def chosen(self, condition: Formula, first: RealCases, second: RealCases) -> Value:
         """The value that is the first where the condition holds, else the second."""
         if len(first.cases) + len(second.cases) > 2 and self.sizes.of(condition).symbols > LONG:
             named = self.named(condition)  # every case has the condition
@@ -325,10 +325,12 @@ class Parts:
         cases = choice(condition, first, second)
         return cases if len(cases.cases) <= MOST_CASES else self.named(cases)
 
-    def combined(self, values: Sequence[Real], make: Callable[[Sequence[Term]], Term]) -> Real:
+    def combined(
+        self, values: Sequence[RealCases], make: Callable[[Sequence[Term]], Term]
+    ) -> RealCases:
         """The real term that has the result of `make` in every joint case of the values."""
         cases = together(self.few(values))
-        return Real(tuple((guards, self.joined(make, terms)) for guards, terms in cases))
+        return RealCases(tuple((guards, self.joined(make, terms)) for guards, terms in cases))
 
 
 def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:

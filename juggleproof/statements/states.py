@@ -13,7 +13,7 @@ from juggleproof.statements.nodes import Node, Values
 Known = Mapping[str, checker.Statement]
 
 
-class State:
+class SearchState:
     """The assumptions on one branch of a search: facts (polynomial, relation), which all hold, and
     disjunctions, which are still to be split.
 
@@ -29,7 +29,7 @@ class State:
     [2, 2, 2]
     """
 
-    def __init__(self, variables: checker.Context, parent: State | None = None) -> None:
+    def __init__(self, variables: checker.Context, parent: SearchState | None = None) -> None:
         work = checker.Work()
         values = {key: checker.variable(place, work) for key, place in variables.index.items()}
         self.context = checker.Context(None, values, work)
@@ -51,7 +51,7 @@ class State:
         choices: list[checker.Formula] = [("or", list(one)) for one in self.choices]
         return [*[False] * self.closed, *facts, *choices]
 
-    def assume(self, formula: checker.Formula) -> State:
+    def assume(self, formula: checker.Formula) -> SearchState:
         """This state itself, after one more formula is assumed."""
         for part in checker.conjuncts(formula):
             if isinstance(part, bool):
@@ -65,13 +65,13 @@ class State:
 
     def branch(
         self, formula: checker.Formula = True, variables: checker.Context | None = None
-    ) -> State:
+    ) -> SearchState:
         """A new state that assumes one more formula; `variables` is a context with more variables,
         if there are more.
         """
-        return State(variables or self.context, self).assume(formula)
+        return SearchState(variables or self.context, self).assume(formula)
 
-    def by_sign(self, text: str) -> list[State]:
+    def by_sign(self, text: str) -> list[SearchState]:
         """The three states in which the polynomial is < 0, = 0 and > 0.
 
         Raises Rejected where the text is no polynomial in the variables.
@@ -125,9 +125,9 @@ def variables_in(context: checker.Context, poly: checker.Poly) -> list[str]:
     ]
 
 
-def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:
+def state_of(unfolding: checker.Unfolding, count: int | None = None) -> SearchState:
     """The state that assumes the premises of an unfolding, or the first `count` of them."""
-    return State(unfolding.context).assume(checker.join("and", unfolding.premises[:count]))
+    return SearchState(unfolding.context).assume(checker.join("and", unfolding.premises[:count]))
 
 
 # -------------------------------------------------------------------------------------------------

@@ -163,7 +163,7 @@ class WrittenOut(Mapping[str, str]):
 written_out = lru_cache(maxsize=4)(WrittenOut)
 
 
-class Lines:
+class CertificateLines:
     """The certificates of a file by name; a line is parsed when its certificate is asked for."""
 
     def __init__(self, text: str, read: Mapping[str, Certificate | None] | None = None) -> None:
@@ -183,7 +183,7 @@ class Lines:
         return self._read.get(name)
 
 
-lines_of = lru_cache(maxsize=1)(Lines)
+lines_of = lru_cache(maxsize=1)(CertificateLines)
 
 
 class Store:
@@ -194,7 +194,7 @@ class Store:
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
         self.texts: Mapping[str, str] = {}
-        self._lines: Lines | None = None
+        self._lines: CertificateLines | None = None
         path = folder / STATEMENTS
         if path.exists():
             try:
@@ -217,7 +217,7 @@ class Store:
         except checker.Rejected:
             return None
 
-    def certificates(self) -> Lines:
+    def certificates(self) -> CertificateLines:
         """The stored certificates by name; raises Rejected where their file cannot be read."""
         if self._lines is None:
             self._lines = lines_of(checker.load(str(self.folder / CERTIFICATES)))
@@ -228,7 +228,9 @@ class Store:
         part = object.__new__(Store)
         part.folder = self.folder
         part.texts = {name: self.texts[name] for name in self.texts if name.split("/")[0] in claims}
-        part._lines = Lines("", {name: self.certificate_named(name) for name in part.texts})
+        part._lines = CertificateLines(
+            "", {name: self.certificate_named(name) for name in part.texts}
+        )
         return part
 
 

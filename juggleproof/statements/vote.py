@@ -13,7 +13,7 @@ ANSWERS = ("holds", "fails", "unknown", "enclosed", "not applicable")
 
 
 @dataclass(frozen=True)
-class Budget:
+class VoteBudget:
     """Counted work for one statement: Z3's resource units, boxes, and the width to which a bound is
     enclosed.
 
@@ -26,17 +26,17 @@ class Budget:
     boxes: int = 3_000
     width: Fraction = Fraction(1, 16)
 
-    def times(self, factor: int) -> Budget:
+    def times(self, factor: int) -> VoteBudget:
         """The budget with `factor` times as much work.
 
         >>> Budget().times(3).boxes
         9000
         """
-        return Budget(self.rlimit * factor, self.boxes * factor, self.width)
+        return VoteBudget(self.rlimit * factor, self.boxes * factor, self.width)
 
 
 @dataclass(frozen=True)
-class Enclosure:
+class VoteEnclosure:
     """low <= inf of the polynomial over the region <= high, both exact; `wanted` is the width that
     was asked for.
     """
@@ -66,7 +66,7 @@ class Vote:
     detail: str
     work: int = 0
     model: tuple[tuple[str, str], ...] = ()
-    enclosures: tuple[Enclosure, ...] = ()
+    enclosures: tuple[VoteEnclosure, ...] = ()
 
     @property
     def decided(self) -> bool:

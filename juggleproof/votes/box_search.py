@@ -23,9 +23,9 @@ from juggleproof.algebra.intervals import (
     widest,
 )
 from juggleproof.algebra.polynomials import value_at
-from juggleproof.statements.vote import Enclosure
+from juggleproof.statements.vote import VoteEnclosure
 from juggleproof.votes.branches import regions
-from juggleproof.votes.questions import Atom, Formula, Question, atom, join
+from juggleproof.votes.questions import Atom, Formula, VoteQuestion, atom, join
 
 # -------------------------------------------------------------------------------------------------
 # Whether facts have a common solution in a box.
@@ -33,7 +33,7 @@ from juggleproof.votes.questions import Atom, Formula, Question, atom, join
 Accept = Callable[[list[Fraction]], bool]
 
 
-class Fact(Enclosed):
+class BoxFact(Enclosed):
     """A fact made ready for many boxes."""
 
     def __init__(self, fact: Atom) -> None:
@@ -67,7 +67,7 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
     undecided facts are most sensitive. A point counts only where `accept`, which evaluates exactly,
     says so; an undecided comparison of intervals never decides anything.
     """
-    ready = [Fact(fact) for fact in facts]
+    ready = [BoxFact(fact) for fact in facts]
     queue: deque[tuple[Box, tuple[int, ...]]] = deque([(box, tuple(range(len(facts))))])
     outcome = Emptiness(0)
     while queue and outcome.boxes < allowance:
@@ -97,7 +97,7 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
 
 
 def _look(
-    ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed
+    ready: Sequence[BoxFact], alive: tuple[int, ...], placed: Placed
 ) -> tuple[bool, tuple[int, ...], dict[int, float], bool]:
     """Whether some fact surely fails; else the facts still undecided, how much each side matters to
     them, and whether the middle may be a solution.
@@ -156,7 +156,7 @@ def enclose_infimum(
     matter.  The low end is the least lower end over the boxes that are left; it is the high end
     where none is left.  None where a box has no finite enclosure.
     """
-    ready, aim = [Fact(fact) for fact in facts], Enclosed(poly)
+    ready, aim = [BoxFact(fact) for fact in facts], Enclosed(poly)
     infimum = Infimum(known, known)
     heap: list[tuple[Fraction, int, Box, tuple[int, ...]]] = []
     floor: Fraction | None = None  # the lower end of a box that is a point and was set aside
@@ -202,7 +202,7 @@ def enclose_infimum(
     return infimum
 
 
-def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
+def _lowered(aim: Enclosed, facts: Sequence[BoxFact], placed: Placed) -> list[arb]:
     """Enclosures whose low ends hold for the polynomial where all facts hold, of p alone and of p
     less multiples of the facts.
 
@@ -212,7 +212,7 @@ def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
     in floats.
     """
     slopes = aim.sharp_slopes(placed)
-    enclosures, used = [_from_corner(aim, [], slopes, placed)], list[tuple[arb, Fact]]()
+    enclosures, used = [_from_corner(aim, [], slopes, placed)], list[tuple[arb, BoxFact]]()
     for fact in facts:
         if fact.relation not in (">", ">="):
             continue
@@ -231,7 +231,7 @@ def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
 
 
 def _from_corner(
-    aim: Enclosed, used: Sequence[tuple[arb, Fact]], slopes: dict[int, arb], placed: Placed
+    aim: Enclosed, used: Sequence[tuple[arb, BoxFact]], slopes: dict[int, arb], placed: Placed
 ) -> arb:
     ends = {
         i: -1 if surely(slope, ">=") else 1 if surely(-slope, ">=") else 0
@@ -255,7 +255,11 @@ def _weigh(weights: dict[int, float], slopes: dict[int, arb], placed: Placed) ->
 
 
 def _cut(
-    aim: Enclosed, ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed, sides: list[int]
+    aim: Enclosed,
+    ready: Sequence[BoxFact],
+    alive: tuple[int, ...],
+    placed: Placed,
+    sides: list[int],
 ) -> int:
     weights, active = dict.fromkeys(sides, 0.0), [ready[k] for k in alive if not ready[k].bound]
     for fact in (*[aim] * max(1, len(active)), *active):
@@ -275,7 +279,7 @@ class GoalBound:
     goal, `point` where one refutes it.
     """
 
-    enclosures: tuple[Enclosure, ...]
+    enclosures: tuple[VoteEnclosure, ...]
     positive: bool
     boxes: int
     point: list[Fraction] | None = None
@@ -291,7 +295,7 @@ class GoalBound:
         return not self.narrow and all(e.high > e.wanted for e in self.enclosures)
 
 
-def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBound | None:
+def enclose_goal(question: VoteQuestion, width: Fraction, allowance: int) -> GoalBound | None:
     """The enclosures, for a goal that is a conjunction of inequalities; None for any other, or
     where nothing bounds the region.
 
@@ -315,7 +319,7 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
         if infimum is None:
             return None
         boxes += infimum.boxes
-        enclosure = Enclosure(
+        enclosure = VoteEnclosure(
             str(poly), _short(infimum.low, up=False), _short(infimum.high, up=True), width
         )
         if part.holds(-infimum.high):

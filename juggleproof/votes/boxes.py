@@ -10,11 +10,11 @@ from fractions import Fraction
 
 from juggleproof.algebra.intervals import working_precision
 from juggleproof.certificates import checker
-from juggleproof.statements.vote import Budget, Vote
+from juggleproof.statements.vote import Vote, VoteBudget
 from juggleproof.votes.box_search import GoalBound, enclose_goal, refute
 from juggleproof.votes.branches import MOST_BRANCHES, regions
 from juggleproof.votes.questions import (
-    Question,
+    VoteQuestion,
     questions,
     scale_variables,
     with_scales_one,
@@ -24,7 +24,7 @@ TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point t
 
 
 @dataclass
-class Finding:
+class BoxFinding:
     """The outcome of one question: an exact solution, reasons why nothing was decided, or neither,
     where it has no solution.
     """
@@ -47,8 +47,8 @@ class Tally:
 def vote(
     statement: checker.Statement,
     earlier: Mapping[str, checker.Statement] | None = None,
-    budget: Budget | None = None,
-    asked: Sequence[Question] | None = None,
+    budget: VoteBudget | None = None,
+    asked: Sequence[VoteQuestion] | None = None,
 ) -> Vote:
     """The boxes' vote on a universal statement in reals.
 
@@ -62,7 +62,7 @@ def vote(
     >>> v.answer, v.detail
     ('holds', '44 boxes discarded')
     """
-    budget = budget or Budget()
+    budget = budget or VoteBudget()
     if statement.kind != "universal":
         return Vote(
             "boxes", "not applicable", "the statement is not about all points of one region"
@@ -78,7 +78,7 @@ def vote(
         return _vote(lines, goal, budget)
 
 
-def _vote(lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
+def _vote(lines: Sequence[VoteQuestion], goal: VoteQuestion, budget: VoteBudget) -> Vote:
     tally, reasons, unbounded = Tally(), list[str](), True
     for line in lines:
         finding = _settle(line, budget.boxes // 8, tally)
@@ -114,14 +114,14 @@ def _vote(lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
     return _success(tally)
 
 
-def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
+def _settle(question: VoteQuestion, allowance: int, tally: Tally) -> BoxFinding:
     """Whether the question has a solution, branch by branch; what it is, or why nothing was
     decided.
     """
-    matrix, finding = question.matrix(), Finding()
+    matrix, finding = question.matrix(), BoxFinding()
     parts = regions(question.names, matrix)
     if parts is None:
-        return Finding(reasons=[f"more than {MOST_BRANCHES} branches"])
+        return BoxFinding(reasons=[f"more than {MOST_BRANCHES} branches"])
     leaves = 0
     for region in parts:
         unbounded = region.unbounded()
@@ -133,7 +133,7 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
         )
         tally.boxes += outcome.boxes
         if outcome.point is not None:
-            return Finding(point=region.complete(outcome.point))
+            return BoxFinding(point=region.complete(outcome.point))
         if unbounded:
             finding.unbounded = True
             finding.reasons.append(f"the region is not bounded in {', '.join(unbounded)}")
@@ -152,7 +152,7 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
 
 
 def _failure(
-    question: Question, point: list[Fraction], tally: Tally, scales: tuple[str, ...]
+    question: VoteQuestion, point: list[Fraction], tally: Tally, scales: tuple[str, ...]
 ) -> Vote:
     model = tuple(
         (name, "1" if name in scales else str(value)) for name, value in zip(question.names, point)

@@ -22,7 +22,7 @@ from juggleproof.algebra.polynomials import (
     pseudo_divide,
     value_at,
 )
-from juggleproof.search.psatz.facts import Reduction, Signed, Step
+from juggleproof.search.psatz.facts import EliminationStep, Reduction, Signed
 from juggleproof.votes.questions import Atom, Formula, atom, branches
 from juggleproof.votes.spans import (
     ZERO,
@@ -40,7 +40,7 @@ from juggleproof.votes.spans import (
 
 def solve_equations(
     names: tuple[str, ...], facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None
-) -> tuple[list[Atom], list[Step]] | None:
+) -> tuple[list[Atom], list[EliminationStep]] | None:
     """The facts without the variables that an equation among them gives, and the eliminations in
     order; None where the facts contradict each other.
 
@@ -189,14 +189,14 @@ SAMPLES = [
 
 
 @dataclass(frozen=True)
-class Region:
+class BranchRegion:
     """One branch, ready for boxes; variables that an equation gives are `solved` and no longer
     occur in the facts.
     """
 
     names: tuple[str, ...]
     facts: tuple[Atom, ...]
-    solved: tuple[Step, ...]
+    solved: tuple[EliminationStep, ...]
     bounds: tuple[Bounds, ...]
 
     def used(self) -> list[int]:
@@ -276,7 +276,7 @@ def holds_at(formula: Formula, point: Sequence[Fraction]) -> bool:
 
 
 @lru_cache(maxsize=16)  # one vote asks about the same part of the space again
-def regions(names: tuple[str, ...], formula: Formula) -> Sequence[Region] | None:
+def regions(names: tuple[str, ...], formula: Formula) -> Sequence[BranchRegion] | None:
     """The branches of the formula that are not seen to be empty at once; None where there are too
     many.
     """
@@ -287,13 +287,13 @@ def regions(names: tuple[str, ...], formula: Formula) -> Sequence[Region] | None
     return tuple(region for region in candidates if region is not None)
 
 
-def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
+def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> BranchRegion | None:
     """The branch as a region; None where its facts contradict each other on the way.
 
     Factors may turn into equations and bounds may give factors a sign, so both are gone through
     twice.
     """
-    current, solved = list(facts), list[Step]()
+    current, solved = list(facts), list[EliminationStep]()
     bounds: list[Bounds] | None = None
     for _ in range(2):
         solution = solve_equations(names, current, bounds)
@@ -306,7 +306,7 @@ def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
         if bounds is None:
             return None
         current = reduced
-    return Region(names, tuple(current), tuple(solved), tuple(bounds or ()))
+    return BranchRegion(names, tuple(current), tuple(solved), tuple(bounds or ()))
 
 
 def _inside(bounds: Bounds) -> Fraction:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from juggleproof.certificates import checker
-from juggleproof.statements.vote import Budget, Vote, compare
+from juggleproof.statements.vote import Vote, VoteBudget, compare
 from juggleproof.votes import boxes, z3
 from juggleproof.votes.questions import questions
 
@@ -16,7 +16,7 @@ def cast_votes(
     statement: checker.Statement,
     outcome: str,
     routes: Sequence[str] = tuple(ROUTES),
-    budget: Budget | None = None,
+    budget: VoteBudget | None = None,
     earlier: Mapping[str, checker.Statement] | None = None,
 ) -> tuple[Vote, ...]:
     """One vote for each of the routes named that casts any ("z3", "boxes"), on a statement of the

@@ -151,7 +151,7 @@ class Denial:
 
 
 @dataclass(frozen=True)
-class Question:
+class VoteQuestion:
     """Is there a point that meets all of `assumed` and every denial?  `part` names the line of the
     statement that is denied.
 
@@ -209,7 +209,7 @@ def read_statement(text: str) -> checker.Statement:
 
 def questions(
     statement: checker.Statement, earlier: Mapping[str, checker.Statement] | None = None
-) -> list[Question]:
+) -> list[VoteQuestion]:
     """The questions of a statement, in the order: `have` and `root` lines, then what is shown.
 
     A sharp range asks one question more than the statements it names ask inside it: outside, is
@@ -225,14 +225,14 @@ def questions(
 
 def _universal_questions(
     statement: checker.Statement, name: str, sharp: Sequence[ast.expr] | None, where: str
-) -> list[Question]:
+) -> list[VoteQuestion]:
     unfolding = unfolded(statement, sharp)
     own, universal = tuple(unfolding.context.index), set(unfolding.universal)
     free, integers = tuple(n for n in own if n in universal), frozenset(unfolding.integers)
     asked = []
     for number, (count, negation) in enumerate(unfolding.obligations, 1):
         asked.append(
-            Question(
+            VoteQuestion(
                 name,
                 f"{where}obligation {number}",
                 free,
@@ -247,17 +247,19 @@ def _universal_questions(
     )
     return [
         *asked,
-        Question(name, f"{where}goal", own, integers, _premises(unfolding, own, own), (denial,)),
+        VoteQuestion(
+            name, f"{where}goal", own, integers, _premises(unfolding, own, own), (denial,)
+        ),
     ]
 
 
 def _sharp_questions(
     statement: checker.Statement, earlier: Mapping[str, checker.Statement]
-) -> list[Question]:
+) -> list[VoteQuestion]:
     (named,), (over,), (domain,), (condition,) = (
         statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
     )
-    asked: list[Question] = []
+    asked: list[VoteQuestion] = []
     for name in named:
         asked += _universal_questions(
             earlier[name], statement.name, [domain, condition], f"inside, {name}: "
@@ -274,7 +276,7 @@ def _outside(
     domain: ast.expr,
     condition: ast.expr,
     named: Sequence[checker.Statement],
-) -> Question:
+) -> VoteQuestion:
     """Is there a parameter in the domain, but outside the range, at which all the named statements
     hold?
     """
@@ -315,7 +317,7 @@ def _outside(
                 tuple(n for n in bound if n not in of_all),
             )
         )
-    return Question(name, "outside", order, frozenset(integers), flat(outside), tuple(denials))
+    return VoteQuestion(name, "outside", order, frozenset(integers), flat(outside), tuple(denials))
 
 
 def _fresh(name: str, taken: set[str]) -> str:
@@ -325,7 +327,7 @@ def _fresh(name: str, taken: set[str]) -> str:
     return name
 
 
-def _iterate_questions(statement: checker.Statement) -> list[Question]:
+def _iterate_questions(statement: checker.Statement) -> list[VoteQuestion]:
     (variables,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
@@ -353,7 +355,9 @@ def _iterate_questions(statement: checker.Statement) -> list[Question]:
     )
     # the identities hold for all real K where they hold for all integers, so no variable need be an
     # integer here
-    return [Question(statement.name, "recurrence", names, frozenset(), (), (Denial((), fails),))]
+    return [
+        VoteQuestion(statement.name, "recurrence", names, frozenset(), (), (Denial((), fails),))
+    ]
 
 
 def _premises(
@@ -365,7 +369,7 @@ def _premises(
     return flat([formula_of(premise, own, names) for premise in unfolding.premises[:count]])
 
 
-def changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
+def changed(question: VoteQuestion, change: Callable[[Atom], Formula]) -> VoteQuestion:
     """The question with `change` applied to every atom."""
     return replace(
         question,
@@ -376,7 +380,7 @@ def changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
     )
 
 
-def scale_variables(question: Question) -> tuple[str, ...]:
+def scale_variables(question: VoteQuestion) -> tuple[str, ...]:
     """The positive variables that may be set to 1 without loss, because every fact is homogeneous
     in some grading of the variables; integers have weight 0, they keep their values.
 
@@ -397,7 +401,7 @@ def scale_variables(question: Question) -> tuple[str, ...]:
     return tuple(question.names[i] for i in Scaling(ring, polys, free).scales) if free else ()
 
 
-def with_scales_one(question: Question, names: tuple[str, ...]) -> Question:
+def with_scales_one(question: VoteQuestion, names: tuple[str, ...]) -> VoteQuestion:
     """The question with 1 in place of the named variables."""
     values = {question.names.index(name): 1 for name in names}
     return changed(question, lambda fact: atom(fact.poly.subs(values), fact.relation))

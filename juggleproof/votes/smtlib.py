@@ -15,7 +15,7 @@ from juggleproof.votes.questions import (
     Atom,
     Denial,
     Formula,
-    Question,
+    VoteQuestion,
     questions,
 )
 
@@ -186,12 +186,12 @@ def _check(part: str, meaning: str, in_logic: str, asked: Sequence[str]) -> list
     return ["", f"; {part}: {meaning}", "(reset)", f"(set-logic {in_logic})", *asked, "(check-sat)"]
 
 
-def question_text(question: Question) -> str:
+def question_text(question: VoteQuestion) -> str:
     """One question as declarations and assertions, without a check: what is sent to a solver."""
     return "\n".join([*declarations(question), *assertions(question)]) + "\n"
 
 
-def _meaning(question: Question) -> str:
+def _meaning(question: VoteQuestion) -> str:
     if question.part == "outside":
         return "a solution is a parameter outside the range at which all the named statements hold"
     if question.part == "recurrence":
@@ -206,7 +206,7 @@ def _meaning(question: Question) -> str:
     )
 
 
-def logic(question: Question) -> str:
+def logic(question: VoteQuestion) -> str:
     """The SMT-LIB logic that the question belongs to; there is none with quantifiers and both sorts
     but without functions.
     """
@@ -224,7 +224,7 @@ def logic(question: Question) -> str:
     )
 
 
-def declarations(question: Question) -> list[str]:
+def declarations(question: VoteQuestion) -> list[str]:
     """A constant for every variable that occurs and that no denial binds."""
     return [
         f"(declare-const {symbol(name)} {_sort(question, name)})"
@@ -233,13 +233,13 @@ def declarations(question: Question) -> list[str]:
     ]
 
 
-def assertions(question: Question) -> list[str]:
+def assertions(question: VoteQuestion) -> list[str]:
     """Everything assumed, then every denial, one to a line."""
     rows = [f"(assert {write_formula(formula, question.integers)})" for formula in question.assumed]
     return rows + [f"(assert {_denial(question, denial)})" for denial in question.denials]
 
 
-def _denial(question: Question, denial: Denial) -> str:
+def _denial(question: VoteQuestion, denial: Denial) -> str:
     body = write_formula(denial.formula, question.integers)
     for word, names in (("exists", denial.chosen), ("forall", denial.bound)):
         if names:
@@ -251,7 +251,7 @@ def _denial(question: Question, denial: Denial) -> str:
     return body
 
 
-def _sort(question: Question, name: str) -> str:
+def _sort(question: VoteQuestion, name: str) -> str:
     return "Int" if name in question.integers else "Real"
 
 

@@ -17,12 +17,12 @@ from juggleproof.algebra.numbers import AlgebraicNumber, root_number
 from juggleproof.algebra.polynomials import with_value
 from juggleproof.algebra.trees import OPPOSITE
 from juggleproof.certificates import checker
-from juggleproof.statements.vote import Budget, Vote
+from juggleproof.statements.vote import Vote, VoteBudget
 from juggleproof.votes.questions import (
     Atom,
     Denial,
     Formula,
-    Question,
+    VoteQuestion,
     atom,
     branches,
     changed,
@@ -66,17 +66,17 @@ class Model(NamedTuple):
     point: Mapping[str, Exact]
 
 
-class Session:
+class VoteSession:
     """A fresh Z3 context with a purse of resource units that all the queries of one vote share."""
 
-    def __init__(self, purse: int, outer: Session | None = None) -> None:
+    def __init__(self, purse: int, outer: VoteSession | None = None) -> None:
         self.z3 = import_module("z3")  # here, since it takes long to load
         self.context: Context = outer.context if outer else self.z3.Context()
         self.outer, self.purse, self.spent = outer, purse, 0
         # the context's counter, which goes on from query to query
         self.before: int = outer.before if outer else 0
 
-    def ask(self, question: Question, engine: str, units: int) -> Reply:
+    def ask(self, question: VoteQuestion, engine: str, units: int) -> Reply:
         """One query, for at most so many resource units."""
         units = min(units, self.purse - self.spent)
         if units <= 0:
@@ -110,7 +110,7 @@ class Session:
             self.outer.spent += self.spent - already
             self.outer.before = self.before
 
-    def _point(self, question: Question, model: ModelRef) -> dict[str, Exact] | None:
+    def _point(self, question: VoteQuestion, model: ModelRef) -> dict[str, Exact] | None:
         values = {declared.name(): model[declared] for declared in model.decls()}
         try:
             return {
@@ -141,8 +141,8 @@ class Session:
 def vote(
     statement: checker.Statement,
     earlier: Mapping[str, checker.Statement] | None = None,
-    budget: Budget | None = None,
-    asked: Sequence[Question] | None = None,
+    budget: VoteBudget | None = None,
+    asked: Sequence[VoteQuestion] | None = None,
 ) -> Vote:
     """Z3's vote on a statement of the checker: `holds` where every question is unsat, `fails` where
     a model passes exact evaluation.
@@ -157,13 +157,13 @@ def vote(
 def vote_and_model(
     statement: checker.Statement,
     earlier: Mapping[str, checker.Statement] | None = None,
-    budget: Budget | None = None,
-    asked: Sequence[Question] | None = None,
+    budget: VoteBudget | None = None,
+    asked: Sequence[VoteQuestion] | None = None,
 ) -> tuple[Vote, Model | None]:
     """Z3's vote, and the values at which what is shown fails, or else a line before it; None where
     there are none, or where Z3 alone says that nothing exists there.
     """
-    session = Session((budget or Budget()).rlimit)
+    session = VoteSession((budget or VoteBudget()).rlimit)
     asked, notes, open_lines = asked or questions(statement, earlier), [], False
     model: Model | None = None
     for question in asked:
@@ -186,7 +186,7 @@ def vote_and_model(
     return Vote("z3", "holds", "; ".join(dict.fromkeys(notes)), session.spent), None
 
 
-def _failure(session: Session, question: Question, reply: Reply) -> Vote:
+def _failure(session: VoteSession, question: VoteQuestion, reply: Reply) -> Vote:
     """`fails` only for a model at which our own polynomials say the same, exactly."""
     point = reply.point
     if point is None:
@@ -232,7 +232,7 @@ def _failure(session: Session, question: Question, reply: Reply) -> Vote:
 
 
 def _any_value(
-    session: Session, question: Question, denial: Denial, point: dict[str, Exact]
+    session: VoteSession, question: VoteQuestion, denial: Denial, point: dict[str, Exact]
 ) -> str:
     """Whether, at the model's values, some values of the bound variables break the denial."""
     facts: list[Formula] = []
@@ -274,7 +274,7 @@ def negation(formula: Formula) -> Formula:
     return trees.negated(formula, lambda one: atom(-one.poly, OPPOSITE[one.relation]), join)
 
 
-def decide(session: Session, question: Question) -> Reply:
+def decide(session: VoteSession, question: VoteQuestion) -> Reply:
     """The question's answer, by steps that are each sound for the whole question, cheap ones first.
 
     As it stands; with scales set to 1, which loses nothing; branch by branch, or with witnesses
@@ -315,14 +315,14 @@ def decide(session: Session, question: Question) -> Reply:
     return Reply(reply.answer, point, reply.how + with_scales)
 
 
-def _with_integers(session: Session, question: Question) -> Reply:
+def _with_integers(session: VoteSession, question: VoteQuestion) -> Reply:
     if question.integers & question.bound:
         return session.ask(question, "smt", session.purse)
     relaxed, names = (
         replace(_tightened(question), integers=frozenset()),
         [n for n in question.occurring() if n in question.integers],
     )
-    reply = decide(Session(session.purse // 4, session), relaxed)
+    reply = decide(VoteSession(session.purse // 4, session), relaxed)
     if reply.answer == "unsat":
         return Reply("unsat", how=reply.how + " even for reals")
     if reply.point is not None and all(_is_integer(reply.point[name]) for name in names):
@@ -345,7 +345,7 @@ def _is_integer(value: Exact) -> bool:
     return isinstance(value, Fraction) and value.denominator == 1
 
 
-def _tightened(question: Question) -> Question:
+def _tightened(question: VoteQuestion) -> VoteQuestion:
     """p >= 1 in place of p > 0 where p has integer coefficients and integer variables only."""
 
     def change(fact: Atom) -> Formula:
@@ -357,7 +357,7 @@ def _tightened(question: Question) -> Question:
     return changed(question, change)
 
 
-def at_integer(question: Question, name: str, value: int) -> Question:
+def at_integer(question: VoteQuestion, name: str, value: int) -> VoteQuestion:
     """The question with an integer in place of one variable, which no denial binds any more."""
     i = question.names.index(name)
     new = changed(
@@ -371,7 +371,7 @@ def at_integer(question: Question, name: str, value: int) -> Question:
     )
 
 
-def _by_branches(session: Session, question: Question, engine: str) -> Reply:
+def _by_branches(session: VoteSession, question: VoteQuestion, engine: str) -> Reply:
     parts = branches(question.matrix(), MOST_BRANCHES)
     if parts is None or len(parts) < 2:
         return Reply("unknown", how="undecided within the budget")
@@ -387,7 +387,7 @@ def _by_branches(session: Session, question: Question, engine: str) -> Reply:
     return Reply("unsat", how=f"unsat by {engine} in each of {len(parts)} branches")
 
 
-def _with_witnesses(session: Session, question: Question) -> Reply:
+def _with_witnesses(session: VoteSession, question: VoteQuestion) -> Reply:
     """Tries the value 0 for one variable that is to exist, and asks again: unsat then settles
     the whole.
     """

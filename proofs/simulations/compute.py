@@ -18,9 +18,9 @@ from juggleproof.proofs.simulations.figures import (
     HEIGHTS,
     RECORD,
     SPEEDS,
-    Entry,
+    EntryTimes,
     Figures,
-    Frame,
+    FrameCounts,
     Given,
     Onset,
     Still,
@@ -34,11 +34,11 @@ from juggleproof.scenes.part.onsets import (
     ANGLES,
     ENSEMBLES,
     PAPER,
-    Table,
+    OnsetTable,
     jittered,
     table_one,
 )
-from juggleproof.scenes.part.readings import Reading, chosen, recorded
+from juggleproof.scenes.part.readings import TableReading, chosen, recorded
 from juggleproof.scenes.part.setting import Scene
 from juggleproof.statements.store import write_file
 from juggleproof.symbolic import delta_E_sup
@@ -62,7 +62,7 @@ def still_table(setting: Scene) -> Still:
     )
 
 
-def figure_two(reading: Reading, ensembles: int = ENSEMBLES) -> Frame:
+def figure_two(reading: TableReading, ensembles: int = ENSEMBLES) -> FrameCounts:
     """Figure 2: the table moves along itself by 1 mm at 30 Hz."""
     shaken = reading.scene(f_x=30.0, A_x=reading.peak * 1e-3)
     states = frames(shaken, jittered(ensembles, SEED).ravel(), [EARLY, LATE])
@@ -70,7 +70,7 @@ def figure_two(reading: Reading, ensembles: int = ENSEMBLES) -> Frame:
         [[floor(turns + 0.5) % 2 == 0 for turns in one] for one in at]
         for at in (states[:, :, body.THETA] / (pi / 2)).reshape(2, ensembles, ANGLES).tolist()
     )
-    return Frame(
+    return FrameCounts(
         upright=[sum(one) for one in early],
         apart=[sum(map(ne, one, one[1:])) for one in early],
         late=[sum(one) for one in late],
@@ -82,7 +82,7 @@ def settled(onset: float) -> float | None:
     return None if isinf(onset) else round(onset, 2)
 
 
-def onsets(computed: Table) -> list[Onset]:
+def onsets(computed: OnsetTable) -> list[Onset]:
     """The rows of table I."""
     notes = computed.run.notes.reshape(len(PAPER), -1, body.NOTES)
     return [
@@ -101,7 +101,7 @@ def onsets(computed: Table) -> list[Onset]:
     ]
 
 
-def time_to_region(alpha: Fraction, starts: int = STARTS) -> Entry:
+def time_to_region(alpha: Fraction, starts: int = STARTS) -> EntryTimes:
     """Orbits of random states outside R, followed to the impact that brings them into R, against
     t_R of (26): the count of impacts rounded up, with the derived Delta E_sup.
     """
@@ -121,7 +121,7 @@ def time_to_region(alpha: Fraction, starts: int = STARTS) -> Entry:
             x, w = impact(alpha, x, w)
             periods += free + 1
         parts.append(float(struck) / (sqrt(2 * first) * ceil((first - goal) / loss)))
-    return Entry(
+    return EntryTimes(
         alpha=str(alpha),
         starts=len(parts),
         median=round(median(parts), 4),

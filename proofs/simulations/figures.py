@@ -25,7 +25,7 @@ class Still(TypedDict):
     between: list[float]
 
 
-class Frame(TypedDict):
+class FrameCounts(TypedDict):
     """Of each ensemble: upright blocks at 0.8 s, pairs of neighbours, a degree apart, of which one
     is upright then, and upright blocks at 3 s.
     """
@@ -53,7 +53,7 @@ class Onset(TypedDict):
     rises: int
 
 
-class Entry(TypedDict):
+class EntryTimes(TypedDict):
     """Of starts outside R: how many, and the time until R in parts of t_R, median and greatest."""
 
     alpha: str
@@ -82,9 +82,9 @@ class Figures(TypedDict):
     ensembles: int
     reading: Given
     still: Still
-    frame: Frame
+    frame: FrameCounts
     table: list[Onset]
-    region: list[Entry]
+    region: list[EntryTimes]
 
 
 @cache

@@ -34,7 +34,7 @@ from juggleproof.symbolic.mechanics import period
 
 
 @dataclass(frozen=True)
-class Piece:
+class PieceText:
     """What the map does on one region: an image for each coordinate."""
 
     region: str
@@ -42,7 +42,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Contraction:
+class ContractionText:
     """A weighted sup norm around the point that the map contracts by a rate, within a radius (times
     the weights).
     """
@@ -53,7 +53,7 @@ class Contraction:
 
 
 @dataclass(frozen=True)
-class Attraction:
+class AttractionText:
     """Every orbit in the space reaches the last stage and from there on approaches the point.
 
     Outside the stages the rank falls by 1 a step; each stage leads to the next, the last to itself;
@@ -65,12 +65,12 @@ class Attraction:
     given: str
     state: tuple[str, ...]
     space: str
-    pieces: tuple[Piece, ...]
+    pieces: tuple[PieceText, ...]
     point: tuple[tuple[str, str], ...]
     root: tuple[str, str]
     rank: str
     stages: tuple[tuple[str, str], ...]
-    contraction: Contraction
+    contraction: ContractionText
     size: str
 
     @property
@@ -80,12 +80,12 @@ class Attraction:
 
 
 @cache
-def ball() -> Attraction:
+def ball() -> AttractionText:
     """For 0 < alpha < 1/3 every orbit of the ball's map on x >= 0 converges to e_1."""
     names = ("low_impact", "corner", "trap", "near_trap")
     stages = (*chosen.TO_THE_POINT.stages[:-1], chosen.NEAR_IN_TRAP)
     (root,) = chosen.TO_THE_POINT.roots
-    return Attraction(
+    return AttractionText(
         parameters=("alpha",),
         given=f"0 < alpha and alpha < {threshold()}",
         state=("x", "w"),
@@ -100,12 +100,12 @@ def ball() -> Attraction:
     )
 
 
-def _pieces(setting: Setting) -> tuple[Piece, ...]:
-    return tuple(Piece(str(guard), tuple(map(str, images))) for guard, images in setting.pieces)
+def _pieces(setting: Setting) -> tuple[PieceText, ...]:
+    return tuple(PieceText(str(guard), tuple(map(str, images))) for guard, images in setting.pieces)
 
 
-def _told(contraction: chosen.Contraction) -> Contraction:
-    return Contraction(
+def _told(contraction: chosen.Contraction) -> ContractionText:
+    return ContractionText(
         tuple(map(str, contraction.weights)), str(contraction.rate), str(contraction.radius)
     )
 
@@ -164,7 +164,7 @@ class Physical:
     given: str
     state: tuple[str, ...]
     space: str
-    pieces: tuple[Piece, ...]
+    pieces: tuple[PieceText, ...]
     point: tuple[str, ...]
     scaling: tuple[str, ...]
     units: tuple[str, ...]
@@ -198,7 +198,7 @@ Lets = Sequence[tuple[str, str]]
 
 
 @dataclass(frozen=True)
-class Scope:
+class TextScope:
     """What a definition may speak of: parameters, the two coordinates of a state, and names for
     terms.
     """
@@ -249,23 +249,23 @@ def coq_value(text: str) -> str:
     return coq_term(text)
 
 
-def predicate(scope: Scope, name: str, text: str) -> str:
+def predicate(scope: TextScope, name: str, text: str) -> str:
     """A set of states."""
     return scope.defined(name, "Prop", coq_formula(text), text)
 
 
-def number(scope: Scope, name: str, text: str) -> str:
+def number(scope: TextScope, name: str, text: str) -> str:
     """A number that depends on parameters and state."""
     return scope.defined(name, "R", coq_value(text), text)
 
 
-def pair(scope: Scope, name: str, texts: Sequence[str]) -> str:
+def pair(scope: TextScope, name: str, texts: Sequence[str]) -> str:
     """A state, or the image of a state."""
     first, second = texts
     return scope.defined(name, "R * R", f"({coq_term(first)}, {coq_term(second)})", *texts)
 
 
-def piecewise(scope: Scope, name: str, pieces: Sequence[Piece]) -> str:
+def piecewise(scope: TextScope, name: str, pieces: Sequence[PieceText]) -> str:
     """A map of two pieces: that of the first where its strict inequality holds, that of the second
     elsewhere.
     """
@@ -287,7 +287,11 @@ STATEMENTS = Path(__file__).resolve().parents[1] / "coq" / "theorem" / "Statemen
 
 
 def statements(
-    theorem: Attraction, near: Contraction, other: Periodic, physical: Physical, boundary: str
+    theorem: AttractionText,
+    near: ContractionText,
+    other: Periodic,
+    physical: Physical,
+    boundary: str,
 ) -> str:
     """The whole of Statements.v."""
     parts = [
@@ -311,11 +315,13 @@ def current() -> str:
     )
 
 
-def _normal_form(theorem: Attraction, near: Contraction, other: Periodic, boundary: str) -> str:
+def _normal_form(
+    theorem: AttractionText, near: ContractionText, other: Periodic, boundary: str
+) -> str:
     name, under = theorem.root
-    plain = Scope(theorem.parameters, theorem.state)
-    scope = Scope(theorem.parameters, theorem.state, (*theorem.point, (name, f"sqrt({under})")))
-    fixed = Scope(theorem.parameters)
+    plain = TextScope(theorem.parameters, theorem.state)
+    scope = TextScope(theorem.parameters, theorem.state, (*theorem.point, (name, f"sqrt({under})")))
+    fixed = TextScope(theorem.parameters)
     rows = [
         (
             "(* ---------------------------------------------------------------- the map in normal"
@@ -337,7 +343,7 @@ def _normal_form(theorem: Attraction, near: Contraction, other: Periodic, bounda
         _stage_list(scope, theorem),
         "",
         pair(fixed, "weights", theorem.contraction.weights),
-        number(Scope(theorem.parameters), "rate", theorem.contraction.rate),
+        number(TextScope(theorem.parameters), "rate", theorem.contraction.rate),
         number(fixed, "radius", theorem.contraction.radius),
         number(fixed, "size", theorem.size),
         "",
@@ -353,13 +359,13 @@ def _normal_form(theorem: Attraction, near: Contraction, other: Periodic, bounda
     return "\n".join(rows)
 
 
-def _stage_list(scope: Scope, theorem: Attraction) -> str:
+def _stage_list(scope: TextScope, theorem: AttractionText) -> str:
     applied = [scope.applied(stage, text).strip("()") for stage, text in theorem.stages]
     return f"Definition stages (alpha : R) : list (R * R -> Prop) := [{'; '.join(applied)}]."
 
 
 def _physical(physical: Physical) -> str:
-    scope, fixed = Scope(physical.parameters, physical.state), Scope(physical.parameters)
+    scope, fixed = TextScope(physical.parameters, physical.state), TextScope(physical.parameters)
     rows = [
         (
             "(* ---------------------------------------------------------------- the map in"
@@ -378,9 +384,9 @@ def _physical(physical: Physical) -> str:
     return "\n".join(rows)
 
 
-def _theorems(theorem: Attraction, other: Periodic, physical: Physical) -> str:
+def _theorems(theorem: AttractionText, other: Periodic, physical: Physical) -> str:
     name, under = theorem.root
-    scope = Scope(theorem.parameters, theorem.state, (*theorem.point, (name, f"sqrt({under})")))
+    scope = TextScope(theorem.parameters, theorem.state, (*theorem.point, (name, f"sqrt({under})")))
     stages = [scope.applied(stage, text).strip("()") for stage, text in theorem.stages]
     last = len(stages) - 1
     leads = [

@@ -21,11 +21,18 @@ from juggleproof.proofs.theorem.definition import (
     holds_at,
     value_of,
 )
-from juggleproof.proofs.theorem.orbits import MAX_BITS, MAX_IMPACTS, Move, State, a_state, moves
+from juggleproof.proofs.theorem.orbits import (
+    MAX_BITS,
+    MAX_IMPACTS,
+    ExactState,
+    OrbitMove,
+    a_state,
+    moves,
+)
 from juggleproof.proofs.theorem.quantities import (
     PHASES,
-    Entry,
     IntoRegion,
+    RegionEntry,
     attracted,
     energies,
     into_core,
@@ -66,7 +73,7 @@ MEASURES: dict[
     str,
     tuple[
         Callable[[IntoRegion, str, str], Fraction | int],
-        Callable[[IntoRegion], tuple[Fraction | int, Entry]],
+        Callable[[IntoRegion], tuple[Fraction | int, RegionEntry]],
     ],
 ] = {
     "impacts": (counted, lambda row: (row.impacts.impacts, row.impacts)),
@@ -95,7 +102,7 @@ def false_for(measure: str, loss: str, rounding: str) -> tuple[str, str]:
 
 def violations(
     rows: Sequence[IntoRegion], measure: str, loss: str, rounding: str
-) -> list[tuple[IntoRegion, Fraction | int, Entry]]:
+) -> list[tuple[IntoRegion, Fraction | int, RegionEntry]]:
     """The rows whose worst orbit takes more than the reading allows."""
     allowed, worst = MEASURES[measure]
     return [(row, *worst(row)) for row in rows if worst(row)[0] > allowed(row, loss, rounding)]
@@ -214,7 +221,7 @@ def read_alpha(text: str) -> Fraction:
     return alpha
 
 
-def read_state(alpha: Fraction, text: str) -> State:
+def read_state(alpha: Fraction, text: str) -> ExactState:
     """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the
     normal form.  Raises ClaimError for other components, r <= 0, g <= 0 or beta < 0.
     """
@@ -272,7 +279,7 @@ def _confirm(*ids: str) -> None:
             raise ClaimError(f"{DEFAULT}: {one.id} is not certified; run `juggleproof certify`")
 
 
-def _certified(state: State) -> None:
+def _certified(state: ExactState) -> None:
     claim = "theorem" if quantities.attracted(state.alpha) else "theorem-one-third"
     _confirm(claim, "theorem-sharper", "theorem-closed-form")
     plain, sharper, best = (
@@ -301,7 +308,7 @@ def _certified(state: State) -> None:
     print()
 
 
-def _orbit_to_the_trap(state: State) -> None:
+def _orbit_to_the_trap(state: ExactState) -> None:
     path = _until(state, MAX_IMPACTS, AFTER)
     entered = next((count for count, move in enumerate(path) if move.state.is_in(TRAP)), None)
     print("orbit")
@@ -326,9 +333,9 @@ def _orbit_to_the_trap(state: State) -> None:
     _after_the_certified_number(at, best.core, state.alpha)
 
 
-def _until(state: State, impacts: int, more: int = 0) -> list[Move]:
+def _until(state: ExactState, impacts: int, more: int = 0) -> list[OrbitMove]:
     """The moves of the orbit up to the trap, and some more."""
-    orbit: list[Move] = []
+    orbit: list[OrbitMove] = []
     left = -1
     for move in moves(state, impacts):
         orbit.append(move)
@@ -338,7 +345,7 @@ def _until(state: State, impacts: int, more: int = 0) -> list[Move]:
     return orbit
 
 
-def _lines(orbit: Sequence[Move], turn: int | None, note: str = "") -> None:
+def _lines(orbit: Sequence[OrbitMove], turn: int | None, note: str = "") -> None:
     """The first moves, those around the turn, and a line for what is left out between them."""
     print(f"  {'n':>20} {'x':>20} {'w':>20} {'distance to e_1':>20}  then")
     last = len(orbit) if turn is None else turn
@@ -351,7 +358,7 @@ def _lines(orbit: Sequence[Move], turn: int | None, note: str = "") -> None:
             print(f"  {'...':>20} {len(gap)} moves, {shown(periods)} periods, are left out")
 
 
-def _line(move: Move, note: str) -> None:
+def _line(move: OrbitMove, note: str) -> None:
     then = (
         "impact"
         if move.impact
@@ -363,7 +370,7 @@ def _line(move: Move, note: str) -> None:
     )
 
 
-def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None:
+def _after_the_certified_number(entry: OrbitMove, core: int, alpha: Fraction) -> None:
     """Actual distances after the certified number of periods, by the closed form from the entry in
     the trap on.
     """
@@ -385,12 +392,12 @@ def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None
         )
 
 
-def later(state: State, periods: int) -> State:
+def later(state: ExactState, periods: int) -> ExactState:
     """The state of the trap so many periods later, by the closed form."""
-    return State(state.alpha, *in_the_trap(state.alpha, state.x, state.w, periods))
+    return ExactState(state.alpha, *in_the_trap(state.alpha, state.x, state.w, periods))
 
 
-def _not_certified(state: State) -> None:
+def _not_certified(state: ExactState) -> None:
     _confirm("theorem", "theorem-one-third", "theorem-nearby")
     other = state.moved(OTHER)
     print(
@@ -415,9 +422,9 @@ def _not_certified(state: State) -> None:
     print(f"  {end}")
 
 
-def follow(state: State) -> tuple[list[Move], int | None, str]:
+def follow(state: ExactState) -> tuple[list[OrbitMove], int | None, str]:
     """The orbit until its end is known, where that is, and what is known of it."""
-    path: list[Move] = []
+    path: list[OrbitMove] = []
     seen: dict[tuple[Fraction, Fraction], int] = {}
     for move in moves(state, FOLLOWED):
         here = move.state
@@ -453,7 +460,7 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
     )
 
 
-def _known_as(state: State) -> str:
+def _known_as(state: ExactState) -> str:
     """Which fixed point of the paper has its impact at this state."""
     K = state.w * (1 + state.alpha) / 2
     there = state.moved(derived_vector("normal_impact_fixed_point"), K=K)

@@ -84,7 +84,7 @@ def exact() -> ModuleType:
 
 
 @dataclass(frozen=True)
-class State:
+class ExactState:
     """A state of the normal form, with the restitution: exact numbers."""
 
     alpha: Fraction
@@ -104,10 +104,10 @@ class State:
         """Whether the state belongs to the region."""
         return holds_at(region, self.point())
 
-    def moved(self, image: Vector, **more: Fraction | int) -> State:
+    def moved(self, image: Vector, **more: Fraction | int) -> ExactState:
         """The state that a derived vector gives here."""
         there = [value_of(term(entry), self.point(**more)) for entry in image.entries]
-        return State(self.alpha, there[0], there[1])
+        return ExactState(self.alpha, there[0], there[1])
 
     @property
     def strikes(self) -> bool:
@@ -135,45 +135,45 @@ class State:
         )
 
 
-def a_state(alpha: Fraction, x: Fraction, w: Fraction) -> State:
+def a_state(alpha: Fraction, x: Fraction, w: Fraction) -> ExactState:
     """The state, which has to be one of H."""
-    found = State(alpha, x, w)
+    found = ExactState(alpha, x, w)
     if not found.is_in(SPACE):
         raise ClaimError(f"x = {x} is below the table; a state has x >= 0")
     return found
 
 
-def flight_length(state: State) -> int:
+def flight_length(state: ExactState) -> int:
     """How many periods without an impact follow from this state on."""
     return int(exact().flight_length(state.x, state.w))
 
 
-def flown(state: State, periods: int) -> State:
+def flown(state: ExactState, periods: int) -> ExactState:
     """The state after so many periods without an impact."""
-    return State(state.alpha, *exact().flight(state.x, state.w, periods))
+    return ExactState(state.alpha, *exact().flight(state.x, state.w, periods))
 
 
-def struck(state: State) -> State:
+def struck(state: ExactState) -> ExactState:
     """The state after a period with an impact."""
-    return State(state.alpha, *exact().impact(state.alpha, state.x, state.w))
+    return ExactState(state.alpha, *exact().impact(state.alpha, state.x, state.w))
 
 
-def step(state: State) -> State:
+def step(state: ExactState) -> ExactState:
     """f: the state after one period."""
     return struck(state) if state.strikes else flown(state, 1)
 
 
 @dataclass(frozen=True)
-class Move:
+class OrbitMove:
     """From the period `start` on: a flight of so many periods, or an impact, which takes one."""
 
     start: int
-    state: State
+    state: ExactState
     periods: int
     impact: bool
 
 
-def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
+def moves(state: ExactState, impacts: int = MAX_IMPACTS) -> Iterator[OrbitMove]:
     """The orbit, flights at once, up to so many impacts or until its numbers are too long; at its
     end comes an impact.
     """
@@ -181,9 +181,9 @@ def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
     for _ in range(impacts):
         periods = flight_length(state)
         if periods:
-            yield Move(count, state, periods, False)
+            yield OrbitMove(count, state, periods, False)
             count, state = count + periods, flown(state, periods)
-        yield Move(count, state, 1, True)
+        yield OrbitMove(count, state, 1, True)
         count, state = count + 1, struck(state)
         if state.size > MAX_BITS:
             return

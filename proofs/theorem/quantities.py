@@ -35,8 +35,8 @@ from juggleproof.proofs.theorem.orbits import (
     TO_LITTLE_ENERGY,
     TRUE_LOSS,
     WITH_W,
-    Move,
-    State,
+    ExactState,
+    OrbitMove,
     flown,
     moves,
 )
@@ -57,7 +57,7 @@ TO_TRAP, TO_CORE = (
 
 
 @dataclass(frozen=True)
-class Bound:
+class StepBound:
     """Counts of steps after which the state is certainly in the trap, and in the trap within 1 of
     e_1.
     """
@@ -77,12 +77,12 @@ class Sharper:
     then: int
 
     @property
-    def bound(self) -> Bound:
+    def bound(self) -> StepBound:
         """Both parts together, with the steps from stage to stage."""
-        return Bound(self.to_little + self.then + TO_TRAP, self.to_little + self.then + TO_CORE)
+        return StepBound(self.to_little + self.then + TO_TRAP, self.to_little + self.then + TO_CORE)
 
 
-def steps_by_rank(rank: Term, state: State, **more: int) -> int:
+def steps_by_rank(rank: Term, state: ExactState, **more: int) -> int:
     """The least integer that is not below the rank, which is linear in u, at the state."""
     constant, factor = linear_in(rank, "u", state.point(**more))
     return ceiling(constant, factor, state.speed_squared)
@@ -93,27 +93,27 @@ def attracted(alpha: Fraction) -> bool:
     return holds_at(BELOW_A_THIRD, {"alpha": alpha})
 
 
-def converges(state: State) -> bool:
+def converges(state: ExactState) -> bool:
     """Whether a descent to e_1 is certified from this state: for alpha < 1/3, and for alpha = 1/3
     from all states but three.
     """
     return attracted(state.alpha) or holds_at(THIRD, state.point()) and state.is_in(OTHERS.space)
 
 
-def is_exception(state: State) -> bool:
+def is_exception(state: ExactState) -> bool:
     """Whether alpha = 1/3 and the state is one of the three that do not tend to e_1."""
     return holds_at(THIRD, state.point()) and any(
         (state.x, state.w) == (e.entries[0], e.entries[1]) for e in EXCEPTIONS
     )
 
 
-def by_the_theorem(state: State) -> Bound:
+def by_the_theorem(state: ExactState) -> StepBound:
     """The counts that the theorem's own rank tells."""
     steps = steps_by_rank(TO_THE_POINT.rank, state)
-    return Bound(steps + TO_TRAP, steps + TO_CORE)
+    return StepBound(steps + TO_TRAP, steps + TO_CORE)
 
 
-def via_little_energy(state: State, W: int) -> Sharper:
+def via_little_energy(state: ExactState, W: int) -> Sharper:
     """The counts by way of u <= W - 1, for an integer W that the claim allows."""
     here = state.point(W=W)
     if not all(holds_at(allowed, here) for allowed in WITH_W.positive):
@@ -125,7 +125,7 @@ def via_little_energy(state: State, W: int) -> Sharper:
     return Sharper(W, to_little, ceiling(value_of(RANK_THERE, here), Fraction(0), Fraction(0)))
 
 
-def best_way(state: State) -> Sharper:
+def best_way(state: ExactState) -> Sharper:
     """The integer W with the least sum of both ranks; the sum is convex in W, so that its first
     rise tells.
     """
@@ -144,10 +144,10 @@ def best_way(state: State) -> Sharper:
     return via_little_energy(state, least_integer(rises, first))
 
 
-def certified(state: State) -> Bound:
+def certified(state: ExactState) -> StepBound:
     """The smaller of both counts."""
     one, other = by_the_theorem(state), best_way(state).bound
-    return Bound(min(one.trap, other.trap), min(one.core, other.core))
+    return StepBound(min(one.trap, other.trap), min(one.core, other.core))
 
 
 def by_the_rate(alpha: Fraction, periods: int) -> Fraction:
@@ -160,7 +160,7 @@ def by_the_closed_form(alpha: Fraction, periods: int) -> Fraction:
     return value_of(GROWTH, {"n": Fraction(periods)}) * value_of(RATE, {"alpha": alpha}) ** periods
 
 
-def is_nearby(state: State) -> bool:
+def is_nearby(state: ExactState) -> bool:
     """Whether the state belongs to the neighbourhood that e_1 attracts for every alpha < 1."""
     return state.is_in(NEARBY.on)
 
@@ -177,13 +177,13 @@ PHASES = 16
 
 
 @dataclass(frozen=True)
-class Entry:
+class RegionEntry:
     """When an orbit enters R: after so many impacts, at this time, seen at this sample."""
 
     impacts: int
     time: Fraction
     sample: int
-    start: State
+    start: ExactState
 
 
 def root_square(alpha: Fraction) -> Fraction:
@@ -191,43 +191,43 @@ def root_square(alpha: Fraction) -> Fraction:
     return value_of(dict(TO_THE_REGION.roots)["s"], {"alpha": alpha})
 
 
-def first_states(alpha: Fraction, u: Fraction) -> list[State]:
+def first_states(alpha: Fraction, u: Fraction) -> list[ExactState]:
     """The states of the set: at the impact by energy and closing speed, then as many periods back
     as there are.
     """
     found = []
     for j in range(1, PHASES + 1):
         w = u - 1 + Fraction(2 * j, PHASES)
-        at_impact = State(alpha, (u**2 - (w - 1) ** 2) / 4, w)
+        at_impact = ExactState(alpha, (u**2 - (w - 1) ** 2) / 4, w)
 
-        def leaves(k: int, at_impact: State = at_impact) -> bool:
+        def leaves(k: int, at_impact: ExactState = at_impact) -> bool:
             return not flown(at_impact, -k - 1).is_in(SPACE)
 
         found.append(flown(at_impact, -least_integer(leaves)))
     return found
 
 
-def in_region(state: State) -> bool:
+def in_region(state: ExactState) -> bool:
     """Whether the state belongs to R: its energy is at most the level."""
     return state.speed_squared <= 2 * value_of(LEVEL_OF_R, state.point())
 
 
-def entry_into_region(start: State) -> Entry:
+def entry_into_region(start: ExactState) -> RegionEntry:
     """Where the orbit of a state outside R enters it."""
     impacts, last = 0, None
     for move in moves(start):
         if last is not None and in_region(move.state):
-            return Entry(impacts, _time_of_impact(last), move.start, start)
+            return RegionEntry(impacts, _time_of_impact(last), move.start, start)
         if move.impact:
             impacts, last = impacts + 1, move
     raise ClaimError("the orbit is too long to be followed")
 
 
-def _time_of_impact(move: Move) -> Fraction:
+def _time_of_impact(move: OrbitMove) -> Fraction:
     return move.start + value_of(derived("normal_collision_time"), move.state.point())
 
 
-def entry_into_core(start: State) -> int:
+def entry_into_core(start: ExactState) -> int:
     """The first sample in the trap within 1 of e_1."""
     return next(move.start for move in moves(start) if move.state.is_in(CORE))
 
@@ -252,7 +252,7 @@ def worst_flight(u: Fraction) -> Fraction:
     return value_of(worst_wait, {"u": u, "g": Fraction(1)}) / period
 
 
-def periods_to_region(state: State) -> int:
+def periods_to_region(state: ExactState) -> int:
     """The number of periods that `theorem-region` tells: the least integer not below its rank, in
     which s and u are roots.
     """
@@ -286,9 +286,9 @@ class IntoRegion:
     true: tuple[int, int]
     printed: tuple[int, int]
     flight: Fraction
-    impacts: Entry
-    time: Entry
-    sample: Entry
+    impacts: RegionEntry
+    time: RegionEntry
+    sample: RegionEntry
     ours: int
 
 

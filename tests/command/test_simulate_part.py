@@ -22,8 +22,8 @@ import pytest
 from juggleproof.command import simulate_part
 from juggleproof.command.main import run
 from juggleproof.scenes.part import scene
-from juggleproof.scenes.part.onsets import PAPER, Row, discrepancies
-from juggleproof.scenes.part.readings import STATED, Task, chosen, read, recorded
+from juggleproof.scenes.part.onsets import PAPER, OnsetRow, discrepancies
+from juggleproof.scenes.part.readings import STATED, SimulatedReading, chosen, read, recorded
 from juggleproof.scenes.part.resting import between, orientation
 from tests.command.running import Done
 
@@ -178,8 +178,12 @@ def test_the_search_of_readings_is_written_holds(
 ) -> None:
     """All three stages, each cut to two readings and 0.1 s."""
 
-    def cut(tasks: Callable[..., list[Task]], seed: int) -> Callable[..., list[Task]]:
-        return lambda *done: [Task(*task[:2], 1, seed, 0.1) for task in tasks(*done)[:2]]
+    def cut(
+        tasks: Callable[..., list[SimulatedReading]], seed: int
+    ) -> Callable[..., list[SimulatedReading]]:
+        return lambda *done: [
+            SimulatedReading(*task[:2], 1, seed, 0.1) for task in tasks(*done)[:2]
+        ]
 
     for seed, name in enumerate(("screened", "nearer", "finals")):
         monkeypatch.setattr(simulate_part, name, cut(getattr(simulate_part, name), seed))
@@ -224,8 +228,8 @@ def test_phase_turns_both_axes_holds(
     assert f"phases at the start {told}, in degrees chosen an option of this run" in output
 
 
-def row(paper: float | None, onsets: list[float], chaotic: tuple[bool, ...]) -> Row:
-    return Row(15.0, 2e-3, paper, np.array(onsets), chaotic, 12.0)
+def row(paper: float | None, onsets: list[float], chaotic: tuple[bool, ...]) -> OnsetRow:
+    return OnsetRow(15.0, 2e-3, paper, np.array(onsets), chaotic, 12.0)
 
 
 def test_difference_from_the_paper_is_told_holds() -> None:

@@ -15,7 +15,7 @@ from juggleproof.judging.forms import always, speaks_of_range
 from juggleproof.judging.judge import Judge, judge
 from juggleproof.judging.judgement import Resources, Sharp
 from juggleproof.judging.searches.range_search import line_text, search_sharp_range, text_of_range
-from juggleproof.search.ranges import Line
+from juggleproof.search.ranges import CutDomain
 from juggleproof.statements.language import (
     ClaimError,
     Roles,
@@ -106,7 +106,7 @@ def test_end_points_are_told_under_their_names_in_the_statement():
     poly = 10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1
     numbers = (("c1", poly, Fraction(0), Fraction(1, 2)), ("c2", poly, Fraction(1, 2), Fraction(1)))
     assert line_text(
-        Line((second,), (False, False, True)), "alpha", numbers, (("0", "<"), ("1", "<"))
+        CutDomain((second,), (False, False, True)), "alpha", numbers, (("0", "<"), ("1", "<"))
     ).startswith("c2 < alpha < 1; c2 = 0.")
 
 

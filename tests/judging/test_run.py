@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.judging.checked import Reading, shares
+from juggleproof.judging.checked import StoreReading, shares
 from juggleproof.judging.claims import Claim, claims_in
 from juggleproof.judging.judgement import Judgement, Resources
 from juggleproof.judging.run import (
@@ -148,7 +148,7 @@ def folder_of(place: Path, statements: dict[str, str], certificates: dict[str, o
 
 
 def read_by(folder: Path, jobs: int) -> list[tuple[str, str, str]]:
-    with Reading(folder, jobs) as reading:
+    with StoreReading(folder, jobs) as reading:
         reading.outcomes()
     return reading.results
 

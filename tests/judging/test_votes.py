@@ -17,7 +17,7 @@ from juggleproof.judging.searches import claim_search
 from juggleproof.papers.paper import opened
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT
-from juggleproof.statements.vote import Budget
+from juggleproof.statements.vote import VoteBudget
 from tests.command.running import run as command
 
 CHOSEN = ("eq-37", "s2.2.1-B1")
@@ -92,7 +92,7 @@ def test_revote_asks_again_and_changes_no_byte_holds(
 def test_rejects_votes_with_another_budget(
     tmp_path: Path, asked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judge, "Budget", lambda: Budget(boxes=Budget().boxes - 1))
+    monkeypatch.setattr(judge, "Budget", lambda: VoteBudget(boxes=VoteBudget().boxes - 1))
     fresh(tmp_path)
     assert {name.split("/")[0] for name in asked} == {*CHOSEN}
 

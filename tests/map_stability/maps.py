@@ -11,7 +11,7 @@ import pytest
 
 from juggleproof.map_stability import limits
 from juggleproof.map_stability.attracting import Strategy
-from juggleproof.map_stability.certifying import Candidate, Proof
+from juggleproof.map_stability.certifying import Candidate, ProvedStatements
 from juggleproof.map_stability.functions.candidates import Setting
 from juggleproof.map_stability.maps import Map, read_rows
 from juggleproof.map_stability.points import fixed_points
@@ -44,9 +44,9 @@ def at_point(system: Map, *terms: str, inside: bool = False) -> Setting:
     return setting_of(system, fixed, system.domain)
 
 
-def of_its_map(setting: Setting) -> Proof:
+def of_its_map(setting: Setting) -> ProvedStatements:
     """A proof that begins with the map."""
-    proof = Proof()
+    proof = ProvedStatements()
     assert proof.add(setting.system.rule(f"{setting.system.name}/map")), proof.fault
     return proof
 

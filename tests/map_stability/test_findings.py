@@ -15,8 +15,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 from juggleproof import MapRule, stability
-from juggleproof.judging.conclusions import Lines
-from juggleproof.map_stability.findings import Finding, Meaning, finding_of
+from juggleproof.judging.conclusions import RuleLines
+from juggleproof.map_stability.findings import MapFinding, ParameterMeaning, finding_of
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.search import Outcome, search_stability
 from juggleproof.map_stability.terms import holds
@@ -85,7 +85,7 @@ def corners(system: Map) -> Iterator[dict[str, Fraction]]:
             yield parameters
 
 
-def condition_in(finding: Finding) -> tuple[str, bool] | None:
+def condition_in(finding: MapFinding) -> tuple[str, bool] | None:
     """For which parameters the sentence says that the point attracts every state, and whether it
     says for these alone; nothing where it does not say that.
     """
@@ -101,7 +101,7 @@ def whole_domains(outcome: Outcome, system: Map) -> list[str]:
     texts = {rule.name: rule.text() for rule in outcome.proof.rules}
     found = []
     for name in texts:
-        lines, kind = Lines(name, texts), outcome.proof.known[name].kind
+        lines, kind = RuleLines(name, texts), outcome.proof.known[name].kind
         if kind in ("attracts", "into"):
             lines = lines.named("descent")
         elif kind not in ("lyapunov", "contracts") or lines.one("on") not in (
@@ -241,7 +241,7 @@ def test_rejects_a_claim_for_a_domain_of_which_a_part_is_certified() -> None:
         stability(MapRule("s1", rows))
 
 
-def forged(outcome: Outcome, system: Map, **rows: str) -> Finding | None:
+def forged(outcome: Outcome, system: Map, **rows: str) -> MapFinding | None:
     """What is said where the statements have other lines, as if a search had made them so."""
     rules = [
         MapRule(rule.name, tuple((key, rows.get(key, text)) for key, text in rule.rows))
@@ -265,7 +265,9 @@ def test_a_sentence_follows_the_statements_and_nothing_else_holds() -> None:
     other = forged(outcome, system, point="1/7")
     assert other and other.sentence == f"1/7 {EVERY}"
     assert forged(outcome, system, space="x > -5") is None
-    doubt = finding_of(system, outcome.proof.rules, outcome.proof.known, Meaning("here", False))
+    doubt = finding_of(
+        system, outcome.proof.rules, outcome.proof.known, ParameterMeaning("here", False)
+    )
     assert doubt and (doubt.verdict, doubt.sentence) == ("in part", f"0 {EVERY}; here")
 
 

@@ -12,7 +12,7 @@ import sympy
 
 from juggleproof.algebra.polynomials import Packing, Ring
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Proof
+from juggleproof.map_stability.certifying import ProvedStatements
 from juggleproof.map_stability.domains import narrowed
 from juggleproof.map_stability.functions.candidates import Setting
 from juggleproof.map_stability.functions.chetaev import cone_functions
@@ -147,7 +147,7 @@ def test_factors_of_low_degree_have_these_zeros_holds(text: str) -> None:
 
 def test_rejects_premises_beyond_the_work_that_is_granted() -> None:
     rule = map_of("state x\nspace 0 <= x and x <= 1\npiece x/2").rule("m/map")
-    proof = Proof(most=0)
+    proof = ProvedStatements(most=0)
     assert not proof.add(rule) and proof.fault.startswith("no proof of the premise")
     proof.grant(10_000)
     assert proof.add(rule)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof import MapRule
-from juggleproof.map_stability.certifying import Proof
+from juggleproof.map_stability.certifying import ProvedStatements
 from juggleproof.map_stability.search import search_stability
 from tests.map_stability.maps import assert_settled, map_of, marked, name_of
 
@@ -59,7 +59,7 @@ def test_rejects_a_box_function_with_a_line_that_claims_more() -> None:
     assert found.finding.sentence == f"(2*p - 1, 2*p - 1) {STABLE}"
     the_map, lyapunov = found.proof.rules
     assert len([one for one in lyapunov.rows if one[0] == "value"]) == 4
-    proof = Proof()
+    proof = ProvedStatements()
     assert proof.add(the_map)
     assert proof.add(lyapunov, (1,), 45_000)
     proof.keep(1)
@@ -77,6 +77,6 @@ def test_rejects_a_growth_rate_that_is_too_large() -> None:
     found = search_stability(map_of(SPIRAL.format(1)))
     the_map, unstable = found.proof.rules
     for row in (("rate", "3"), ("domain", "1/2 < b and b < 2"), ("upper", "1/100")):
-        proof = Proof()
+        proof = ProvedStatements()
         assert proof.add(the_map)
         assert not proof.add(weaker(unstable, row), (1, 2), 100_000)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from juggleproof.map_stability.maps import Map
-from juggleproof.map_stability.points_as_parameters import Renamed, by_its_point, has_one_point
+from juggleproof.map_stability.points_as_parameters import MapWithPoint, by_its_point, has_one_point
 from juggleproof.map_stability.search import of_several, search_stability
 from tests.map_stability.maps import map_of
 
@@ -45,7 +45,7 @@ FALSE = {
 def test_rejects_a_point_that_some_values_have_twice_or_not_at_all(name: str) -> None:
     term, domain = FALSE[name]
     renamed = replace(MAPS["root"], parameters=("e",), domain=domain, point=("e",))
-    assert not has_one_point(MAPS["root"], Renamed(renamed, "a", term))
+    assert not has_one_point(MAPS["root"], MapWithPoint(renamed, "a", term))
 
 
 def test_what_samples_alone_say_of_the_point_is_said_to_rest_on_them_holds(

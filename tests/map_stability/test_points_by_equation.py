@@ -11,7 +11,7 @@ import sympy
 from juggleproof.map_stability.functions.contracting_boxes import beside
 from juggleproof.map_stability.maps import HIGH
 from juggleproof.map_stability.points import fixed_points
-from juggleproof.map_stability.points_as_parameters import Renamed
+from juggleproof.map_stability.points_as_parameters import MapWithPoint
 from juggleproof.map_stability.points_by_equation import WithEquation, by_an_equation, has_a_zero
 from juggleproof.map_stability.samples import region
 from juggleproof.map_stability.search import search_stability
@@ -54,7 +54,7 @@ def test_coordinates_are_terms_in_one_of_them_holds() -> None:
 
 def test_a_parameter_that_the_equation_is_linear_in_makes_room_holds() -> None:
     found = by_an_equation(TOGGLE)
-    assert isinstance(found, Renamed)
+    assert isinstance(found, MapWithPoint)
     assert (found.term, found.system.point) == ("e*(e^2 + 1)", ("e", "e"))
 
 

@@ -12,7 +12,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import EFFORTS, Proof
+from juggleproof.map_stability.certifying import EFFORTS, ProvedStatements
 from juggleproof.map_stability.failing import is_fixed
 from juggleproof.map_stability.points import as_point
 from juggleproof.map_stability.refuting import instability_rules
@@ -121,7 +121,7 @@ def test_rejects_a_point_that_is_not_fixed() -> None:
 
 def test_a_false_premise_is_not_sought_for_long_holds() -> None:
     text = "statement a/a\nforall x y\ngiven x > 0 and y > 0\nshow x^3 + y^3 > 2*x*y"
-    proof = Proof()
+    proof = ProvedStatements()
     assert (
         proof.proof_of(checker.read_statements(text)["a/a"], EFFORTS, limits.PREMISE_WORK) is None
     )
@@ -133,7 +133,7 @@ def test_the_budget_is_named_where_it_ended_the_search_holds() -> None:
     text = "statement a/a\nforall x y\nshow x^4*y^2 + x^2*y^4 + 1 >= 3*x^2*y^2"
     premise, said = checker.read_statements(text)["a/a"], []
     for budget in (100, 10_000):
-        proof = Proof(open=("lyapunov", "falls-1-1", premise))
+        proof = ProvedStatements(open=("lyapunov", "falls-1-1", premise))
         assert proof.proof_of(premise, (1,), budget) is None
         said.append(proof.why())
     assert "try --budget" in said[0]

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from juggleproof.map_stability.functions.templates import Sides, program
+from juggleproof.map_stability.functions.templates import SizesOfForms, program
 from juggleproof.map_stability.functions.weighted_terms import weighted_sum_candidates
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.search import Outcome, search_stability
@@ -83,7 +83,7 @@ def test_a_point_at_which_a_map_jumps_is_not_said_to_be_stable_holds() -> None:
 @pytest.mark.parametrize("even", [True, False])
 def test_the_terms_at_samples_are_those_of_the_statement_holds(even: bool) -> None:
     """max(0, t) and max(0, -t), or |t|, times 1 and a > 0, at states of all signs."""
-    sides = Sides(("x_gap", "y_gap"), ("1", "a"), even)
+    sides = SizesOfForms(("x_gap", "y_gap"), ("1", "a"), even)
     rng = np.random.default_rng(5)
     points = {name: rng.uniform(-1, 1, 40) for name in ("x_gap", "y_gap")}
     points["a"] = rng.uniform(0, 1, 40)

@@ -13,9 +13,9 @@ from juggleproof.papers.ledger import (
     REASONS,
     REASONS_WITH_KEY,
     ROWS,
-    Item,
     LedgerError,
-    Row,
+    LedgerRow,
+    PaperItem,
     check_against_paper,
     check_claims,
     check_rows,
@@ -27,7 +27,7 @@ from juggleproof.proofs.ledger.unprinted import UNPRINTED
 # -------------------------------------------------------------------------------------------------
 # The ledger is whole and in order, and each way of spoiling it is refused with its own message.
 
-Rows = list[Row]
+Rows = list[LedgerRow]
 
 
 @pytest.fixture(scope="module")
@@ -229,7 +229,7 @@ def test_a_display_that_is_never_closed_is_refused() -> None:
 
 def test_the_digest_sees_every_mark_but_no_spacing() -> None:
     def digest(text: str) -> str:
-        return Item("3.2-d01", "3.2", 1, "display", text).digest
+        return PaperItem("3.2-d01", "3.2", 1, "display", text).digest
 
     assert digest("a <\n b ") == digest("a < b")
     assert digest("a < b") != digest("a > b")
@@ -271,7 +271,7 @@ RELATES_IN_FORM_ONLY = {
 
 
 @pytest.fixture(scope="module")
-def items() -> list[Item]:
+def items() -> list[PaperItem]:
     named = os.environ.get("JUGGLEPROOF_PAPER")
     paper = Path(named) if named else ROOT.parent / "shared" / "paper.txt"
     if not named and not paper.is_file():
@@ -282,33 +282,40 @@ def items() -> list[Item]:
     return scan(paper.read_text(encoding="utf-8"))
 
 
-def without_claims(rows: list[Row], items: list[Item], *kinds: str) -> list[Item]:
+def without_claims(rows: list[LedgerRow], items: list[PaperItem], *kinds: str) -> list[PaperItem]:
     settled = {row.key for row in rows if row.claims}
     return [item for item in items if item.kind in kinds and item.key not in settled]
 
 
-def test_the_paper_gives_exactly_the_rows_of_the_ledger(rows: list[Row], items: list[Item]) -> None:
+def test_the_paper_gives_exactly_the_rows_of_the_ledger(
+    rows: list[LedgerRow], items: list[PaperItem]
+) -> None:
     check_against_paper(rows, items)
 
 
 def test_a_ledger_that_differs_from_the_paper_is_refused(
-    rows: list[Row], items: list[Item]
+    rows: list[LedgerRow], items: list[PaperItem]
 ) -> None:
     with pytest.raises(LedgerError, match="items: rescan"):
         check_against_paper(rows[:-1], items)
     with pytest.raises(LedgerError, match="holds digest"):
         check_against_paper(
-            [*rows[:-1], Row(rows[-1].key, rows[-1].line, rows[-1].kind, "0" * 16, ("eq-1",))],
+            [
+                *rows[:-1],
+                LedgerRow(rows[-1].key, rows[-1].line, rows[-1].kind, "0" * 16, ("eq-1",)),
+            ],
             items,
         )
 
 
-def test_background_stands_outside_the_sections_on_the_juggler_holds(rows: list[Row]) -> None:
+def test_background_stands_outside_the_sections_on_the_juggler_holds(rows: list[LedgerRow]) -> None:
     background = {row.section for row in rows if row.reason == "background"}
     assert background == {"1", "1.1", "1.2", "1.3", "2", "2.1.2", "5"}
 
 
-def test_every_piece_of_prose_that_argues_has_claims(rows: list[Row], items: list[Item]) -> None:
+def test_every_piece_of_prose_that_argues_has_claims(
+    rows: list[LedgerRow], items: list[PaperItem]
+) -> None:
     background = {row.key for row in rows if row.reason == "background"}
     prose = [
         item
@@ -319,14 +326,14 @@ def test_every_piece_of_prose_that_argues_has_claims(rows: list[Row], items: lis
 
 
 def test_every_formula_that_relates_two_sides_has_claims(
-    rows: list[Row], items: list[Item]
+    rows: list[LedgerRow], items: list[PaperItem]
 ) -> None:
     formulas = without_claims(rows, items, "inline")
     assert {item.key for item in formulas if ASSERTS.search(item.text)} == set(RELATES_IN_FORM_ONLY)
 
 
 def test_no_row_of_prose_can_be_read_back_from_the_ledger(
-    rows: list[Row], items: list[Item]
+    rows: list[LedgerRow], items: list[PaperItem]
 ) -> None:
     text = Path(ledger.ROWS).read_text(encoding="utf-8")
     assert not [

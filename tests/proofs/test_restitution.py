@@ -20,7 +20,7 @@ from juggleproof.proofs.restitution.unequal import (
     on_the_orbit,
 )
 from juggleproof.proofs.theorem.definition import holds_at, value_of
-from juggleproof.proofs.theorem.orbits import State, step
+from juggleproof.proofs.theorem.orbits import ExactState, step
 from juggleproof.reading.values import Vector
 from juggleproof.search.certificate import search_certificate
 from juggleproof.statements.language import term
@@ -88,14 +88,14 @@ def outcome(name: str, text: str) -> str:
     return checker.check_one(statement, STORE.certificate(name, TEXTS[name]), known, {})[0]
 
 
-def state_at(alpha: Fraction, place: Vector, **more: Fraction | int) -> State:
+def state_at(alpha: Fraction, place: Vector, **more: Fraction | int) -> ExactState:
     """The state of this place, a vector of alpha and of what is given."""
     point = {"alpha": alpha, **{name: Fraction(value) for name, value in more.items()}}
     x, w = (value_of(term(entry), point) for entry in place.entries)
-    return State(alpha, x, w)
+    return ExactState(alpha, x, w)
 
 
-def flights(state: State, count: int) -> tuple[tuple[int, ...], State]:
+def flights(state: ExactState, count: int) -> tuple[tuple[int, ...], ExactState]:
     """The periods of the next flights from an impact on, and the impact after them."""
     lengths: list[int] = []
     for _ in range(count):
@@ -132,7 +132,7 @@ def test_the_box_of_a_fixed_point_is_followed_by_exact_orbits_holds(K: int, abov
     radius = (1 - alpha) * (alpha * (K + 1) - (K - 1)) / (4 * (1 + alpha) ** 2)
     wide = radius * value_of(WEIGHTS[0], {"alpha": alpha, "K": Fraction(K)})
     for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
-        corner = State(alpha, centre.x + left * wide, centre.w + down * radius)
+        corner = ExactState(alpha, centre.x + left * wide, centre.w + down * radius)
         assert holds_at(BOX, {**corner.point(), "K": Fraction(K)})
         lengths, after = flights(corner, 3)
         assert lengths == (K, K, K)
@@ -154,7 +154,7 @@ def test_every_orbit_tends_to_one_of_two_fails_without_the_exceptions() -> None:
     assert flights(states[0], 2) == ((3, 3), states[0])
     last = TO_ONE_OR_TWO.stages[-1]
     assert not any(holds_at(last, state.point()) for state in states)
-    near = State(half, states[0].x + Fraction(1, 100), states[0].w)
+    near = ExactState(half, states[0].x + Fraction(1, 100), states[0].w)
     assert 3 not in flights(near, 8)[0][1:]
 
 
@@ -165,7 +165,7 @@ def test_words_that_no_state_has_are_in_no_exact_orbit_holds(name: str) -> None:
     runs = chosen.runs.split()
     ended = set()
     for count in range(12):
-        start = State(alpha, Fraction(count % 4, 5), Fraction(2 + 3 * count, 5))
+        start = ExactState(alpha, Fraction(count % 4, 5), Fraction(2 + 3 * count, 5))
         text = "".join(map(str, flights(start, 24)[0]))
         # the first flights may be those of a fast impact
         assert not any(word in text[4:] for word in chosen.never.split())
@@ -201,7 +201,7 @@ def test_orbit_of_unequal_flights_comes_back_holds(alpha: Fraction) -> None:
     for count in range(len(FLIGHTS)):
         assert flights(start, count)[1] == state_at(alpha, on_the_orbit(count))
     for left, down in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
-        corner = State(alpha, start.x + left * PERIODS * away, start.w + down * away)
+        corner = ExactState(alpha, start.x + left * PERIODS * away, start.w + down * away)
         lengths, after = flights(corner, len(FLIGHTS))
         assert lengths == FLIGHTS
         assert abs(after.w - start.w) == alpha**12 * away

@@ -18,7 +18,7 @@ from juggleproof.proofs.simulations.compute import (
 )
 from juggleproof.proofs.simulations.figures import Figures, figures
 from juggleproof.scenes.part.onsets import table_one
-from juggleproof.scenes.part.readings import Reading, chosen, recorded
+from juggleproof.scenes.part.readings import TableReading, chosen, recorded
 from juggleproof.statements.language import ClaimError
 from tests.judging.loading import loaded_anew
 
@@ -31,11 +31,11 @@ def kept() -> Figures:
 
 
 @pytest.fixture(scope="module")
-def reading(kept: Figures) -> Reading:
+def reading(kept: Figures) -> TableReading:
     if importlib.util.find_spec("numba") is None:
         pytest.skip("numba is not installed; the extra part has it")
-    assert Reading(**kept["reading"]) == chosen(recorded()).reading
-    return Reading(**kept["reading"])
+    assert TableReading(**kept["reading"]) == chosen(recorded()).reading
+    return TableReading(**kept["reading"])
 
 
 def test_times_to_the_region_are_exact_holds(kept: Figures) -> None:
@@ -44,14 +44,14 @@ def test_times_to_the_region_are_exact_holds(kept: Figures) -> None:
 
 
 def test_the_still_table_parts_the_blocks_where_it_did_holds(
-    kept: Figures, reading: Reading
+    kept: Figures, reading: TableReading
 ) -> None:
     now = still_table(reading.scene())
     assert (now["upright"], now["lying"]) == (kept["still"]["upright"], kept["still"]["lying"])
     assert now["between"] == pytest.approx(kept["still"]["between"], abs=1e-8)
 
 
-def test_figure_2_is_within_its_scatter_holds(kept: Figures, reading: Reading) -> None:
+def test_figure_2_is_within_its_scatter_holds(kept: Figures, reading: TableReading) -> None:
     now, then = figure_two(reading, ENSEMBLES), kept["frame"]
     for name in ("upright", "apart"):
         low, high = min(then[name]), max(then[name])
@@ -59,7 +59,7 @@ def test_figure_2_is_within_its_scatter_holds(kept: Figures, reading: Reading) -
     assert max(now["late"]) <= max(then["late"]) + 4
 
 
-def test_table_1_is_within_its_scatter_holds(kept: Figures, reading: Reading) -> None:
+def test_table_1_is_within_its_scatter_holds(kept: Figures, reading: TableReading) -> None:
     now = onsets(table_one(reading.scene(), ensembles=ENSEMBLES, peak=reading.peak))
     for row, then in zip(now, kept["table"], strict=True):
         same = ("frequency", "amplitude", "paper")

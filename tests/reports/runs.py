@@ -17,7 +17,7 @@ from juggleproof.judging.run import Options, Run, claims_of_file, run
 from juggleproof.papers.paper import opened
 from juggleproof.reports.contents import Contents, contents_of
 from juggleproof.reports.page import Picture, build, pictures
-from juggleproof.reports.results import Result, Results, results_of_run, theorem_of_run
+from juggleproof.reports.results import ClaimResult, RunResults, results_of_run, theorem_of_run
 from juggleproof.statements.store import DEFAULT
 
 # -------------------------------------------------------------------------------------------------
@@ -48,7 +48,7 @@ def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -
     return path
 
 
-def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Results:
+def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> RunResults:
     path = file_with(folder, names, says)
     options = Options(path.with_suffix(".certificates"), jobs=1)
     done = run(claims_of_file(path), options)
@@ -80,14 +80,14 @@ def paper(
     register: Register | None = None,
     rejected: Sequence[tuple[str, str]] | None = None,
     accepted: bool = False,
-) -> Results:
+) -> RunResults:
     if register is None and rejected is None and not accepted:
         return paper_as_registered()
     return paper_beside(register, rejected, accepted)
 
 
 @cache
-def paper_as_registered() -> Results:
+def paper_as_registered() -> RunResults:
     return paper_beside()
 
 
@@ -95,7 +95,7 @@ def paper_beside(
     register: Register | None = None,
     rejected: Sequence[tuple[str, str]] | None = None,
     accepted: bool = False,
-) -> Results:
+) -> RunResults:
     done, theorem = paper_run()
     return results_of_run(
         done.claims,
@@ -143,6 +143,6 @@ def page_of_some() -> bytes:
     return build(some_contents())
 
 
-def refuted() -> Result:
+def refuted() -> ClaimResult:
     """A claim of the paper with a statement that is refuted."""
     return next(one for one in paper().claims if one.id == "s2.2.1-H")

@@ -24,7 +24,7 @@ from juggleproof.reports.ci import (
     markdown,
 )
 from juggleproof.reports.errata import WRONG
-from juggleproof.reports.results import Results
+from juggleproof.reports.results import RunResults
 from tests.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper, refuted
 
 # -------------------------------------------------------------------------------------------------
@@ -60,7 +60,7 @@ INSIDE = {
 }
 
 
-def read(results: Results, seconds: Mapping[str, float] | None = None) -> ElementTree.Element:
+def read(results: RunResults, seconds: Mapping[str, float] | None = None) -> ElementTree.Element:
     content = as_junit(results, seconds)
     assert content == as_junit(results, seconds) and content.startswith(b"<?xml")
     root = ElementTree.fromstring(content)
@@ -301,7 +301,7 @@ def test_false_claim_of_ones_own_is_told_with_its_counterexample_holds(tmp_path:
 
 def test_summary_keeps_to_the_limit_and_tells_what_is_left_out_holds() -> None:
     one = refuted()
-    many = Results(
+    many = RunResults(
         tuple(
             replace(one, id=f"claim-{number}", says="é" * 5000, detail="x" * 5000)
             for number in range(2000)
@@ -318,7 +318,7 @@ def test_summary_keeps_to_the_limit_and_tells_what_is_left_out_holds() -> None:
 # The badge says what the verdicts say, in red where something is wrong.
 
 
-def read_badge(results: Results) -> tuple[str, bool]:
+def read_badge(results: RunResults) -> tuple[str, bool]:
     """What the badge says, and whether it is green."""
     content = badge(results)
     assert content == badge(results) and content.endswith(b"}\n")

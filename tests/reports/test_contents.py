@@ -25,7 +25,7 @@ from juggleproof.reports.contents import (
     gather,
     results_of,
 )
-from juggleproof.reports.results import Results
+from juggleproof.reports.results import RunResults
 from tests.reports.runs import FALSE, OPEN, contents, made_of, own, paper
 
 Document = dict[str, Any]  # as JSON has it
@@ -39,7 +39,7 @@ def validator() -> Draft202012Validator:
     return Draft202012Validator(DESCRIBED)
 
 
-def written(results: Results) -> Document:
+def written(results: RunResults) -> Document:
     content = as_json(results)
     assert content.isascii() and content == as_json(results)
     return json.loads(content)
@@ -113,7 +113,7 @@ def test_report_gathers_what_a_run_comes_to_holds() -> None:
 def test_report_writes_what_a_run_would_holds(
     wanted: str,
     name: str,
-    build: Callable[[Results], bytes],
+    build: Callable[[RunResults], bytes],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],

@@ -254,7 +254,7 @@ def test_every_line_of_the_written_proof_is_certified_and_printed_holds() -> Non
     assert len(entry.statements) == 25 and all(
         one.outcome == "certified" for one in entry.statements
     )
-    text, steps = made()["theorem.tex"], tex_words.Steps(entry)
+    text, steps = made()["theorem.tex"], tex_words.ProofSteps(entry)
     left = [
         label
         for label in steps.by_label
@@ -271,7 +271,7 @@ def test_rejects_a_line_that_is_not_certified() -> None:
         entry, statements=tuple(replace(one, outcome="unknown") for one in entry.statements)
     )
     with pytest.raises(ClaimError, match="theorem-by-hand/units is unknown"):
-        tex_words.Steps(broken).show("units")
+        tex_words.ProofSteps(broken).show("units")
 
 
 def test_templates_hold_no_formula_of_the_paper_holds() -> None:

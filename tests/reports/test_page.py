@@ -15,7 +15,7 @@ from juggleproof.certificates import checker
 from juggleproof.judging.conclusions import RULES
 from juggleproof.proofs.opening import PROOF
 from juggleproof.reports import markup
-from juggleproof.reports.contents import Contents, Shown
+from juggleproof.reports.contents import Contents, ShownText
 from juggleproof.reports.latex import glyph
 from juggleproof.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
@@ -328,7 +328,7 @@ def test_every_line_of_a_rule_is_a_formula_or_a_link_holds() -> None:
     for text in (SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, LOOP):
         for name, rule in read(text).items():
             kinds.add(rule.kind)
-            shown = statement(Shown(name, rule.text(), "certified", None, "", "", "", {}))
+            shown = statement(ShownText(name, rule.text(), "certified", None, "", "", "", {}))
             for row in shown.rows:
                 formulas = [part for part in row.parts if part.startswith(("<math", "<code>"))]
                 assert row.links or formulas == list(row.parts) or "pieces" in row.word, row

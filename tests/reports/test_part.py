@@ -17,7 +17,7 @@ from juggleproof.judging import report_cache as records
 from juggleproof.reports import part
 from juggleproof.reports.contents import Entry
 from juggleproof.reports.page import build
-from juggleproof.reports.part import HEADS, Results, kept_results
+from juggleproof.reports.part import HEADS, TableResults, kept_results
 from tests.reports.browser import Element, read_html, read_whole
 from tests.reports.runs import contents
 
@@ -25,7 +25,7 @@ SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8'
     ' 6"><style>*{stroke:#222222}</style><path d="M0 0L8 6"/></svg>'
 )
-MADE = Results(
+MADE = TableResults(
     "2 ensembles of 91 blocks for each row, 1 s each",
     [["15 Hz 2 mm", "4 s", "3.60 s", "3.10 to 4.20", "0", "1"]],
     ["a rule"],
@@ -49,7 +49,7 @@ MADE = Results(
 )
 
 
-def section_of(scene: Results | None) -> Element:
+def section_of(scene: TableResults | None) -> Element:
     page = read_whole(
         build(replace(contents(), entries=few(), rules=(), derivations=()), (), scene).decode(
             "utf-8"

@@ -4,7 +4,7 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.search.points import search_values
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 
@@ -12,7 +12,7 @@ def search_points(statement: checker.Statement, units: Budget, effort: int = 0) 
     """(a point that meets the premises, a counterexample), each as the checker accepts it, or
     None.
     """
-    state = State(checker.Context())
+    state = SearchState(checker.Context())
     counterexample = search_values(statement, state, "counterexample", {}, {}, units, effort=effort)
     if counterexample is not None:
         return counterexample[:4], counterexample

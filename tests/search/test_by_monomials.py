@@ -9,9 +9,9 @@ import pytest
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
 from juggleproof.search.psatz.by_monomials import search_by_monomials
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
@@ -27,8 +27,8 @@ def found(text: str, budget: int = 10**5) -> Node | None:
     context = checker.Context()
     for name in NAMES:
         context.declare(name)
-    state = State(context).assume(context.formula(checker.parse(text)))
-    node = search_by_monomials(Problem(state, Ring(NAMES)), Budget(budget))
+    state = SearchState(context).assume(context.formula(checker.parse(text)))
+    node = search_by_monomials(LeafProblem(state, Ring(NAMES)), Budget(budget))
     assert node is None or state.is_closed_by(node, {})
     return node
 

@@ -9,25 +9,25 @@ import pytest
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
 from juggleproof.search.psatz.by_parameter import search_by_parameter
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
 NAMES = ("t", "x", "y")
 
 
-def state_of(text: str) -> State:
+def state_of(text: str) -> SearchState:
     context = checker.Context()
     for name in NAMES:
         context.declare(name)
-    return State(context).assume(context.formula(checker.parse(text)))
+    return SearchState(context).assume(context.formula(checker.parse(text)))
 
 
 def found(text: str, budget: int = 10**5) -> Node | None:
     state = state_of(text)
-    node = search_by_parameter(Problem(state, Ring(NAMES)), Budget(budget))
+    node = search_by_parameter(LeafProblem(state, Ring(NAMES)), Budget(budget))
     assert node is None or state.is_closed_by(node, {})
     return node
 

@@ -8,7 +8,7 @@ from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
 from juggleproof.search.by_variables import close_by_variables
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 from tests.rows import each_row
 
@@ -39,7 +39,7 @@ def closed(names: str, form: str) -> bool:
     context = checker.Context()
     for name in names:
         context.declare(name)
-    state = State(context).assume(context.formula(checker.parse(f"{form} < 0")))
+    state = SearchState(context).assume(context.formula(checker.parse(f"{form} < 0")))
     node: Node | None = close_by_variables(state, Ring(tuple(names)), Budget(10**6))
     assert node is None or state.is_closed_by(node, {})
     return node is not None

@@ -8,26 +8,26 @@ from juggleproof.algebra.conditions import Condition
 from juggleproof.certificates import checker
 from juggleproof.search.closing import Closing, search_closing
 from juggleproof.search.hints.clauses import search_by_conflicts
-from juggleproof.search.hints.few_values import Question, point_by_few_values
+from juggleproof.search.hints.few_values import LinearQuestion, point_by_few_values
 from juggleproof.statements.language import NO_ROLES
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 from tests.rows import each_row
 
 
-def state(names: str, *formulas: str) -> State:
+def state(names: str, *formulas: str) -> SearchState:
     """The state that assumes some formulas over these variables."""
     context = checker.Context()
     for name in names.split():
         context.declare(name)
-    assumed = State(context)
+    assumed = SearchState(context)
     for formula in formulas:
         assumed.assume(context.formula(checker.parse(formula)))
     return assumed
 
 
-def closed_by_conflicts(assumed: State) -> Node | None:
+def closed_by_conflicts(assumed: SearchState) -> Node | None:
     """The node by which conflicts close a state."""
     budget = Budget(3 * 10**6)
     closing = Closing({}, budget, 1)
@@ -137,5 +137,5 @@ def test_few_values_fail_without_a_point() -> None:
 
 def test_a_product_is_none_where_no_value_is_its_factor() -> None:
     condition = chain(1, "x1 = 1")
-    question = Question(condition, {"v1": []})
+    question = LinearQuestion(condition, {"v1": []})
     assert question.asked(Budget(10**6)) == (None, ["v1"])

@@ -16,9 +16,9 @@ from juggleproof.certificates import checker
 from juggleproof.search.certificate import search_certificate, search_proof
 from juggleproof.search.psatz.forms import search_forms
 from juggleproof.search.psatz.parameters import bounds, split_variables
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State, state_of
+from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
@@ -34,7 +34,7 @@ SIZES = {
 }
 
 
-def negated(name: str, text: str = "") -> State:
+def negated(name: str, text: str = "") -> SearchState:
     """What a proof of the statement has to contradict."""
     statements = checker.read_statements(f"statement {name}\n{text}") if text else STATEMENTS
     unfolding = checker.Unfolding(statements[name], checker.Context())
@@ -67,7 +67,7 @@ def test_false_forms_stay_open_holds(name: str) -> None:
 def test_the_products_of_bounds_are_a_basis_holds() -> None:
     for name in ("forms/bound-on-one-side", "forms/box"):
         state = negated(name)
-        problem = Problem(state, Ring(tuple(state.context.index)))
+        problem = LeafProblem(state, Ring(tuple(state.context.index)))
         (axis, *_) = bounds(problem).values()
         point = [Fraction(2, 7)] * problem.ring.size
         for exponent in range(4):
@@ -85,13 +85,13 @@ def test_the_products_of_bounds_are_a_basis_holds() -> None:
 
 def test_a_box_has_a_width_holds() -> None:
     state = negated("t/t", "forall a g\nrange 0 <= a and a <= 0\nshow a*g <= g^2")
-    problem = Problem(state, Ring(tuple(state.context.index)))
+    problem = LeafProblem(state, Ring(tuple(state.context.index)))
     assert [(axis.low, axis.high) for axis in bounds(problem).values()] == [(0, None)]
 
 
 def test_variables_without_bounds_are_no_parameters_holds() -> None:
     state = negated("forms/other-piece")
-    problem = Problem(state, Ring(tuple(state.context.index)), quotients=False)
+    problem = LeafProblem(state, Ring(tuple(state.context.index)), quotients=False)
     found = split_variables(problem, problem.facts[-1].poly, bounds(problem))
     assert found is not None
     names = [[problem.ring.names[v] for v in part] for part in found]

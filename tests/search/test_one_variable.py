@@ -8,7 +8,7 @@ from random import Random
 
 from juggleproof.certificates import checker
 from juggleproof.search.one_variable import close_in_one_variable
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 from tests.rows import each_row
 
@@ -17,10 +17,10 @@ RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
 BUDGET = 10**7
 
 
-def state(text: str) -> State:
+def state(text: str) -> SearchState:
     context = checker.Context()
     context.declare("x")
-    return State(context).assume(context.formula(checker.parse(text)))
+    return SearchState(context).assume(context.formula(checker.parse(text)))
 
 
 def closed(text: str) -> bool:

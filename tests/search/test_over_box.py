@@ -12,9 +12,9 @@ from juggleproof.search.boxes.over_box import box_of, close_over_box
 from juggleproof.search.boxes.squares import close_by_bounds
 from juggleproof.search.closing import Closing
 from juggleproof.search.hints.few_values import point_by_few_values
-from juggleproof.smtlib.answering import Question, answer
+from juggleproof.smtlib.answering import ScriptQuestion, answer
 from juggleproof.statements.language import NO_ROLES
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
@@ -33,11 +33,11 @@ GOLDSTEIN = (
 )
 
 
-def state(text: str, names: Sequence[str]) -> State:
+def state(text: str, names: Sequence[str]) -> SearchState:
     context = checker.Context()
     for name in names:
         context.declare(name)
-    return State(context).assume(context.formula(checker.parse(text)))
+    return SearchState(context).assume(context.formula(checker.parse(text)))
 
 
 @each_row("poly, box, ends", [CAPRASSE, GOLDSTEIN])
@@ -50,7 +50,7 @@ def test_a_minimum_over_a_box_is_proved_below_and_met_above_holds(
     )
     head, words = f"statement f/c\nforall {' '.join(box)}\nshow not ({inside} and ", []
     for value in ends:
-        words.append(answer(Question("f/c", (f"{head}{poly} {relation} {value})",))).word)
+        words.append(answer(ScriptQuestion("f/c", (f"{head}{poly} {relation} {value})",))).word)
     assert words == ["unsat", "sat"]
 
 

@@ -6,7 +6,7 @@ from flint import Ordering, fmpq_mpoly_ctx
 from juggleproof.certificates import checker
 from juggleproof.search.hints.models import Residuals
 from juggleproof.search.points import search_values
-from juggleproof.statements.states import State, state_of
+from juggleproof.statements.states import SearchState, state_of
 from tests.rows import each_row
 from tests.search.cases import UNIT, budget, read, search_points
 
@@ -115,7 +115,7 @@ def test_refuted(case):
     text, effort = REFUTED[case]
     statement = read(text)
     point, counterexample = search_points(statement, budget(), effort)
-    start = State(checker.Context())
+    start = SearchState(checker.Context())
     assert start.is_served_by(counterexample, {}, "counterexample", statement)
     assert start.is_served_by(point, {}, "point", statement)
     refuted = {"refuted": counterexample}

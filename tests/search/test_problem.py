@@ -25,13 +25,13 @@ from juggleproof.search.closing import search_closing
 from juggleproof.search.psatz.candidates import MOST_DIGITS, digits, resultants
 from juggleproof.search.psatz.facts import Scaling
 from juggleproof.search.psatz.lifting import (
-    Term,
+    LiftedTerm,
     shortest_divisor,
     without_common_facts,
 )
-from juggleproof.search.psatz.linear_program import Matrix, Program, presolve, solve
-from juggleproof.search.psatz.problem import Problem, has_interior_point
-from juggleproof.statements.states import State
+from juggleproof.search.psatz.linear_program import Program, SparseMatrix, presolve, solve
+from juggleproof.search.psatz.problem import LeafProblem, has_interior_point
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
@@ -42,11 +42,11 @@ polynomials = st.dictionaries(
 ).map(RING.ctx.from_dict)
 
 
-def state_of(text: str, names: str, integers: str = "") -> State:
+def state_of(text: str, names: str, integers: str = "") -> SearchState:
     context = checker.Context()
     for name in names.split():
         context.declare(name, name in integers.split())
-    return State(context).assume(context.formula(checker.parse(text)))
+    return SearchState(context).assume(context.formula(checker.parse(text)))
 
 
 def test_long_numbers_of_one_denominator_become_short_fractions_holds() -> None:
@@ -58,9 +58,12 @@ def test_long_numbers_of_one_denominator_become_short_fractions_holds() -> None:
 @each_row(("relation", "left"), [(">", 0), (">=", 0), ("!=", 2)])
 def test_an_identity_is_divided_by_common_facts_with_a_sign_holds(relation: str, left: int) -> None:
     state = state_of(f"x {relation} 0 and y > 0 and x + y^2 > 1", "x y")  # without scales
-    source = Problem(state, Ring(("x", "y")), True).source
+    source = LeafProblem(state, Ring(("x", "y")), True).source
     ring = source.ring
-    terms = [Term(Fraction(1), ((0, 2), (1, 1)), ring.one), Term(Fraction(2), ((0, 2),), ring.one)]
+    terms = [
+        LiftedTerm(Fraction(1), ((0, 2), (1, 1)), ring.one),
+        LiftedTerm(Fraction(2), ((0, 2),), ring.one),
+    ]
     x, y = ring.gens
     found, owed = without_common_facts(source, terms, {7: x**2 * y})
     assert [dict(one.factors).get(0, 0) for one in found] == [left] * 2
@@ -69,8 +72,8 @@ def test_an_identity_is_divided_by_common_facts_with_a_sign_holds(relation: str,
 
 def test_a_common_fact_that_a_cofactor_lacks_is_kept_holds() -> None:
     state = state_of("x > 0 and y > 0 and x + y^2 > 1", "x y")
-    source = Problem(state, Ring(("x", "y")), True).source
-    terms = [Term(Fraction(1), ((0, 2),), source.ring.one)]
+    source = LeafProblem(state, Ring(("x", "y")), True).source
+    terms = [LiftedTerm(Fraction(1), ((0, 2),), source.ring.one)]
     found, owed = without_common_facts(source, terms, {7: source.ring.gens[1]})
     assert found == terms and owed == {7: source.ring.gens[1]}
 
@@ -176,7 +179,9 @@ def test_a_state_with_points_is_never_closed() -> None:
 
 def test_interior_points_are_seen_and_empty_states_are_not() -> None:
     def seen(text: str) -> bool:
-        return has_interior_point(Problem(state_of(text, "x y"), Ring(("x", "y"))), Budget(10**6))
+        return has_interior_point(
+            LeafProblem(state_of(text, "x y"), Ring(("x", "y"))), Budget(10**6)
+        )
 
     assert seen("x > 0 and y > x^2 and y < 2*x")
     assert not seen("x > 0 and y > x^2 and y < 0")
@@ -265,7 +270,7 @@ def test_rejects_resultants_whose_work_no_count_bounds() -> None:
 
 def test_columns_that_fall_one_after_another_are_counted_work_holds() -> None:
     turned = np.eye(100) - np.eye(100, k=1)  # 0 = c_0, 0 = c_1 - c_0, ..: a round for each
-    chain = Matrix.of(turned)
+    chain = SparseMatrix.of(turned)
     strict, budget = np.arange(100) == 99, Budget(2000)
     assert presolve(chain, 100, strict, budget) is None and budget.left == 1000
     with pytest.raises(Exhausted):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from juggleproof.smtlib.answering import Question, answer
+from juggleproof.smtlib.answering import ScriptQuestion, answer
 from tests.rows import each_row
 
 PROBLEMS = {
@@ -36,10 +36,10 @@ PAIRS = [(name, line) for name in PROBLEMS for line in LINES]
 )
 def test_a_redundant_line_loses_no_proof_holds(name: str, line: str) -> None:
     text = f"statement f/c\nforall x y z t\nshow not ({PROBLEMS[name]} and {LINES[line]})"
-    assert answer(Question("f/c", (text,))).word == "unsat"
+    assert answer(ScriptQuestion("f/c", (text,))).word == "unsat"
 
 
 @each_row("name", PROBLEMS)
 def test_all_lines_said_twice_lose_no_proof_holds(name: str) -> None:
     text = f"statement f/c\nforall x y z\nshow not ({PROBLEMS[name]} and {PROBLEMS[name]})"
-    assert answer(Question("f/c", (text,))).word == "unsat"
+    assert answer(ScriptQuestion("f/c", (text,))).word == "unsat"

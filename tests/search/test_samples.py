@@ -19,8 +19,8 @@ from juggleproof.certificates import checker
 from juggleproof.search.closing import Closing
 from juggleproof.search.hints.asking import ask
 from juggleproof.search.psatz.linear import FIRST, search
-from juggleproof.search.terms import Point, Quotient, Trial
-from juggleproof.statements.states import State
+from juggleproof.search.terms import RingPoint, TermQuotient, Trial
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 from tests.statements.drawn import fractions
@@ -85,11 +85,14 @@ def test_a_trial_fails_where_substitution_folds_to_false(
 def test_sums_of_quotients_have_the_sum_of_their_values(
     top: fmpq_mpoly, other: fmpq_mpoly, more: fmpq_mpoly, a: fmpq
 ) -> None:
-    point = Point.of(RING, {"a": a, "x": fmpq(2, 7), "y": fmpq(-5, 3)})
-    p, q = Quotient.reduced(top, 1 + other * other), Quotient.reduced(more, RING.constant(3))
+    point = RingPoint.of(RING, {"a": a, "x": fmpq(2, 7), "y": fmpq(-5, 3)})
+    p, q = (
+        TermQuotient.reduced(top, 1 + other * other),
+        TermQuotient.reduced(more, RING.constant(3)),
+    )
     values = [one.within(point) for one in (p, q, p.plus(q))]
     assert None not in values and values[0] + values[1] == values[2]
-    assert p.key() == Quotient.reduced(top * (2 + A), (1 + other * other) * (2 + A)).key()
+    assert p.key() == TermQuotient.reduced(top * (2 + A), (1 + other * other) * (2 + A)).key()
 
 
 def test_z3_spends_the_same_however_many_questions_came_before() -> None:
@@ -109,7 +112,7 @@ def test_a_search_that_found_nothing_costs_the_same_again() -> None:
     context = checker.Context()
     for name in ("u", "w"):
         context.declare(name)
-    state = State(context).assume(
+    state = SearchState(context).assume(
         context.formula(checker.parse("u > 0 and w > u^2 and w < 3 and u*w < 1"))
     )
     costs = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from juggleproof.smtlib.answering import Question, answer
+from juggleproof.smtlib.answering import ScriptQuestion, answer
 
 UNIT = "x >= 0 and x <= 1 and y >= 0 and y <= 1"
 APART = {
@@ -24,7 +24,7 @@ TOGETHER = {
 
 
 def word(text: str) -> str:
-    return answer(Question("f/c", (f"statement f/c\nforall x y\nshow not ({text})",))).word
+    return answer(ScriptQuestion("f/c", (f"statement f/c\nforall x y\nshow not ({text})",))).word
 
 
 @pytest.mark.parametrize("name", APART)

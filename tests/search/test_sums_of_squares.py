@@ -22,7 +22,7 @@ from juggleproof.certificates import checker
 from juggleproof.search.certificate import SQUARES_FIRST, search_certificate
 from juggleproof.search.closing import SQUARED, search_closing
 from juggleproof.search.points import search_values
-from juggleproof.statements.states import State, state_of
+from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.work import Budget, Exhausted
 from tests.rows import each_row
 
@@ -209,10 +209,10 @@ POINTS = {
 def test_points_with_irrational_values_are_found_holds(name: str) -> None:
     one = statement(POINTS[name])
     found = search_values(
-        one, State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
+        one, SearchState(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
     )
     assert found is not None and found[1]
-    assert State(checker.Context()).is_served_by(found, {}, "counterexample", one)
+    assert SearchState(checker.Context()).is_served_by(found, {}, "counterexample", one)
 
 
 def test_a_condition_without_points_has_none_holds() -> None:
@@ -220,7 +220,7 @@ def test_a_condition_without_points_has_none_holds() -> None:
     assert (
         search_values(
             one,
-            State(checker.Context()),
+            SearchState(checker.Context()),
             "counterexample",
             {},
             {},

@@ -8,7 +8,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.search.closing import Closing
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Unfolded, unfolded
 
 FIRST = "forall x y n\ngiven x > 0\ngiven y/x < 2\nlet z = x + y/x"
@@ -79,7 +79,7 @@ def test_a_form_that_was_not_found_is_counted_again_holds() -> None:
     for name in ("a", "x", "y"):
         context.declare(name)
     text = "a >= 0 and a <= 1 and a*x^2 + x*y - y^2 > 0 and x > y and y > 0 - x"
-    state = State(context).assume(context.formula(checker.parse(text)))
+    state = SearchState(context).assume(context.formula(checker.parse(text)))
     left = []
     for _ in range(3):
         closing = Closing({}, Budget(10**6), 2)

@@ -26,7 +26,7 @@ from juggleproof.judging.run import run as judged
 from juggleproof.papers.paper import opened
 from juggleproof.reports.problems import settled_by
 from juggleproof.smtlib.answering import (
-    Question,
+    ScriptQuestion,
     answer,
     answer_files,
     question,
@@ -198,7 +198,7 @@ def test_what_is_stored_is_used_again_and_a_changed_certificate_is_not(tmp_path:
 
 def test_rejects_a_certificate_for_another_statement() -> None:
     text, other = (f"statement a/check\nforall x\nshow not x^2 < {bound}" for bound in ("0", "1"))
-    found = answer(Question("a/check", (text,)))
+    found = answer(ScriptQuestion("a/check", (text,)))
     assert settled("a/check", text, found.certificate) == "unsat"
     assert settled("a/check", other, found.certificate) == "unknown"
     assert (

@@ -7,7 +7,7 @@ from functools import cache
 
 import pytest
 
-from juggleproof.statements.vote import Budget, Vote
+from juggleproof.statements.vote import Vote, VoteBudget
 from juggleproof.votes import box_search, boxes
 from juggleproof.votes.questions import Atom, questions, read_statement
 from tests.rows import each_row
@@ -33,7 +33,7 @@ def vote_on(name: str) -> Vote:
     return boxes.vote(STATEMENTS[name][0])
 
 
-def vote(*rows: str, budget: Budget | None = None) -> Vote:
+def vote(*rows: str, budget: VoteBudget | None = None) -> Vote:
     return boxes.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
@@ -41,7 +41,7 @@ def vote(*rows: str, budget: Budget | None = None) -> Vote:
 def test_no_vote_is_wrong(name: str) -> None:
     expected, cast = STATEMENTS[name][1], vote_on(name)
     assert cast.answer != ("fails" if expected else "holds"), str(cast)
-    assert cast.work <= Budget().boxes + 64
+    assert cast.work <= VoteBudget().boxes + 64
     if cast.answer == "fails":
         assert fails_at(FALSE[name], cast.model)
     if cast.answer == "enclosed":
@@ -59,13 +59,13 @@ def test_attained_bounds_are_enclosed_around_zero(name: str) -> None:
     cast = vote_on(name)
     (enclosure,) = cast.enclosures
     assert cast.answer == "enclosed" and enclosure.low <= 0 <= enclosure.high
-    assert enclosure.high - enclosure.low <= Budget().width + Fraction(2, 1 << 20)
+    assert enclosure.high - enclosure.low <= VoteBudget().width + Fraction(2, 1 << 20)
 
 
 def test_the_width_is_the_one_that_is_asked_for() -> None:
     rows = ("forall x", "given -1 <= x and x <= 2", "show x^4 - 2*x^2 + 1 + (x - 1)^2*(x + 2) >= 0")
     for width in (Fraction(1, 4), Fraction(1, 256)):
-        cast = vote(*rows, budget=Budget(width=width))
+        cast = vote(*rows, budget=VoteBudget(width=width))
         assert cast.answer in ("enclosed", "holds")
         assert all(
             e.low <= 0 <= e.high and e.high - e.low <= width + Fraction(2, 1 << 20)
@@ -98,7 +98,7 @@ def test_an_undecided_comparison_is_no_vote(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(box_search, "surely", lambda value, relation: None)
     monkeypatch.setattr(box_search, "ball_ends", lambda value: None)
     for name in ("circle", "square", "e1-in-R"):
-        assert boxes.vote(STATEMENTS[name][0], None, Budget(boxes=200)).answer != "holds"
+        assert boxes.vote(STATEMENTS[name][0], None, VoteBudget(boxes=200)).answer != "holds"
 
 
 def test_touching_the_edge_of_a_fact_decides_nothing() -> None:
@@ -121,7 +121,7 @@ def test_touching_the_edge_of_a_fact_decides_nothing() -> None:
 
 
 def test_counted_boxes_end_as_unknown() -> None:
-    cast = boxes.vote(STATEMENTS["third-f1-R-in-R"][0], None, Budget(boxes=32))
+    cast = boxes.vote(STATEMENTS["third-f1-R-in-R"][0], None, VoteBudget(boxes=32))
     assert cast.answer == "unknown" and cast.work <= 128
 
 

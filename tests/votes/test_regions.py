@@ -22,14 +22,14 @@ from juggleproof.algebra.numbers import root_number
 from juggleproof.algebra.polynomials import factorization, value_at, with_value
 from juggleproof.algebra.trees import truth
 from juggleproof.votes.branches import (
-    Region,
+    BranchRegion,
     reduce_factors,
     regions,
     solve_equations,
 )
 from juggleproof.votes.questions import (
     Atom,
-    Question,
+    VoteQuestion,
     branches,
     questions,
     read_statement,
@@ -49,7 +49,7 @@ from tests.rows import each_row
 F = Fraction
 
 
-def goal(*rows: str) -> Question:
+def goal(*rows: str) -> VoteQuestion:
     return questions(read_statement("\n".join(("statement t/t", *rows))))[-1]
 
 
@@ -263,7 +263,7 @@ def test_equations_are_solved_and_points_completed() -> None:
     assert solve_equations(("x",), facts("forall x", "given x = 3", "given x^2 < 4")) is None
 
 
-def region(names: str, *rows: str) -> Region:
+def region(names: str, *rows: str) -> BranchRegion:
     found = goal(f"forall {names}", *rows, "show 0 = 1")
     (one,) = regions(found.names, found.matrix()) or []
     return one

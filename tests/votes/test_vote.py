@@ -6,7 +6,7 @@ import pickle
 
 import pytest
 
-from juggleproof.statements.vote import Budget, Disagreement, Vote, compare
+from juggleproof.statements.vote import Disagreement, Vote, VoteBudget, compare
 from juggleproof.votes import boxes, z3
 from juggleproof.votes.casting import cast_votes
 from juggleproof.votes.questions import read_statement
@@ -100,7 +100,7 @@ def test_only_the_routes_named_are_asked() -> None:
         "boxes"
     ]
     assert cast_votes(statement, "certified", ()) == ()
-    assert cast_votes(statement, "certified", ("z3",), Budget(rlimit=1))[0].answer in (
+    assert cast_votes(statement, "certified", ("z3",), VoteBudget(rlimit=1))[0].answer in (
         "unknown",
         "holds",
     )

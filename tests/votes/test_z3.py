@@ -11,7 +11,7 @@ from multiprocessing import get_context
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.statements.vote import Budget, Vote
+from juggleproof.statements.vote import Vote, VoteBudget
 from juggleproof.votes import z3
 from juggleproof.votes.questions import read_statement
 from tests.rows import each_row
@@ -19,7 +19,7 @@ from tests.votes.corpus import FALSE, ITERATES, SHARP, STATEMENTS, TRUE
 from tests.votes.independent import fails_at
 
 
-def vote(*rows: str, budget: Budget | None = None) -> Vote:
+def vote(*rows: str, budget: VoteBudget | None = None) -> Vote:
     return z3.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
@@ -29,7 +29,7 @@ def test_every_statement_of_the_corpus_is_decided_as_it_is_known_to_be(name: str
     cast = z3.vote(statement)
     assert cast.answer == ("holds" if expected else "fails"), str(cast)
     assert bool(cast.model) == (not expected)
-    assert 0 < cast.work <= Budget().rlimit + 1000
+    assert 0 < cast.work <= VoteBudget().rlimit + 1000
 
 
 def test_the_corpus_is_large_and_has_both_kinds() -> None:
@@ -69,7 +69,7 @@ def test_an_algebraic_model_counts_only_after_exact_evaluation(
     rows = ("forall x y", "given x^2 = 2 and x > 0 and y^3 = x", "show y^6 != 2")
     cast = vote(*rows)
     assert cast.answer == "fails" and "root of" in dict(cast.model)["y"]
-    monkeypatch.setattr(z3.Session, "_exact", lambda self, value: Fraction(3, 2))
+    monkeypatch.setattr(z3.VoteSession, "_exact", lambda self, value: Fraction(3, 2))
     wrong = vote(*rows)
     assert wrong.answer == "unknown" and "does not pass exact evaluation" in wrong.detail
 
@@ -128,10 +128,11 @@ def test_work_is_counted_and_its_end_says_nothing() -> None:
         "given a^2 + b^2 + c^2 = 1 and x^2 + y^2 + z^2 = 1",
         "show (a*x + b*y + c*z)^2 <= 1",
     )
-    cast = vote(*hard, budget=Budget(rlimit=20_000))
+    cast = vote(*hard, budget=VoteBudget(rlimit=20_000))
     assert cast.answer == "unknown" and cast.work <= 22_000
     assert (
-        vote("forall x y", "show x^2 + y^2 >= 2*x*y", budget=Budget(rlimit=1)).answer == "unknown"
+        vote("forall x y", "show x^2 + y^2 >= 2*x*y", budget=VoteBudget(rlimit=1)).answer
+        == "unknown"
     )
 
 

@@ -12,7 +12,7 @@ from sympy import Expr, factor
 from juggleproof.reports.tables import DIGITS, draw, shown
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.compiled_map import Number, counted
-from juggleproof.scenes.juggler.orbits import MOST_TIMES, Error, Orbits, Row, Value, heights
+from juggleproof.scenes.juggler.orbits import MOST_TIMES, Error, OrbitRow, Orbits, Value, heights
 from juggleproof.scenes.juggler.periodic import (
     attracts_for,
     exists_for,
@@ -26,7 +26,7 @@ from juggleproof.scenes.juggler.tables import (
     CASES,
     NAMES,
     UNITS,
-    Finding,
+    ArithmeticFinding,
     as_text,
     finding,
     in_units,
@@ -123,7 +123,7 @@ def orbits(run: Orbits, units: str) -> None:
     _print_ends(run)
 
 
-def _line(row: Row, last: bool) -> tuple[str, ...]:
+def _line(row: OrbitRow, last: bool) -> tuple[str, ...]:
     error = "unknown" if row.error is None else rounded_error(max(row.error))
     counts = ["" if count < 0 else shown(count) for count in (row.periods, row.impacts)]
     return (
@@ -287,7 +287,7 @@ def _short(value: Value) -> str:
     return f"{value:.6g}" if isinstance(value, float) else as_text(value, None, 6)[0]
 
 
-def _finding(one: Finding) -> tuple[str, ...]:
+def _finding(one: ArithmeticFinding) -> tuple[str, ...]:
     case = one.case
     floats = _pair(*one.floats) + (
         f"; WRONG BRANCH at period {one.wrong_at}" if one.wrong_at is not None else ""

@@ -25,9 +25,9 @@ from juggleproof.statements.language import (
     disjunction,
 )
 from juggleproof.statements.nodes import Certificate, Counterexample
-from juggleproof.statements.states import State, state_of
-from juggleproof.statements.vote import Budget as Asking
+from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.vote import Vote
+from juggleproof.statements.vote import VoteBudget as Asking
 from juggleproof.statements.work import Budget, Exhausted, read, unfolded
 from juggleproof.votes.casting import cast_votes
 from juggleproof.votes.z3 import Model, vote_and_model
@@ -165,7 +165,7 @@ class ClaimSearch:
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
-        start = State(checker.Context())
+        start = SearchState(checker.Context())
         values = search_values(
             parsed,
             start,

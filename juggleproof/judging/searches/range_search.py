@@ -10,7 +10,7 @@ from fractions import Fraction
 from juggleproof.algebra.numbers import AlgebraicNumber, exact, simplest_between
 from juggleproof.certificates import checker
 from juggleproof.search.families import implies_domain, solved
-from juggleproof.search.ranges import Line, line_on, pinned, polynomial_term
+from juggleproof.search.ranges import CutDomain, line_on, pinned, polynomial_term
 from juggleproof.search.sharp import Range, find_sharp_range, whole_parameters
 from juggleproof.search.sharp_plane import find_sharp_region
 from juggleproof.statements.definitions import formula_of, term_of
@@ -199,7 +199,7 @@ def paired_text(statement: SharpRange, number: str) -> str:
 
 
 def line_text(
-    line: Line,
+    line: CutDomain,
     parameter: str,
     numbers: Sequence[tuple[str, Term, Number, Number]] = (),
     ends: tuple[End | None, End | None] = (None, None),

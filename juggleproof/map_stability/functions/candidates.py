@@ -26,7 +26,7 @@ from juggleproof.map_stability.samples import (
     SEED,
     Arrays,
     Floats,
-    Point,
+    SamplePoint,
     Samples,
     around,
     at_samples,
@@ -149,7 +149,7 @@ class Setting:
     """A map with the point in question, the domain on which something is sought, and samples."""
 
     system: Map
-    point: Point
+    point: SamplePoint
     piece: int  # that the point is in
     have: tuple[str, ...]  # what premises know of the point; nothing where its terms are simple
     domain: str

@@ -93,7 +93,7 @@ class Template:
 
 
 @dataclass(frozen=True)
-class Sides:
+class SizesOfForms:
     """A sum with unknown weights of the terms |form| times factor, for all forms and factors;
     unless it is `even`, the positive and the negative part of each form have weights of their own.
     """
@@ -207,7 +207,7 @@ def sum_of_quotients(system: Map) -> Iterator[Template]:
 
 
 def margins(
-    template: Template | Sides, system: Map, states: Arrays, scale: str = "1"
+    template: Template | SizesOfForms, system: Map, states: Arrays, scale: str = "1"
 ) -> tuple[Floats, Floats]:
     """The rows of the conditions V(s) - V(f(s)) > 0 and V(s) > 0, scaled to length 1, and the
     number of the state of each row.  Rows of the former are divided by the scale, which is small
@@ -315,7 +315,7 @@ def rounded(weights: Floats, rows: Floats) -> Iterator[list[Fraction]]:
 
 
 def lyapunov_functions(
-    template: Template | Sides, system: Map, states: Arrays, tests: Arrays, scale: str = "1"
+    template: Template | SizesOfForms, system: Map, states: Arrays, tests: Arrays, scale: str = "1"
 ) -> Iterator[list[Fraction]]:
     """Coefficients of candidates for V that fall at all samples but the point; simplest first."""
     chosen, _ = margins(template, system, states, scale)

@@ -58,7 +58,7 @@ EPSILON = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
-class Side:
+class SideDistance:
     """The distance to the point on one of its sides, as it is, or over a power of a bound of the
     space; at the bound it tends to infinity.
     """
@@ -78,12 +78,12 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Sides:
+class TwoSides:
     """A function of two sides, which may have weights."""
 
     rank: float  # small where it is simple
     function: Function
-    sides: tuple[Side, ...] = ()
+    sides: tuple[SideDistance, ...] = ()
 
 
 def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
@@ -172,20 +172,20 @@ def is_positive(term: Expr) -> bool:
     return not names or all(c >= 0 for c in sympy.Poly(term, *names).coeffs())
 
 
-def functions(setting: Setting) -> Iterator[Sides]:
+def functions(setting: Setting) -> Iterator[TwoSides]:
     """The functions to try."""
     state = setting.system.state[0]
     every = [
-        [Side(sign, bound, power) for power in limits.SIDE_POWERS if bound or not power]
+        [SideDistance(sign, bound, power) for power in limits.SIDE_POWERS if bound or not power]
         for sign, bound in zip((1, -1), ends(setting))
     ]
     for over, under in product(*every):
         used = [as_factor(one.bound) for one in (over, under) if one.power]
         terms = (over.term(state), under.term(state))
         function = Function(terms, divisor="*".join(used) or "1")
-        yield Sides(over.power + under.power, function, (over, under))
+        yield TwoSides(over.power + under.power, function, (over, under))
     if setting.system.is_affine and len(setting.system.pieces) > 1:
-        yield from (Sides(0.0, function) for function in weighted(setting))
+        yield from (TwoSides(0.0, function) for function in weighted(setting))
 
 
 def ends(setting: Setting) -> tuple[str, str]:
@@ -238,7 +238,7 @@ def crossing(setting: Setting, side: int) -> list[Expr]:
     )
 
 
-def candidates_for(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> Iterator[Candidate]:
+def candidates_for(setting: Setting, sides: TwoSides, put: dict[Expr, Expr]) -> Iterator[Candidate]:
     """The candidates for a function, for losses of several shapes."""
     samples, function, (state,) = setting.states, sides.function, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))
@@ -280,7 +280,7 @@ def is_clear(setting: Setting, here: Floats, there: Floats) -> NDArray[np.bool_]
     return clear & every[samples.which] if every.mean() > limits.FEW else clear
 
 
-def ball(setting: Setting, sides: Sides) -> tuple[str, str] | None:
+def ball(setting: Setting, sides: TwoSides) -> tuple[str, str] | None:
     """Return a radius within which each linear bound that V divides by is at least half of its
     value at the point, and a bound of V there by the distance; None if V divides by no such bound.
     """
@@ -298,7 +298,7 @@ def ball(setting: Setting, sides: Sides) -> tuple[str, str] | None:
     return (written(sympy.factor(1 / (2 * total))), str(2**most)) if most else None
 
 
-def shares(setting: Setting, sides: Sides, put: dict[Expr, Expr]) -> list[Expr]:
+def shares(setting: Setting, sides: TwoSides, put: dict[Expr, Expr]) -> list[Expr]:
     """Return the shares of V by which its terms fall at the point, from either side, and at the
     ends of the space.
     """

@@ -32,7 +32,7 @@ from juggleproof.map_stability.functions.candidates import (
 )
 from juggleproof.map_stability.functions.templates import (
     Function,
-    Sides,
+    SizesOfForms,
     lyapunov_functions,
     signed,
 )
@@ -170,7 +170,7 @@ def weighted_sum_candidates(setting: Setting) -> Iterator[Candidate]:
     searches = dict.fromkeys(names, either(by_products, partial(proof_by_signs, signs=gaps)))
     seen: set[MapRule] = set()
     for scaled, even in itertools.product(scales(setting), (True, False)):
-        template = Sides(gaps, factors, even)
+        template = SizesOfForms(gaps, factors, even)
         ranked: dict[MapRule, Candidate] = {}
         found = itertools.chain.from_iterable(
             lyapunov_functions(template, system, states, tests, scale) for scale in scaled

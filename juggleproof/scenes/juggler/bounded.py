@@ -177,7 +177,7 @@ class _MoreBits(Stop):
     """The branch is to be decided with more bits."""
 
 
-class Enclosed:
+class EnclosedOrbits:
     """Balls of the present precision, with the exact orbit for what they cannot decide."""
 
     def __init__(self, alpha: Fraction, checkpoint: Track[Rational], bits: int) -> None:
@@ -252,7 +252,7 @@ def follow(
     try:
         while True:
             ctx.prec = bits
-            arithmetic = Enclosed(alpha, checkpoint, bits)
+            arithmetic = EnclosedOrbits(alpha, checkpoint, bits)
             track = begin(arithmetic, alpha, _exactly(checkpoint), keep)
             track.edges = checkpoint.edges
             show(track)

@@ -123,7 +123,7 @@ Unfinished: TypeAlias = exact.Rational | Fraction | arb | mpf
 Error: TypeAlias = Fraction | float
 
 
-class Row(NamedTuple):
+class OrbitRow(NamedTuple):
     """Where one orbit stands: its start's number, periods and impacts passed, the state in numbers
     of the arithmetic, a bound on its error, its end.
 
@@ -225,7 +225,7 @@ class Orbits:
             track.here = exact.finished(track.here)
             track.samples = track.samples and [exact.finished(sample) for sample in track.samples]
 
-    def row(self, index: int) -> Row:
+    def row(self, index: int) -> OrbitRow:
         """Where the orbit of this number stands; raises SceneError where it was not followed."""
         if (
             isinstance(index, bool)
@@ -237,7 +237,7 @@ class Orbits:
             )
         if self.ensemble is not None:
             e = self.ensemble
-            return Row(
+            return OrbitRow(
                 index,
                 int(e.periods[index]),
                 int(e.impacts[index]),
@@ -248,16 +248,16 @@ class Orbits:
             )
         return self._row(index, self.tracks[index].here, self.tracks[index].end)
 
-    def _row(self, index: int, here: Sample[Unfinished], end: str) -> Row:
+    def _row(self, index: int, here: Sample[Unfinished], end: str) -> OrbitRow:
         x, w = _finished(here.x), _finished(here.w)
         error: tuple[Error, Error] | None = None
         if isinstance(x, Fraction):  # exact, or a start that has not moved yet
             error = (Fraction(0), Fraction(0))
         elif self.arithmetic == "enclosed":
             error = (bounded.radius_of(here.x), bounded.radius_of(here.w))
-        return Row(index, here.periods, here.impacts, x, w, error, end)
+        return OrbitRow(index, here.periods, here.impacts, x, w, error, end)
 
-    def history(self, index: int) -> list[Row]:
+    def history(self, index: int) -> list[OrbitRow]:
         """All states of the orbit of this number that were kept: one a period, or one after each
         impact; raises SceneError where none were.
 
@@ -274,7 +274,7 @@ class Orbits:
         ):
             if x == x:  # what was not reached is not a number
                 periods, impacts = (step, -1) if self.goal.unit == "periods" else (-1, step)
-                rows.append(Row(index, periods, impacts, x, w, (error_x, error_w), ""))
+                rows.append(OrbitRow(index, periods, impacts, x, w, (error_x, error_w), ""))
         return rows
 
     @property

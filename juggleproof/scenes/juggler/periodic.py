@@ -29,14 +29,14 @@ from juggleproof.symbolic.algebra import K, alpha, w, x
 
 
 @dataclass(frozen=True)
-class Root:
+class IsolatedRoot:
     """The only root of an irreducible polynomial in [low, high]; rational where low = high."""
 
     polynomial: Poly
     low: Fraction
     high: Fraction
 
-    def refined(self, width: Fraction) -> Root:
+    def refined(self, width: Fraction) -> IsolatedRoot:
         """The same root between ends that are at most `width` apart."""
         if self.high - self.low <= width:
             return self
@@ -46,7 +46,7 @@ class Root:
             _rational(self.high),
             eps=_rational(width),
         )
-        return Root(self.polynomial, *(Fraction(int(end.p), int(end.q)) for end in ends))
+        return IsolatedRoot(self.polynomial, *(Fraction(int(end.p), int(end.q)) for end in ends))
 
     def __str__(self) -> str:
         if self.low == self.high:
@@ -56,11 +56,11 @@ class Root:
 
 
 @dataclass(frozen=True)
-class Range:
+class AlphaRange:
     """The alpha between two ends, each with whether it belongs to the range."""
 
-    low: Root
-    high: Root
+    low: IsolatedRoot
+    high: IsolatedRoot
     low_in: bool
     high_in: bool
 
@@ -87,7 +87,7 @@ def irreducible(polynomials: Sequence[Expr]) -> list[Poly]:
     return [Poly(one.clear_denoms()[1], alpha) for one in factors]
 
 
-def roots_between(polynomials: Sequence[Expr]) -> list[Root]:
+def roots_between(polynomials: Sequence[Expr]) -> list[IsolatedRoot]:
     """The real roots of the polynomials strictly between 0 and 1, in order, between ends that hold
     no other root, and apart from each other.
 
@@ -102,7 +102,7 @@ def roots_between(polynomials: Sequence[Expr]) -> list[Root]:
         factor, ends = factors[next(iter(owners))], [low, high]
         if factor.degree() == 1:  # a rational root, as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
-        roots.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
+        roots.append(IsolatedRoot(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
     return [
         root
         for root in roots
@@ -115,7 +115,7 @@ def _sign_at(polynomial: Poly, at: Fraction) -> int:
     return int(bool(value > 0)) - int(bool(value < 0))
 
 
-def sign_at_root(polynomial: Expr, root: Root) -> int:
+def sign_at_root(polynomial: Expr, root: IsolatedRoot) -> int:
     """The sign of a polynomial, of those whose roots were isolated, at one of these roots.
 
     >>> roots = roots_between([2 * alpha**2 - 1, alpha - 1])
@@ -127,7 +127,7 @@ def sign_at_root(polynomial: Expr, root: Root) -> int:
     return _sign_at(polynomial, (root.low + root.high) / 2)  # between the ends it has no root
 
 
-def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Range]:
+def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[AlphaRange]:
     """All alpha in (0, 1) at which polynomials of the one list are >= 0 and those of the other > 0.
 
     >>> [str(one) for one in where([3 * alpha - 1, 1 - 2 * alpha])]
@@ -140,8 +140,8 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
     ['0 < alpha < 1/2', '1/2 < alpha < 1']
     """
     zero, one = (
-        Root(Poly(alpha, alpha), Fraction(0), Fraction(0)),
-        Root(Poly(alpha - 1, alpha), Fraction(1), Fraction(1)),
+        IsolatedRoot(Poly(alpha, alpha), Fraction(0), Fraction(0)),
+        IsolatedRoot(Poly(alpha - 1, alpha), Fraction(1), Fraction(1)),
     )
     roots = [zero, *roots_between([*nonnegative, *positive]), one]
     conditions = [(Poly(part, alpha), False) for part in nonnegative] + [
@@ -168,7 +168,7 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
         elif not inside and begun is not None:
             low, last = begun, place - 1
             ranges.append(
-                Range(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0)
+                AlphaRange(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0)
             )
             begun = None
     return ranges
@@ -316,7 +316,7 @@ def _family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
     return tuple(places)
 
 
-def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
+def exists_for(word: Sequence[int]) -> tuple[AlphaRange, ...]:
     """All alpha in (0, 1) for which the orbit of the word exists, exactly.
 
     >>> [[str(one) for one in exists_for((length,))] for length in (1, 2, 3)]
@@ -326,7 +326,7 @@ def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
     return tuple(where([*heights, *gaps], margins))
 
 
-def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
+def attracts_for(word: Sequence[int]) -> tuple[AlphaRange, ...]:
     """All alpha in (0, 1) for which the orbit of the word exists with no state on x = w: there it
     attracts a neighbourhood.
 

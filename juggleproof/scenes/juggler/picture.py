@@ -30,7 +30,7 @@ from juggleproof.scenes.juggler.compiled_map import brief, formulas
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits
 from juggleproof.scenes.juggler.orbits import heights
 from juggleproof.scenes.juggler.periodic import Word, exists_for, returning_state
-from juggleproof.scenes.juggler.starts import Grid, Scene
+from juggleproof.scenes.juggler.starts import Scene, StartGrid
 
 # -------------------------------------------------------------------------------------------------
 # What the pictures have in common: axes in either system of units, a title, a legend.
@@ -143,10 +143,10 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
 # Basins at one alpha.
 
 
-def grid_of(scene: Scene) -> Grid:
+def grid_of(scene: Scene) -> StartGrid:
     """The starts; raises SceneError if they are no grid of at least two by two states."""
     grid = scene.starts
-    if not isinstance(grid, Grid) or min(len(grid.heights), len(grid.speeds)) < 2:
+    if not isinstance(grid, StartGrid) or min(len(grid.heights), len(grid.speeds)) < 2:
         raise SceneError("basins are of a grid of at least 2 by 2 states; give --grid")
     return grid
 
@@ -158,7 +158,7 @@ def basin(scene: Scene, found: Limits, units: str) -> bytes:
     return _on_white(lambda: _basin(scene, grid_of(scene), found, units), "basin")
 
 
-def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
+def _basin(scene: Scene, grid: StartGrid, found: Limits, units: str) -> Figure:
     def shown(x: Fraction, w: Fraction) -> tuple[float, float]:
         if units == "physical":
             x, w = formulas().unscaled(x, w, scene.r, scene.g)

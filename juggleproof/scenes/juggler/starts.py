@@ -104,7 +104,7 @@ class Even:
 
 
 @dataclass(frozen=True)
-class Grid:
+class StartGrid:
     """All pairs of heights and closing speeds; the speed runs first."""
 
     heights: Even
@@ -175,7 +175,7 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Array:
+class FloatStarts:
     """Arrays of floats, which are taken as the binary numbers that they are."""
 
     x: Floats
@@ -309,11 +309,11 @@ def axis(low: Number, high: Number, count: int, name: str) -> Even:
     return Even(first, last, int(count))
 
 
-def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> Grid:
+def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> StartGrid:
     for one, name in zip((heights, speeds), names):
         _refuse_other_parts(one, 3, name)
     (low, high, count), (low_speed, high_speed, count_speeds) = heights, speeds
-    states = Grid(
+    states = StartGrid(
         axis(low, high, count, names[0]), axis(low_speed, high_speed, count_speeds, names[1])
     )
     height(states.heights.first, names[0])
@@ -328,7 +328,7 @@ def _refuse_other_parts(given: object, count: int, name: str) -> None:
         raise SceneError(f"{name} = {brief(given)} has not {count} parts; {wanted}")
 
 
-def grid(x: Axis, w: Axis) -> Grid:
+def grid(x: Axis, w: Axis) -> StartGrid:
     """A grid of heights (from, to, how many) and closing speeds (likewise); raises SceneError for
     others.
 
@@ -338,7 +338,7 @@ def grid(x: Axis, w: Axis) -> Grid:
     return _grid_of(x, w, ("x", "w"))
 
 
-def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
+def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> StartGrid:
     """The same in the paper's units, as those of `physical`; v runs first, upwards, so that w = 1 -
     v/r falls.
 
@@ -355,7 +355,7 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
             (given.heights.last, given.speeds.last),
         )
     )
-    return Grid(Even(x, x_last, len(given.heights)), Even(w, w_last, len(given.speeds)))
+    return StartGrid(Even(x, x_last, len(given.heights)), Even(w, w_last, len(given.speeds)))
 
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
@@ -397,7 +397,7 @@ def physical_box(beta: Side, v: Side, r: Number, g: Number) -> tuple[Side, Side]
     return (x, x_last), (w_last, w)
 
 
-def arrays(x: Floats, w: Floats) -> Array:
+def arrays(x: Floats, w: Floats) -> FloatStarts:
     """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; raises
     SceneError for others.
     """
@@ -420,7 +420,7 @@ def arrays(x: Floats, w: Floats) -> Array:
             )
     if (xs < 0).any():
         raise SceneError(f"x = {xs[xs < 0][0]} is below the table; a state has x >= 0")
-    return Array(xs, ws)
+    return FloatStarts(xs, ws)
 
 
 def boundary(alpha: Number, count: int) -> OnBoundary:

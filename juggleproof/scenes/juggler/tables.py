@@ -18,7 +18,7 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, Column, radius_of
 from juggleproof.scenes.juggler.compiled_map import brief, formulas, nearest
 from juggleproof.scenes.juggler.exact import as_fraction, flight, impact, lifted, strikes
-from juggleproof.scenes.juggler.orbits import Error, Orbits, Row, Value, orbit
+from juggleproof.scenes.juggler.orbits import Error, OrbitRow, Orbits, Value, orbit
 from juggleproof.scenes.juggler.starts import Scene, point, scene
 
 # -------------------------------------------------------------------------------------------------
@@ -38,7 +38,7 @@ def checked_units(units: str) -> str:
     return units
 
 
-def in_units(orbits: Orbits, row: Row, units: str) -> Row:
+def in_units(orbits: Orbits, row: OrbitRow, units: str) -> OrbitRow:
     """The row in the wanted units: x and w, or beta and v of the paper."""
     if checked_units(units) == "normal":
         return row
@@ -89,7 +89,7 @@ def _ball(ball: arb, digits: int) -> tuple[str, str]:
     )
 
 
-def rows(orbits: Orbits) -> Iterator[Row]:
+def rows(orbits: Orbits) -> Iterator[OrbitRow]:
     """All rows: every state that was kept, or where each orbit stands."""
     for index in range(orbits.followed):
         yield from (orbits.history(index) if orbits.keep else [orbits.row(index)])
@@ -238,7 +238,7 @@ FLIGHT = 1000  # periods that plain floats are followed for where a case counts 
 
 
 @dataclass(frozen=True)
-class Case:
+class ExactStart:
     """An exact start, followed for `steps` periods (or impacts); exact numbers have at most
     `most_bits` bits.
     """
@@ -257,17 +257,17 @@ class Case:
         return scene(self.alpha, point(self.x, self.w))
 
 
-class Finding(NamedTuple):
+class ArithmeticFinding(NamedTuple):
     """The results of each arithmetic: the last state in plain floats, the period at which they
     first took a wrong branch (None: nowhere), and the rows of exact, fast and enclosed.
     """
 
-    case: Case
+    case: ExactStart
     floats: tuple[float, float]
     wrong_at: int | None
-    exact: Row
-    fast: Row
-    enclosed: Row
+    exact: OrbitRow
+    fast: OrbitRow
+    enclosed: OrbitRow
     edges: int  # states proved to lie on x = w
 
 
@@ -279,8 +279,8 @@ def _case(
     steps: int,
     impacts: bool = False,
     most_bits: int | None = None,
-) -> Case:
-    return Case(name, Fraction(alpha), Fraction(x), Fraction(w), steps, impacts, most_bits)
+) -> ExactStart:
+    return ExactStart(name, Fraction(alpha), Fraction(x), Fraction(w), steps, impacts, most_bits)
 
 
 CASES = (
@@ -308,7 +308,7 @@ CASES = (
 )
 
 
-def plain_floats(case: Case, most: int = 10**5) -> tuple[tuple[float, float], int | None]:
+def plain_floats(case: ExactStart, most: int = 10**5) -> tuple[tuple[float, float], int | None]:
     """The last state of the orbit in plain float64, followed for at most `most` periods, and the
     first period whose branch is not that of the exact orbit.
 
@@ -330,7 +330,7 @@ def plain_floats(case: Case, most: int = 10**5) -> tuple[tuple[float, float], in
     return (x, w), wrong
 
 
-def _branches(case: Case) -> Iterator[bool]:
+def _branches(case: ExactStart) -> Iterator[bool]:
     """Whether each period of the exact orbit has an impact."""
     x, w = case.x, case.w
     while True:
@@ -341,11 +341,11 @@ def _branches(case: Case) -> Iterator[bool]:
             return
 
 
-def finding(case: Case) -> Finding:
+def finding(case: ExactStart) -> ArithmeticFinding:
     """The case in plain floats and in three arithmetics."""
     floats, wrong = plain_floats(case)
     balls = orbit(case.scene, "enclosed", case.steps, impacts=case.impacts)
-    return Finding(
+    return ArithmeticFinding(
         case,
         floats,
         wrong,

@@ -41,7 +41,7 @@ R = TypeVar("R")  # its result
 
 
 @dataclass(frozen=True)
-class Run:
+class EnsembleRun:
     """The states of blocks after a run, shape (n, 10), and their notes, shape (n, 16); columns are
     named in `juggleproof.scenes.part.body`.  `checked`: whether guarantees were checked.
     """
@@ -155,7 +155,7 @@ def run(
     check: bool = False,
     report: Callable[[int, int], None] | None = None,
     keep: Path | None = None,
-) -> Run:
+) -> EnsembleRun:
     """Moves blocks on to the time `until`, in seconds; `states` of shape (n, 10) stay as they are.
     Raises SceneError for arrays of other shapes, and where a counted bound on the work is reached.
     `check`: whether broken guarantees are counted; `report` is called with the number of chunks
@@ -182,10 +182,10 @@ def run(
     return joined(run_jobs(worker(keep), jobs, executor, report), check)
 
 
-def joined(parts: Iterable[tuple[Array, Array]], checked: bool) -> Run:
+def joined(parts: Iterable[tuple[Array, Array]], checked: bool) -> EnsembleRun:
     """Chunks in their order as one run."""
     chunks = list(parts)
-    return Run(
+    return EnsembleRun(
         np.concatenate([part[0] for part in chunks]),
         np.concatenate([part[1] for part in chunks]),
         checked,
@@ -302,7 +302,7 @@ LONGEST_SPLIT = 64.0  # seconds until all are at rest
 
 
 @dataclass(frozen=True)
-class Split:
+class EndSplit:
     """The angles, in degrees, at which blocks end that start at 0 to 90 degrees; a starting angle
     that ends at 0 and one that ends at 90; and atan(a/b), which separates them.
     """
@@ -317,7 +317,7 @@ class Split:
         return self.ends == (0,) * (LAST_UPRIGHT + 1) + (90,) * (len(DEGREES) - FIRST_LYING)
 
 
-def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
+def no_vibration(setting: Scene, executor: Executor | None = None) -> EndSplit:
     """The split of a scene's block on a still table, bisected to 1e-9 degrees between the two
     neighbours that end apart.
 
@@ -347,7 +347,7 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
             high = middle
         else:
             low = middle
-    return Split(tuple(ends), low, high, degrees(atan(setting.a / setting.b)))
+    return EndSplit(tuple(ends), low, high, degrees(atan(setting.a / setting.b)))
 
 
 def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = None) -> list[int]:
@@ -367,7 +367,7 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
     )
 
 
-def in_words(split: Split) -> str:
+def in_words(split: EndSplit) -> str:
     """Where blocks end on a still table, and the angle that separates them.
 
     >>> split = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)

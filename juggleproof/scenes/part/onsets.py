@@ -15,7 +15,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.ensemble import Job, Run, fresh_notes, joined, run_jobs, worker
+from juggleproof.scenes.part.ensemble import EnsembleRun, Job, fresh_notes, joined, run_jobs, worker
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
@@ -57,7 +57,7 @@ def ensembles_in_words(count: int) -> str:
 
 
 @dataclass(frozen=True)
-class Row:
+class OnsetRow:
     """One row: vibration along the table, the paper's onset, and for each ensemble its onset (inf:
     censored or chaotic) and whether it is chaotic.
     """
@@ -83,11 +83,11 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Table:
+class OnsetTable:
     """The six rows, or those that are done, and the runs that they come from."""
 
-    rows: tuple[Row, ...]
-    run: Run
+    rows: tuple[OnsetRow, ...]
+    run: EnsembleRun
 
 
 def jittered(ensembles: int, seed: int) -> Array:
@@ -121,7 +121,7 @@ def table_one(
     report: Callable[[int, int], None] | None = None,
     check: bool = False,
     keep: Path | None = None,
-) -> Table:
+) -> OnsetTable:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the
     table is replaced by that of each row.
 
@@ -162,27 +162,27 @@ def table_one(
 class Interrupted(KeyboardInterrupt):
     """An interrupted run; `table` has the rows all of whose ensembles were done by then."""
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: OnsetTable) -> None:
         self.table = table
 
 
 def _table(
     done: Sequence[tuple[Array, Array]], ensembles: int, horizon: float, checked: bool
-) -> Table:
+) -> OnsetTable:
     """The rows of `PAPER` that are done."""
     count = len(done) // ensembles
     rows = tuple(
         row_of(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon)
         for k, row in enumerate(PAPER[:count])
     )
-    return Table(rows, joined(done[: count * ensembles], checked))
+    return OnsetTable(rows, joined(done[: count * ensembles], checked))
 
 
-def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> Row:
+def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> OnsetRow:
     """A row of `PAPER` with the notes of its ensembles, each of shape (91, 16)."""
     chaotic = tuple(bool(one[:, body.RISES].any() and one[:, body.FALLS].any()) for one in notes)
     last = np.array([one[:, body.LAST_UPRIGHT].max() for one in notes])
-    return Row(
+    return OnsetRow(
         *row, np.where((last >= horizon) | np.array(chaotic), np.inf, last), chaotic, horizon
     )
 
@@ -191,7 +191,7 @@ def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: 
 # Where the rows differ from the paper's.
 
 
-def discrepancies(rows: tuple[Row, ...]) -> list[str]:
+def discrepancies(rows: tuple[OnsetRow, ...]) -> list[str]:
     """Where the rows differ from the paper's: a row is chaotic on one side only, or the paper's
     onset is outside of the range from 16 to 84 percent of the ensembles.
     """
@@ -221,7 +221,7 @@ def discrepancies(rows: tuple[Row, ...]) -> list[str]:
 HEADS = ("f_x [Hz]", "A_x [m]", "paper [s]", "ensemble", "onset [s]", "chaotic", "censored")
 
 
-def as_csv(table: Table, file: BinaryIO) -> None:
+def as_csv(table: OnsetTable, file: BinaryIO) -> None:
     """Writes a line for each row and ensemble; the onset is left out where the ensemble is chaotic
     or censored.
     """
@@ -245,7 +245,7 @@ def as_csv(table: Table, file: BinaryIO) -> None:
     text.detach()
 
 
-def as_npz(table: Table, file: BinaryIO) -> None:
+def as_npz(table: OnsetTable, file: BinaryIO) -> None:
     """Writes arrays: f_x [Hz], A_x [m] and paper [s, nan for chaotic] of shape (6,); onset [s] and
     chaotic (6, ensembles); and of each block, (6, ensembles, 91), the last time nearer to upright
     [s], the number of impacts, and its angle at the end [rad].

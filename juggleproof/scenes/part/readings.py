@@ -30,7 +30,7 @@ from juggleproof.scenes.part.onsets import (
     JITTER,
     MOST_POINTS,
     PAPER,
-    Row,
+    OnsetRow,
     jittered,
     jittered_phases,
     row_of,
@@ -59,7 +59,7 @@ BANDWIDTH = 0.2  # of a kernel, in the logarithm of an onset
 DIGIT = 0.1  # seconds: the paper prints tenths
 
 
-def row_likelihood(row: Row) -> float:
+def row_likelihood(row: OnsetRow) -> float:
     """The logarithm of the likelihood of a row's print: ln((c + 1/2)/(n + 1)) where it is chaotic,
     c of n ensembles being so; else ln((sum_i N(ln(print/onset_i); 0.2) + 1/(2 ln(horizon/0.1 s)))
     /(n + 1)), per unit of the logarithm of the onset.
@@ -78,7 +78,7 @@ def row_likelihood(row: Row) -> float:
     return math.log((float(kernels.sum()) + anywhere) / (count + 1))
 
 
-def likelihood(rows: Sequence[Row]) -> float:
+def likelihood(rows: Sequence[OnsetRow]) -> float:
     """The logarithm of the likelihood of the prints of some rows: the sum of theirs."""
     return math.fsum(map(row_likelihood, rows))
 
@@ -86,7 +86,7 @@ def likelihood(rows: Sequence[Row]) -> float:
 def most_likely(paper: float | None, count: int, horizon: float) -> float:
     """The greatest possible value of `row_likelihood`, for this number of ensembles."""
     onsets = np.full(count, math.inf if paper is None else paper)
-    return row_likelihood(Row(0.0, 0.0, paper, onsets, (paper is None,) * count, horizon))
+    return row_likelihood(OnsetRow(0.0, 0.0, paper, onsets, (paper is None,) * count, horizon))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -106,7 +106,7 @@ ORDER = (0, 2, 4, 5, 3, 1)  # of the rows: those with an onset tell readings apa
 
 
 @dataclass(frozen=True)
-class Reading:
+class TableReading:
     """The face in the plane, what an amplitude is, the phases in degrees, restitution and friction:
     all that table I leaves open but the onset.
     """
@@ -147,14 +147,14 @@ class Reading:
 
 
 @dataclass(frozen=True)
-class Point:
+class ReadingOutcome:
     """Table I under one reading: each row's median onset in seconds by the last time, None if that
     is late or chaotic; the same by the first time; its number of chaotic ensembles; the logarithm
     of the likelihood by each of `ONSETS`.  All are empty if the reading was given up as unlikely.
     `impacts` is the number of impacts that were computed.
     """
 
-    reading: Reading
+    reading: TableReading
     last: tuple[float | None, ...]
     first: tuple[float | None, ...]
     chaotic: tuple[int, ...]
@@ -167,12 +167,12 @@ class Point:
         return max(self.likelihoods, default=-math.inf)
 
 
-class Task(NamedTuple):
+class SimulatedReading(NamedTuple):
     """A reading with its scene, and how it is simulated; it is given up once the logarithm of its
     likelihood is sure to be below `least`.
     """
 
-    reading: Reading
+    reading: TableReading
     setting: Scene
     ensembles: int
     seed: int
@@ -180,13 +180,13 @@ class Task(NamedTuple):
     least: float = -math.inf
 
 
-def point(task: Task) -> Point:
+def point(task: SimulatedReading) -> ReadingOutcome:
     """Table I under one reading.  Raises SceneError where a block is stuck."""
     starts = list(
         zip(jittered(task.ensembles, task.seed), jittered_phases(task.ensembles, task.seed))
     )
     left = math.fsum(most_likely(paper, task.ensembles, task.horizon) for _, _, paper in PAPER)
-    rows: dict[int, tuple[Row, ...]] = {}
+    rows: dict[int, tuple[OnsetRow, ...]] = {}
     impacts = 0
     for which in ORDER:
         frequency, amplitude, paper = PAPER[which]
@@ -206,9 +206,9 @@ def point(task: Task) -> Point:
         left -= most_likely(paper, task.ensembles, task.horizon)
         found = [math.fsum(row_likelihood(row[k]) for row in rows.values()) for k in range(3)]
         if max(found) + left < task.least:
-            return Point(task.reading, (), (), (), (), impacts)
+            return ReadingOutcome(task.reading, (), (), (), (), impacts)
     last, early, _ = zip(*(rows[which] for which in range(len(PAPER))))
-    return Point(
+    return ReadingOutcome(
         task.reading,
         tuple(map(_median, last)),
         tuple(map(_median, early)),
@@ -218,7 +218,7 @@ def point(task: Task) -> Point:
     )
 
 
-def _median(row: Row) -> float | None:
+def _median(row: OnsetRow) -> float | None:
     onset = row.quantile(0.5)
     return None if math.isinf(onset) else round(onset, 3)
 
@@ -238,7 +238,7 @@ def watched(setting: Scene, angles: Array, horizon: float) -> tuple[Array, float
     return notes, float(times[lying.argmax()]) if lying.any() else math.inf
 
 
-def by_rules(last: Row, first: Array) -> tuple[Row, Row, Row]:
+def by_rules(last: OnsetRow, first: Array) -> tuple[OnsetRow, OnsetRow, OnsetRow]:
     """A row by each of `ONSETS`, from that by the last time and the first time of each ensemble."""
     chaotic = np.array(last.chaotic)
     never = tuple(bool(one) for one in chaotic & np.isinf(first))
@@ -247,11 +247,11 @@ def by_rules(last: Row, first: Array) -> tuple[Row, Row, Row]:
 
 
 def sweep(
-    tasks: Sequence[Task],
+    tasks: Sequence[SimulatedReading],
     executor: Executor | None = None,
     report: Callable[[int, int], None] | None = None,
-    done: list[Point] | None = None,
-) -> list[Point]:
+    done: list[ReadingOutcome] | None = None,
+) -> list[ReadingOutcome]:
     """The points of tasks, in their order, on any executor; `report` and `done` as in `run_jobs`.
     Raises SceneError for no tasks or too many, for a horizon out of range, and without numba.
     """
@@ -279,8 +279,8 @@ PHASES = (-90, 0, 90)
 RESTITUTIONS = (0, 0.3, 0.5, 0.7, 0.8, 0.875, 0.925, 0.95)
 FRICTIONS = (0.02, 0.06, 0.2, 0.5, 0.92, 1.3)
 STATED = (
-    Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92),
-    Reading("2x4", "peak", 0, 0, 0.7, 0.06),
+    TableReading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92),
+    TableReading("2x4", "peak", 0, 0, 0.7, 0.06),
 )
 NEAR = ((0.875, 0.92), (0.875, 0.7), (0.85, 0.92))  # restitution and friction
 SCREEN = (1, 0, 6.0, -7.0)  # ensembles, seed, horizon in seconds, and when to give up
@@ -291,7 +291,7 @@ SCATTER = 1.0  # of the logarithm of a likelihood by 24 ensembles: smaller diffe
 
 
 @dataclass(frozen=True)
-class Stage:
+class AlikeReadings:
     """Readings that were simulated alike: how many, with how many impacts, and the points of those
     that were not given up.
     """
@@ -301,30 +301,30 @@ class Stage:
     horizon: float
     tried: int
     impacts: int
-    points: tuple[Point, ...]
+    points: tuple[ReadingOutcome, ...]
 
 
-def stage(tasks: Sequence[Task], points: Sequence[Point]) -> Stage:
+def stage(tasks: Sequence[SimulatedReading], points: Sequence[ReadingOutcome]) -> AlikeReadings:
     """The stage of some tasks, from their points."""
     first = tasks[0]
     kept = tuple(one for one in points if one.likelihoods)
     impacts = sum(one.impacts for one in points)
-    return Stage(first.ensembles, first.seed, first.horizon, len(points), impacts, kept)
+    return AlikeReadings(first.ensembles, first.seed, first.horizon, len(points), impacts, kept)
 
 
-def screened() -> list[Task]:
+def screened() -> list[SimulatedReading]:
     """The tasks of the screen: all restitutions, frictions, faces, amplitudes and phases on each
     axis.
     """
     readings = (
-        Reading(*kind, e, mu)
+        TableReading(*kind, e, mu)
         for e, mu in product(RESTITUTIONS, FRICTIONS)
         for kind in product(("2x4", "1x2"), ("peak-to-peak", "peak"), PHASES, PHASES)
     )
-    return [Task(one, one.scene(), *SCREEN) for one in readings]
+    return [SimulatedReading(one, one.scene(), *SCREEN) for one in readings]
 
 
-def nearer(screened: Sequence[Point]) -> list[Task]:
+def nearer(screened: Sequence[ReadingOutcome]) -> list[SimulatedReading]:
     """The tasks of the nearer look: the likeliest of the screen, and the phases at restitutions and
     frictions around the first stated reading.
     """
@@ -333,22 +333,22 @@ def nearer(screened: Sequence[Point]) -> list[Task]:
         for (e, mu), along, up in product(NEAR, PHASES, PHASES)
     )
     readings = dict.fromkeys((*about, *likeliest(screened, KEPT)))
-    return [Task(one, one.scene(), *NEARER) for one in readings]
+    return [SimulatedReading(one, one.scene(), *NEARER) for one in readings]
 
 
-def finals(looked_at: Sequence[Point]) -> list[Task]:
+def finals(looked_at: Sequence[ReadingOutcome]) -> list[SimulatedReading]:
     """The tasks of the last stage: the stated readings, and the likeliest of the nearer look."""
     readings = dict.fromkeys((*STATED, *likeliest(looked_at, FINALISTS)))
-    return [Task(one, one.scene(), *FINAL) for one in readings]
+    return [SimulatedReading(one, one.scene(), *FINAL) for one in readings]
 
 
-def likeliest(points: Sequence[Point], count: int) -> list[Reading]:
+def likeliest(points: Sequence[ReadingOutcome], count: int) -> list[TableReading]:
     """The readings of at most `count` points that were not given up, the likeliest first."""
     kept = sorted((one for one in points if one.likelihoods), key=lambda one: -one.likelihood)
     return [one.reading for one in kept[:count]]
 
 
-def as_json(stages: Sequence[Stage]) -> str:
+def as_json(stages: Sequence[AlikeReadings]) -> str:
     """A record of a sweep: its stages, with a line for each point."""
     kept = []
     for one in stages:
@@ -360,27 +360,28 @@ def as_json(stages: Sequence[Stage]) -> str:
     return "[\n" + ",\n".join(kept) + "\n]\n"
 
 
-def _results(one: Point) -> dict[str, object]:
+def _results(one: ReadingOutcome) -> dict[str, object]:
     return {name: value for name, value in asdict(one).items() if name != "reading"}
 
 
-def read(text: str) -> tuple[Stage, ...]:
+def read(text: str) -> tuple[AlikeReadings, ...]:
     """The stages of a record; raises ValueError, KeyError or TypeError for any other text."""
     return tuple(
-        Stage(**{**kept, "points": tuple(map(_point, kept["points"]))}) for kept in json.loads(text)
+        AlikeReadings(**{**kept, "points": tuple(map(_point, kept["points"]))})
+        for kept in json.loads(text)
     )
 
 
-def _point(kept: dict[str, object]) -> Point:
-    open_ = {name: kept.pop(name) for name in Reading.__dataclass_fields__}
+def _point(kept: dict[str, object]) -> ReadingOutcome:
+    open_ = {name: kept.pop(name) for name in TableReading.__dataclass_fields__}
     results = {
         name: tuple(value) if isinstance(value, list) else value for name, value in kept.items()
     }
-    return Point(Reading(**open_), **results)  # type: ignore[arg-type]  # read from a file
+    return ReadingOutcome(TableReading(**open_), **results)  # type: ignore[arg-type]  # read from a file
 
 
 @cache
-def recorded() -> tuple[Stage, ...]:
+def recorded() -> tuple[AlikeReadings, ...]:
     """The search that is stored beside this file; the reading of the scene comes from it.
     Raises SceneError where it cannot be read.
 
@@ -399,18 +400,18 @@ def recorded() -> tuple[Stage, ...]:
         ) from None
 
 
-def most_likely_point(stages: Sequence[Stage]) -> Point:
+def most_likely_point(stages: Sequence[AlikeReadings]) -> ReadingOutcome:
     """The most likely point of the last stage; the first where several are."""
     return max(stages[-1].points, key=lambda one: one.likelihood)
 
 
-def as_good(stages: Sequence[Stage]) -> list[Point]:
+def as_good(stages: Sequence[AlikeReadings]) -> list[ReadingOutcome]:
     """The points of the last stage that `SCATTER` does not tell from the most likely."""
     least = most_likely_point(stages).likelihood - SCATTER
     return [one for one in stages[-1].points if one.likelihood >= least]
 
 
-def chosen(stages: Sequence[Stage]) -> Point:
+def chosen(stages: Sequence[AlikeReadings]) -> ReadingOutcome:
     """The first of the points that `SCATTER` does not tell from the most likely."""
     return as_good(stages)[0]
 

@@ -128,7 +128,7 @@ class Subbox:
 
 
 @dataclass
-class Tree:
+class BoxTree:
     """What a search has come to: the tree as text, a number below all its leaves, how many boxes it
     has, and whether it reached its target.
     """
@@ -139,7 +139,7 @@ class Tree:
     reached: bool
 
 
-class Arithmetic:
+class BernsteinArithmetic:
     """The coefficients as integers: Python's, exact, or floats, exact as long as 53 bits hold them
     on their way down the tree.
 
@@ -226,7 +226,11 @@ class Branching:
     def __init__(
         self, terms: Terms, box: Box, target: Callable[[], Fraction], improve: Improve, exact: bool
     ) -> None:
-        self.numbers, self.target, self.improve = Arithmetic(terms, box, exact), target, improve
+        self.numbers, self.target, self.improve = (
+            BernsteinArithmetic(terms, box, exact),
+            target,
+            improve,
+        )
         self.root = self.numbers.subbox(
             self.numbers.root, 1, [(i, 0.0, 1.0) for i in range(len(box))], {}
         )
@@ -237,7 +241,7 @@ class Branching:
         shape: tuple[int, ...] = self.numbers.root.shape
         return max(1, (WORK if self.numbers.exact else 100 * WORK) // (prod(shape) * max(shape)))
 
-    def run(self, budget: int) -> Tree:
+    def run(self, budget: int) -> BoxTree:
         """Goes on until the target is reached, there are `budget` boxes, or halving leads
         nowhere.
         """
@@ -254,7 +258,7 @@ class Branching:
                 heapq.heappop(self.heap)
                 self._halve(node, axis, goal)
         reached = not self.heap or self.heap[0][0] >= goal
-        return Tree(
+        return BoxTree(
             _text(self.root),
             self.target() if reached else self.numbers.bound(self.heap[0][0]),
             self.boxes,

@@ -149,7 +149,7 @@ SHARE = 8  # of the width, which the value at the point and its rounding may eac
 
 
 @dataclass(frozen=True)
-class Problem:
+class BoxProblem:
     """A polynomial on a box, and how a certificate speaks of it: the numbers of the facts low <= x
     and x <= high, and of the goal's negation.
     """

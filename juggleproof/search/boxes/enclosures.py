@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from juggleproof.algebra.box_trees import rounded_down, value_at
-from juggleproof.search.boxes.branching import ROUNDING, Branching, Tree
+from juggleproof.search.boxes.branching import ROUNDING, BoxTree, Branching
 from juggleproof.search.boxes.descent import (
     SHARE,
     SIMPLE,
     Best,
+    BoxProblem,
     Point,
-    Problem,
     shorter,
 )
 from juggleproof.search.boxes.squares import program_around
@@ -56,7 +56,7 @@ class Bounds:
 
 
 def search_enclosure(
-    problem: Problem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
+    problem: BoxProblem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
 ) -> Bounds:
     """A bound from below within `width` of the value at a point where the budget of boxes allows,
     else the best that it came to, also when other widths are asked for.
@@ -93,7 +93,7 @@ def _both(first: Bounds, second: Bounds, width: Fraction) -> Bounds:
 
 
 def _search_width(
-    problem: Problem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
+    problem: BoxProblem, width: Fraction, budget: int, prove: Prove, by_squares: BySquares
 ) -> Bounds:
     """The bounds that one search comes to.
 
@@ -130,7 +130,7 @@ def _search_width(
 
 
 def _squares(
-    problem: Problem, best: Best, done: int, prove: Prove, by_squares: BySquares
+    problem: BoxProblem, best: Best, done: int, prove: Prove, by_squares: BySquares
 ) -> Bounds | None:
     """Squares that show that the value at the best point is the minimum, or a simple number just
     below it; or, for a positive width, that the minimum is within the width of it.
@@ -171,7 +171,7 @@ def _simple_below(best: Best) -> Fraction | None:
     return None
 
 
-def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Bounds | None:
+def _reached(best: Best, tree: BoxTree, done: int, node: Node, prove: Prove) -> Bounds | None:
     """What a tree that reached its aim shows: the minimum itself where that is the simple value at
     the point, else a bound within the width.
     """
@@ -181,7 +181,7 @@ def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Bou
     return Bounds(low, high, best.point, node, done, True) if prove(low, node) else None
 
 
-def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Bounds | None:
+def _unfinished(best: Best, tree: BoxTree, done: int, node: Node, prove: Prove) -> Bounds | None:
     """What the leaves of a tree show that did not reach its aim, rounded down until the checker
     accepts it.
     """

@@ -11,14 +11,14 @@ from typing import NamedTuple
 from juggleproof.algebra.box_trees import Box, Exponents, search_tree, value_at
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State, variables_in
+from juggleproof.statements.states import SearchState, variables_in
 from juggleproof.statements.work import Budget
 
 MOST_COEFFICIENTS = 1 << 16  # of the Bernstein form of a fact
 MARGINS = (Fraction(1, 100), Fraction(1, 10**5))  # parts of the value at the middle of the box
 
 
-class Bound(NamedTuple):
+class FactBound(NamedTuple):
     """An end of a variable, the number of the fact that has it, and the fact's slope."""
 
     at: Fraction
@@ -35,7 +35,7 @@ class FactOverBox:
     index: int
     strict: bool
     names: list[str]
-    bounds: list[tuple[Bound, Bound]]
+    bounds: list[tuple[FactBound, FactBound]]
     opposite: dict[Exponents, Fraction]
 
     @property
@@ -58,7 +58,7 @@ class FactOverBox:
         return value_at(self.opposite, [(low + high) / 2 for low, high in self.box])
 
 
-def facts_over_box(state: State) -> Iterator[FactOverBox]:
+def facts_over_box(state: SearchState) -> Iterator[FactOverBox]:
     """The facts all of whose variables are bounded on both sides, as far as their Bernstein forms
     are not too large.
     """
@@ -73,10 +73,10 @@ def facts_over_box(state: State) -> Iterator[FactOverBox]:
                 yield fact
 
 
-def box_of(state: State) -> dict[str, tuple[Bound, Bound]]:
+def box_of(state: SearchState) -> dict[str, tuple[FactBound, FactBound]]:
     """The closest bounds of each variable that has both, by facts that are linear in it alone."""
-    lows: dict[str, Bound] = {}
-    highs: dict[str, Bound] = {}
+    lows: dict[str, FactBound] = {}
+    highs: dict[str, FactBound] = {}
     for index, (poly, relation) in enumerate(state.facts):
         if relation not in (">", ">=") or len(poly.terms) > 2:
             continue
@@ -89,7 +89,7 @@ def box_of(state: State) -> dict[str, tuple[Bound, Bound]]:
             continue
         slope = poly.terms[one]
         at = Fraction(-poly.terms.get(0, 0), slope)
-        end = Bound(at, index, Fraction(abs(slope), poly.den))
+        end = FactBound(at, index, Fraction(abs(slope), poly.den))
         if slope > 0 and (name not in lows or end.at > lows[name].at):
             lows[name] = end
         if slope < 0 and (name not in highs or end.at < highs[name].at):
@@ -101,7 +101,7 @@ def box_of(state: State) -> dict[str, tuple[Bound, Bound]]:
     }
 
 
-def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
+def close_over_box(state: SearchState, most: int, budget: Budget) -> Node | None:
     """A node with a tree of at most `most` letters for a fact of degree above 1 or in several
     variables; None where none of the facts fails in all of the box, or that takes more.
 
@@ -133,7 +133,7 @@ def close_over_box(state: State, most: int, budget: Budget) -> Node | None:
     return None
 
 
-def terms_of(state: State, poly: checker.Poly, names: list[str]) -> dict[Exponents, Fraction]:
+def terms_of(state: SearchState, poly: checker.Poly, names: list[str]) -> dict[Exponents, Fraction]:
     """A polynomial by the exponents of its variables."""
     shifts = [checker.BITS * state.context.index[name] for name in names]
     mask = (1 << checker.BITS) - 1

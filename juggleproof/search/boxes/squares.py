@@ -23,7 +23,7 @@ from juggleproof.algebra.numbers import exact
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.search.boxes.branching import Branching
 from juggleproof.search.boxes.descent import SHARE, Best, shorter
-from juggleproof.search.boxes.descent import Problem as BoxProblem
+from juggleproof.search.boxes.descent import BoxProblem
 from juggleproof.search.boxes.over_box import FactOverBox, facts_over_box
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.sums_of_squares import (
@@ -34,7 +34,7 @@ from juggleproof.search.psatz.sums_of_squares import (
     search_squares,
 )
 from juggleproof.statements.nodes import Node, Product
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 MOST_VARIABLES, MOST_BASIS = 6, 28
@@ -58,7 +58,7 @@ def program_around(
     """
     if len(box) > MOST_VARIABLES:
         return None
-    around = Around(terms, box, point, facts, goal, gap)
+    around = BlocksAroundPoint(terms, box, point, facts, goal, gap)
     if not around.is_stationary() or len(around.blocks[1].basis) > MOST_BASIS:
         return None
 
@@ -75,7 +75,7 @@ def program_around(
     )
 
 
-class Around:
+class BlocksAroundPoint:
     """A polynomial around a point of a box: the goal and what may cancel it, block by block."""
 
     def __init__(
@@ -220,7 +220,7 @@ def _text(p: fmpq_mpoly | fmpz_mpoly, coordinates: Sequence[str]) -> str:
 # Facts over a box, where small trees end.
 
 
-def close_by_bounds(state: State, most: int, budget: Budget) -> Node | None:
+def close_by_bounds(state: SearchState, most: int, budget: Budget) -> Node | None:
     """A node by a fact that fails in all of the box of the others, with a tree of at most `most`
     boxes, or with squares; None where none was found.
 

@@ -33,10 +33,10 @@ from juggleproof.search.decrease_proofs.by_products import (
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.linear import Products
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.nodes import Node, Proof
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 Points = Mapping[str, NDArray[np.float64]]
@@ -61,7 +61,7 @@ def proof_by_factors(
     """
     budget = Budget(BUDGET)
 
-    def closed(state: State) -> Node | None:
+    def closed(state: SearchState) -> Node | None:
         if state.choices or state.closed:
             return None
         ring = Ring(tuple(state.context.index))
@@ -76,7 +76,7 @@ def proof_by_factors(
             else:
                 inside = {**points, sign: 0 * points[sign]}
             facts = [*kept, len(state.facts)]
-            nodes.append(Case(ring, goal, inside, budget, sign).close(case, facts))
+            nodes.append(FactorCase(ring, goal, inside, budget, sign).close(case, facts))
             if nodes[-1] is None:
                 return None
         return sign_node(sign, nodes)
@@ -103,7 +103,7 @@ class Identity:
 
 
 @dataclass(frozen=True)
-class Case:
+class FactorCase:
     """What is the same in all states of a case."""
 
     ring: Ring
@@ -112,9 +112,9 @@ class Case:
     budget: Budget
     sign: str
 
-    def close(self, state: State, kept: list[int]) -> Node | None:
+    def close(self, state: SearchState, kept: list[int]) -> Node | None:
         """A node that contradicts the facts with these numbers."""
-        problem = Problem(with_facts(state, kept), self.ring, True)
+        problem = LeafProblem(with_facts(state, kept), self.ring, True)
         if problem.contradiction is not None:
             return None
         for identity in self.identities(problem, kept):
@@ -123,7 +123,7 @@ class Case:
                 return node
         return None
 
-    def identities(self, problem: Problem, kept: Sequence[int]) -> list[Identity]:
+    def identities(self, problem: LeafProblem, kept: Sequence[int]) -> list[Identity]:
         """Those that samples do not refute, for all bounds of the value."""
         value = self.ring.names.index(VALUE)
         firsts = [fact.factors[0][0] for fact in problem.facts]
@@ -131,14 +131,14 @@ class Case:
         found = []
         for goal in goals[:1]:
             for k, fact in enumerate(problem.facts):
-                if k != goal and fact.degree(value) == 1:
+                if k != goal and fact.degrees[value] == 1:
                     one = self.identity(problem, goal, k, value)
                     parts = (one.below, one.times, one.rest)
                     if all((self.at_points(problem, part) >= -CLOSE).all() for part in parts):
                         found.append(one)
         return sorted(found, key=lambda one: len(one.rest) + len(one.times))
 
-    def identity(self, problem: Problem, goal: int, bound: int, value: int) -> Identity:
+    def identity(self, problem: LeafProblem, goal: int, bound: int, value: int) -> Identity:
         """The remainder of the goal by the bound, as polynomials in the value."""
         gen, times = self.ring.gens[value], self.ring.zero
         rest, slope = coefficients_in(problem.facts[bound].poly, value)
@@ -152,7 +152,7 @@ class Case:
             below = below * slope
         return Identity(goal, bound, below, -times, -parts[0])
 
-    def at_points(self, problem: Problem, poly: fmpz_mpoly) -> NDArray[np.float64]:
+    def at_points(self, problem: LeafProblem, poly: fmpz_mpoly) -> NDArray[np.float64]:
         """The values at the samples, as shares of the sum of the sizes of all terms."""
         scaling = problem.source.scaling
         whole = scaling.lift(poly, scaling.largest(poly)) if scaling.scales and poly else poly
@@ -166,9 +166,9 @@ class Case:
             total, size = total + term, size + np.abs(term)
         return np.asarray(total / size)
 
-    def by_lemmas(self, state: State, kept: list[int], bound: int, goal: int) -> Node | None:
+    def by_lemmas(self, state: SearchState, kept: list[int], bound: int, goal: int) -> Node | None:
         """A node by this bound, with lemmas on the factors whose signs are not known."""
-        problem = Problem(with_facts(state, kept), self.ring, True)
+        problem = LeafProblem(with_facts(state, kept), self.ring, True)
         value = self.ring.names.index(VALUE)
         identity = self.identity(problem, goal, bound, value)
         facts = {str(fact.poly): k for k, fact in enumerate(problem.facts)}
@@ -190,11 +190,11 @@ class Case:
 
     def lemma(
         self,
-        state: State,
+        state: SearchState,
         kept: list[int],
         bound: int,
         goal: int,
-        problem: Problem,
+        problem: LeafProblem,
         factor: fmpz_mpoly,
     ) -> Node | None:
         """A node by the sign of this factor, which is that at the samples."""
@@ -223,9 +223,9 @@ class Case:
         inner = self.by_lemmas(cases[2 if positive else 0], more, bound, goal)
         return sign_node(text, [wrong, at_zero, inner] if positive else [inner, at_zero, wrong])
 
-    def texts(self, state: State, kept: list[int]) -> dict[int, str]:
+    def texts(self, state: SearchState, kept: list[int]) -> dict[int, str]:
         """The facts as text, where no scales were set to 1."""
-        source = Problem(with_facts(state, kept), self.ring, True).source
+        source = LeafProblem(with_facts(state, kept), self.ring, True).source
         polys = [] if source.scaling.scales else source.lowered
         return {k: f"({poly})/{state.facts[k][0].den}" for k, poly in zip(kept, polys)}
 
@@ -243,9 +243,11 @@ class Case:
         found += [4 * bend * part * gen**k for k, part in enumerate(more, 3)]
         return [one for one in found if one]
 
-    def by_square(self, state: State, kept: list[int], parts: list[fmpz_mpoly]) -> Node | None:
+    def by_square(
+        self, state: SearchState, kept: list[int], parts: list[fmpz_mpoly]
+    ) -> Node | None:
         """A node that the last fact is false, which the first of the parts multiplies."""
-        problem = Problem(with_facts(state, kept), self.ring, True)
+        problem = LeafProblem(with_facts(state, kept), self.ring, True)
         firsts = [fact.factors[0][0] for fact in problem.facts]
         if not parts or problem.contradiction is not None or len(kept) - 1 not in firsts:
             return None
@@ -254,12 +256,12 @@ class Case:
         node = self.written(problem, [(parts[0], last), *((one, None) for one in parts[1:])], facts)
         return renumbered(node, kept)
 
-    def by_squares(self, state: State, kept: list[int]) -> Node | None:
+    def by_squares(self, state: SearchState, kept: list[int]) -> Node | None:
         """A node that the last fact is false, by sums of squares times facts in its variables."""
         ring = Ring(tuple(state.context.index))
         inside = set(used_in(ring.read(state.facts[kept[-1]][0])))
         few = [k for k in kept if inside.issuperset(used_in(ring.read(state.facts[k][0])))]
-        problem = Problem(with_facts(state, few), self.ring, True)
+        problem = LeafProblem(with_facts(state, few), self.ring, True)
         try:
             part = self.budget.part(SQUARES)
             node = search_squares(programs_of_facts(problem, part), part)
@@ -267,9 +269,9 @@ class Case:
             return None
         return renumbered(node, few)
 
-    def sum_of_products(self, state: State, kept: list[int]) -> Node | None:
+    def sum_of_products(self, state: SearchState, kept: list[int]) -> Node | None:
         """A node that the last fact is false: its opposite is a sum of products of the others."""
-        problem = Problem(with_facts(state, kept), self.ring, True)
+        problem = LeafProblem(with_facts(state, kept), self.ring, True)
         if problem.contradiction is not None:
             return None
         firsts = [fact.factors[0][0] for fact in problem.facts]
@@ -291,7 +293,7 @@ class Case:
         return renumbered(node, kept)
 
     def written(
-        self, problem: Problem, parts: Sequence[Part], facts: Mapping[str, int]
+        self, problem: LeafProblem, parts: Sequence[Part], facts: Mapping[str, int]
     ) -> Node | None:
         """The node of a sum that is 0, whose parts are products of facts and squares."""
         used: list[tuple[tuple[Factors, int], Fraction]] = []

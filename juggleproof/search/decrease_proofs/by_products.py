@@ -27,9 +27,9 @@ from juggleproof.search.psatz.linear_program import (
     Program,
     solve,
 )
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node, Proof
-from juggleproof.statements.states import State, proves, state_of
+from juggleproof.statements.states import SearchState, proves, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 MOVING = ("value", "level", "distance")
@@ -55,7 +55,7 @@ def proof_by_products(
     """
     budget = Budget(BUDGET)
 
-    def closed(state: State) -> Node | None:
+    def closed(state: SearchState) -> Node | None:
         ring = Ring(tuple(state.context.index))
         kept, goal = facts_kept(state, ring, terms, unknowns), len(state.facts) - 1
         return by_cases(state, goal, kept, ring, squares, unknowns, signs, budget, most)
@@ -67,7 +67,7 @@ def proof_with(
     premise: checker.Statement,
     known: dict[str, checker.Statement],
     budget: Budget,
-    closed: Callable[[State], Node | None],
+    closed: Callable[[SearchState], Node | None],
 ) -> Proof | None:
     """The proof with the node that closes the premise's facts and the negation of its conclusion;
     None where there is no such node, an obligation stays open, or the budget ends.
@@ -85,7 +85,7 @@ def proof_with(
 
 
 def by_cases(
-    state: State,
+    state: SearchState,
     goal: int,
     kept: Sequence[int],
     ring: Ring,
@@ -125,7 +125,7 @@ def by_cases(
 
 
 def facts_kept(
-    state: State, ring: Ring, terms: Collection[int], unknowns: Collection[str]
+    state: SearchState, ring: Ring, terms: Collection[int], unknowns: Collection[str]
 ) -> list[int]:
     """The numbers of the facts that are used: the equations that are linear in the unknowns, but
     for those that only define one; the last fact, which is the negated goal, these terms of V,
@@ -178,14 +178,14 @@ def obligations_closed(
     return steps
 
 
-def with_facts(state: State, kept: Sequence[int]) -> State:
+def with_facts(state: SearchState, kept: Sequence[int]) -> SearchState:
     """The state with these facts only."""
-    few = State(state.context)
+    few = SearchState(state.context)
     few.facts = [state.facts[k] for k in kept]
     return few
 
 
-def is_end(problem: Problem, number: int, ring: Ring) -> bool:
+def is_end(problem: LeafProblem, number: int, ring: Ring) -> bool:
     """Whether a fact bounds one variable of the state by terms in the parameters, of which products
     with V alone are used.
     """
@@ -211,7 +211,7 @@ def is_moving(name: str) -> bool:
 
 
 def leaf(
-    state: State,
+    state: SearchState,
     goal: int,
     kept: Sequence[int],
     ring: Ring,
@@ -221,7 +221,7 @@ def leaf(
     most: int,
 ) -> Node | None:
     """A node that contradicts the facts with these numbers."""
-    problem = Problem(with_facts(state, kept), ring, True)
+    problem = LeafProblem(with_facts(state, kept), ring, True)
     roots = [problem.source.scaling.lower(ring.read(state.context.polynomial(s))) for s in squares]
     roots = [problem.reduction.reduce(root)[1] for root in roots]
     if problem.contradiction is not None:
@@ -297,7 +297,7 @@ class Multiplied(NamedTuple):
 class Combinations:
     """Combinations of products of facts, `parts`, of one factor more in each."""
 
-    problem: Problem
+    problem: LeafProblem
     parts: list[Products]
     packing: Packing
     most: int  # products
@@ -348,7 +348,7 @@ class Combinations:
         return True
 
 
-def independent(problem: Problem, positive: Sequence[int]) -> list[int]:
+def independent(problem: LeafProblem, positive: Sequence[int]) -> list[int]:
     """Those of the facts that are no sum of two others, or of another and of products of positive
     variables.
     """

@@ -24,7 +24,7 @@ RESOURCES = 200_000  # Z3's own unit of work; about a tenth of a second where nu
 
 
 @dataclass
-class Answer:
+class SolverAnswer:
     """The answer "sat", "unsat" or "unknown", with a value of every variable that occurs where it
     is "sat".
     """
@@ -40,14 +40,14 @@ def ask(
     resources: int = RESOURCES,
     model: bool = False,
     unreachable: tuple[Condition, Sequence[str]] | None = None,
-) -> Answer:
+) -> SolverAnswer:
     """Z3's answer within a fixed amount of its own work.
 
     `unreachable`, a condition with some of its variables, asks besides that no values of these meet
     it.
     """
     if condition.tree is False or condition.tree is True and unreachable is None:
-        return Answer("sat" if condition.tree else "unsat")
+        return SolverAnswer("sat" if condition.tree else "unsat")
     names = [name for name in condition.ring.names() if name in condition.variables()]
     whole = frozenset(integers) & set(names)
     session = session_of(budget)
@@ -76,10 +76,10 @@ def ask(
     result = str(solver.check())
     budget.charge(5000 + min(session.work(solver, resources), resources))
     if result != "sat" or not model:
-        return Answer(result if result in ("sat", "unsat") else "unknown")
+        return SolverAnswer(result if result in ("sat", "unsat") else "unknown")
     values = solver.model()
     found = {declared.name(): values[declared] for declared in values.decls()}
-    return Answer(
+    return SolverAnswer(
         result, {name: _value(found[name]) if name in found else fmpq(0) for name in names}
     )
 
@@ -106,7 +106,7 @@ def conflict(
     return None if result == "sat" else list(range(len(atoms)))
 
 
-class Session:
+class SolverSession:
     """A context of Z3 that the questions of one search share, since it takes longer to make one
     than to answer most of them.
     """
@@ -130,16 +130,16 @@ class Session:
         return max(0, spent)
 
 
-_sessions: WeakKeyDictionary[Budget, Session] = WeakKeyDictionary()
+_sessions: WeakKeyDictionary[Budget, SolverSession] = WeakKeyDictionary()
 
 
-def session_of(budget: Budget) -> Session:
+def session_of(budget: Budget) -> SolverSession:
     """The session of the whole search that a budget belongs to."""
     whole = budget
     while whole.whole is not None:
         whole = whole.whole
     if whole not in _sessions:
-        _sessions[whole] = Session()
+        _sessions[whole] = SolverSession()
     return _sessions[whole]
 
 

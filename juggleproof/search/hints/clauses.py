@@ -21,7 +21,7 @@ from juggleproof.certificates import checker
 from juggleproof.search.hints.asking import conflict, session_of
 from juggleproof.search.small_proofs.linear_system import Fact, FactKey, key_of
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 Alternative = Union[checker.Atom, checker.Join]
@@ -46,7 +46,7 @@ class Conflict:
 
 
 @dataclass(frozen=True)
-class Cases:
+class ClauseCases:
     """One tree for each alternative of a disjunction; `needs` are the facts and disjunctions that
     the conflicts below use.
     """
@@ -56,11 +56,11 @@ class Cases:
     needs: frozenset[FactKey | int]
 
 
-Tree = Union[Conflict, Cases]
+Tree = Union[Conflict, ClauseCases]
 
 
 def search_by_conflicts(
-    state: State, close: Callable[[State], Node | None], budget: Budget
+    state: SearchState, close: Callable[[SearchState], Node | None], budget: Budget
 ) -> Node | None:
     """A node that closes a state with disjunctions; `close` closes states of facts alone.  None
     where Z3 sees a point, or a conflict is not closed.
@@ -74,8 +74,8 @@ def search_by_conflicts(
 class Search:
     """The conflicts of one state."""
 
-    state: State
-    close: Callable[[State], Node | None]
+    state: SearchState
+    close: Callable[[SearchState], Node | None]
     budget: Budget
     conflicts: list[Conflict] = field(default_factory=list)
     cases: int = 0
@@ -128,7 +128,7 @@ class Search:
             return None
         for few in (core, range(len(facts))) if core else (range(len(facts)),):
             chosen = [facts[k] for k in few]
-            alone = State(self.state.context)
+            alone = SearchState(self.state.context)
             for poly, relation in chosen:
                 alone.assume(("atom", poly, relation))
             node = self.close(alone)
@@ -184,7 +184,7 @@ class Search:
                 return tree  # the conflict stands without this disjunction
             needs |= own - (keys - given) - {id(one) for one in inner}
             trees.append(tree)
-        return Cases(best, trees, needs)
+        return ClauseCases(best, trees, needs)
 
 
 def needs_of(tree: Tree) -> frozenset[FactKey | int]:
@@ -273,7 +273,7 @@ def moved(node: Node, places: Mapping[int, int], before: int, after: int, choice
     return node
 
 
-def written(tree: Tree, state: State) -> Node:
+def written(tree: Tree, state: SearchState) -> Node:
     """The node of a tree in a state that has what the tree needs."""
     if isinstance(tree, Conflict):
         numbers: dict[FactKey, int] = {}

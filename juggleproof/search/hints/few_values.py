@@ -39,7 +39,7 @@ def point_by_few_values(
     counts = dict.fromkeys(covering(condition), FIRST)
     while True:
         budget.spend(size)
-        question = Question(
+        question = LinearQuestion(
             condition,
             {name: trials(condition, name, False, n, roles) for name, n in counts.items()},
         )
@@ -80,7 +80,7 @@ def covering(condition: Condition) -> list[str]:
     return chosen
 
 
-class Question:
+class LinearQuestion:
     """A condition for a solver of linear arithmetic: every product has a name, and where its first
     factor takes one of its values, it is that value times the product of the others.
     """

@@ -19,7 +19,7 @@ from juggleproof.algebra.polynomials import Packing, total_degree
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.lifting import lift, powers_of
 from juggleproof.search.psatz.linear_program import Program, solve
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
@@ -27,7 +27,7 @@ LEAST_DEGREE = 3  # of the last fact: pairs of facts are sought elsewhere
 MOST_PRODUCTS = 3000
 
 
-def search_by_monomials(problem: Problem, budget: Budget) -> Node | None:
+def search_by_monomials(problem: LeafProblem, budget: Budget) -> Node | None:
     """The node of such a contradiction; None where there is none, or where there are many products.
 
     Raises Exhausted where the budget ends.
@@ -54,7 +54,7 @@ def search_by_monomials(problem: Problem, budget: Budget) -> Node | None:
     return lift(problem, used, [((k, once), c) for k, c in solution[1].items()], [])
 
 
-def products_along(problem: Problem) -> Iterator[Factors]:
+def products_along(problem: LeafProblem) -> Iterator[Factors]:
     """The last fact, then products of linear facts, one or none for each variable of one of its
     monomials; nothing more where they are many.
     """

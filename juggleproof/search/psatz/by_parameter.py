@@ -20,10 +20,10 @@ import numpy as np
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
 from juggleproof.algebra.numbers import determinant, exact, fraction
-from juggleproof.search.psatz.facts import Bounded, Factors, merge
+from juggleproof.search.psatz.facts import BoundedVariable, Factors, merge
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.parameters import bounds
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
@@ -37,7 +37,7 @@ INSIDE = tuple(Fraction(k, 8) for k in (1, 4, 7))  # where signs are looked at f
 
 
 @dataclass(frozen=True)
-class Part:
+class BoundProduct:
     """A number > 0 times powers of bounds, times the square of a power of the parameter."""
 
     number: Fraction
@@ -45,13 +45,13 @@ class Part:
     power: int
 
 
-def search_by_parameter(problem: Problem, budget: Budget) -> Node | None:
+def search_by_parameter(problem: LeafProblem, budget: Budget) -> Node | None:
     """The node of such a contradiction; None where the facts are not of this kind, or no few of
     them contradict one another in this way.
 
     Raises Exhausted where the budget ends.
     """
-    axes = [axis for axis in bounds(problem).values() if isinstance(axis, Bounded)]
+    axes = [axis for axis in bounds(problem).values() if isinstance(axis, BoundedVariable)]
     if problem.reduction.left or len(axes) != 1:
         return None
     (between,) = axes
@@ -62,7 +62,7 @@ def search_by_parameter(problem: Problem, budget: Budget) -> Node | None:
     return lift(problem, used, [], roots) if used else None
 
 
-def linear_rows(problem: Problem, parameter: int) -> dict[int, Coefficients] | None:
+def linear_rows(problem: LeafProblem, parameter: int) -> dict[int, Coefficients] | None:
     """The coefficients of the facts in which other variables occur, by their numbers; None where
     one is not linear in them, or there are many.
     """
@@ -102,7 +102,7 @@ Used = list[tuple[tuple[Factors, int], Fraction]]
 
 
 def contradiction(
-    problem: Problem, between: Bounded, rows: dict[int, Coefficients], budget: Budget
+    problem: LeafProblem, between: BoundedVariable, rows: dict[int, Coefficients], budget: Budget
 ) -> tuple[Used, list[fmpz_mpoly]] | None:
     """A sum of products that vanishes, by as few facts as there are."""
     low, high = (problem.facts[k].end(between.variable) for k in (between.low, between.high))
@@ -196,16 +196,16 @@ def multiples_of(rows: Sequence[Coefficients], inside: Sequence[fmpq]) -> list[f
 
 
 def identity(
-    problem: Problem,
-    between: Bounded,
+    problem: LeafProblem,
+    between: BoundedVariable,
     multiples: Sequence[tuple[fmpq_poly, int]],
     total: fmpq_poly,
-) -> list[tuple[Factors, Part]] | None:
+) -> list[tuple[Factors, BoundProduct]] | None:
     """The terms of the sum of these multiples of facts, and of what has to be added to it for 0;
     None where one of the polynomials has no form as a sum of such terms.
     """
     for least in (True, False):  # squares of powers of the parameter are not known to be > 0
-        terms: list[tuple[Factors, Part]] = []
+        terms: list[tuple[Factors, BoundProduct]] = []
         for poly, fact in [*multiples, (-total, None)]:
             apart = least or fact is not None
             parts = [*nonnegative(problem, between, poly, apart)] if poly else []
@@ -219,7 +219,9 @@ def identity(
     return None
 
 
-def nonnegative(problem: Problem, between: Bounded, poly: fmpq_poly, apart: bool) -> Iterator[Part]:
+def nonnegative(
+    problem: LeafProblem, between: BoundedVariable, poly: fmpq_poly, apart: bool
+) -> Iterator[BoundProduct]:
     """A polynomial in the parameter as a sum of parts: an even power of it `apart`, in Bernstein's
     form; no parts where none of the degrees tried has one without negative numbers.
     """
@@ -231,5 +233,5 @@ def nonnegative(problem: Problem, between: Bounded, poly: fmpq_poly, apart: bool
         if min(values) >= 0:
             for k, value in enumerate(values):
                 if value:
-                    yield Part(value, between.factors(k, degree), power)
+                    yield BoundProduct(value, between.factors(k, degree), power)
             return

@@ -31,7 +31,7 @@ Combination = dict[int, fmpz_mpoly]  # number of an equation -> cofactor
 
 
 @dataclass
-class Step:
+class EliminationStep:
     """One eliminated variable: multiple * (lead * variable - rest) = sum of combination, where lead
     and multiple are products of facts.
     """
@@ -101,7 +101,7 @@ class Reduction:
         signed: Sequence[Signed],
         kept: frozenset[int] = frozenset(),
     ) -> None:
-        self.ring, self.signed, self.kept, self.steps = ring, signed, kept, list[Step]()
+        self.ring, self.signed, self.kept, self.steps = ring, signed, kept, list[EliminationStep]()
         self.left = [
             Equation(poly, {index: ring.one}, ring.one, ())
             for index, poly in equations
@@ -156,7 +156,7 @@ class Reduction:
                 {k: -c for k, c in combination.items()},
             )
         form = lead * self.ring.gens[variable] - rest
-        step = Step(
+        step = EliminationStep(
             variable,
             lead,
             rest,
@@ -172,7 +172,7 @@ class Reduction:
         self._tidy()
         return True
 
-    def _reduced(self, equation: Equation, step: Step) -> Equation:
+    def _reduced(self, equation: Equation, step: EliminationStep) -> Equation:
         count, quotient, rest = pseudo_divide(
             equation.poly, step.variable, self.ring.gens[step.variable], step.lead, step.rest
         )
@@ -422,9 +422,10 @@ class Fact:
     scale: Fraction
     multiplier: Sum | None = None  # a positive sum over other facts; None stands for 1
 
-    def degree(self, variable: int) -> int:
-        """The degree in one variable."""
-        return int(self.poly.degrees()[variable])
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """The degree in each variable."""
+        return tuple(map(int, self.poly.degrees()))
 
     def slope(self, variable: int) -> int:
         """The slope a of a bound a*z + b."""
@@ -468,7 +469,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Bounded(Axis):
+class BoundedVariable(Axis):
     """A variable that is bounded on both sides."""
 
     low: int
@@ -482,11 +483,12 @@ def sides_of(facts: Sequence[Fact]) -> tuple[dict[int, int], dict[int, int]]:
     low: dict[int, int] = {}
     high: dict[int, int] = {}
     for k, fact in enumerate(facts):
-        degrees = [int(d) for d in fact.poly.degrees()]
-        if sum(degrees) == 1:
-            variable = degrees.index(1)
+        if sum(fact.degrees) == 1:
+            variable = fact.degrees.index(1)
             side, above = (low, True) if fact.slope(variable) > 0 else (high, False)
             known = side.setdefault(variable, k)
+            if known == k:
+                continue
             ends = facts[known].end(variable), fact.end(variable)
             if not facts[known].strict if ends[0] == ends[1] else (ends[1] > ends[0]) == above:
                 side[variable] = k
@@ -506,16 +508,19 @@ def times(a: Sum, b: Sum) -> Sum:
     return [(c, f) for f, c in sorted(total.items())]
 
 
-class Signs:
+class ShownSigns:
     """Polynomials whose sign the facts show at sight, as positive sums of products of facts."""
 
-    def __init__(self, facts: Sequence[Fact], bounded: Bounded | None) -> None:
+    def __init__(self, facts: Sequence[Fact], bounded: BoundedVariable | None) -> None:
         self.facts, self.bounded = facts, bounded
         self.at_least_zero: dict[int, int] = {}  # variable -> fact
         for k, fact in enumerate(facts):
-            degrees = [int(d) for d in fact.poly.degrees()]
-            if len(fact.poly) == 1 and sum(degrees) == 1 and fact.poly.leading_coefficient() > 0:
-                self.at_least_zero[degrees.index(1)] = k
+            if (
+                len(fact.poly) == 1
+                and sum(fact.degrees) == 1
+                and fact.poly.leading_coefficient() > 0
+            ):
+                self.at_least_zero[fact.degrees.index(1)] = k
 
     def of(self, poly: fmpz_mpoly) -> tuple[int, Sum]:
         """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is

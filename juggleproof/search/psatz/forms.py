@@ -36,14 +36,14 @@ from juggleproof.search.psatz.parameters import (
     degree_in_all,
     split_variables,
 )
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.search.psatz.sums_of_squares import (
     FactBlock,
     Square,
     SquaresProgram,
 )
 from juggleproof.statements.nodes import Node
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 
 MOST_PARTS = 100  # Bernstein polynomials of one box
@@ -76,7 +76,7 @@ class QuadraticForm:
     An equation 1 = u, where u is linear in z, makes forms of what has lower degree: 1 stands for u.
     """
 
-    def __init__(self, problem: Problem, goal: int) -> None:
+    def __init__(self, problem: LeafProblem, goal: int) -> None:
         self.problem, self.ring, self.goal = problem, problem.ring, goal
         self.bounds = bounds(problem)
         self.unit: tuple[fmpz_mpoly, int] | None = None
@@ -401,7 +401,7 @@ def is_vertex(place: Sequence[int], degrees: Sequence[int]) -> bool:
     return all(k in (0, n) for k, n in zip(place, degrees))
 
 
-def search_forms(state: State, ring: Ring, budget: Budget) -> Node | None:
+def search_forms(state: SearchState, ring: Ring, budget: Budget) -> Node | None:
     """A node for a state whose last strict fact is -Q > 0, with a quadratic form Q >= 0 in a box of
     parameters; None where none was found.
 
@@ -409,7 +409,7 @@ def search_forms(state: State, ring: Ring, budget: Budget) -> Node | None:
     """
     if state.closed:
         return ("close",)
-    problem = Problem(state, ring, quotients=False)
+    problem = LeafProblem(state, ring, quotients=False)
     problem.divide()
     last = len(problem.facts) - 1
     strict = [

@@ -21,7 +21,7 @@ from juggleproof.search.psatz.facts import (
     power,
     times,
 )
-from juggleproof.search.psatz.problem import Problem, Source
+from juggleproof.search.psatz.problem import LeafProblem, Source
 from juggleproof.statements.nodes import Cofactor, Node, Product, Psatz
 
 MonomialCofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
@@ -35,7 +35,7 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 
 
 @dataclass
-class Term:
+class LiftedTerm:
     """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its
     scales set to 1.
     """
@@ -46,7 +46,7 @@ class Term:
 
 
 def lift(
-    problem: Problem,
+    problem: LeafProblem,
     used: list[tuple[tuple[Factors, int], Fraction]],
     cofactors: list[tuple[MonomialCofactor, Fraction]],
     roots: list[fmpz_mpoly],
@@ -58,7 +58,7 @@ def lift(
         for k, e in factors:
             if facts[k].multiplier is not None:
                 divided[k] = max(divided.get(k, 0), e)
-    terms: list[Term] = []
+    terms: list[LiftedTerm] = []
     for (factors, root), c in used:
         have = dict(factors)
         whole: Sum = [(c, factors)]
@@ -75,7 +75,9 @@ def lift(
     for k, most in divided.items():
         poly, unit = sum_of(problem, facts[k].multiplier or [])
         extra, scale = extra * poly**most, scale * unit**most
-    terms = [Term(t.coefficient * common * scale.denominator, t.factors, t.root) for t in terms]
+    terms = [
+        LiftedTerm(t.coefficient * common * scale.denominator, t.factors, t.root) for t in terms
+    ]
     scale *= scale.denominator
     owed: dict[int, fmpz_mpoly] = {}
     used_equations = sorted({place for (place, _), _ in cofactors})
@@ -96,11 +98,13 @@ def lift(
         for k, part in equation.combination.items():
             owed[k] = owed.get(k, ring.zero) + part * whole_cofactor * cofactor
     shared = merge(*(factors for _, factors, _ in multiples))
-    terms = [Term(t.coefficient, merge(t.factors, shared), t.root) for t in terms]
+    terms = [LiftedTerm(t.coefficient, merge(t.factors, shared), t.root) for t in terms]
     return finish(problem.source, problem.reduction, terms, owed)
 
 
-def term(problem: Problem, coefficient: Fraction, product: Factors, root: fmpz_mpoly) -> Term:
+def term(
+    problem: LeafProblem, coefficient: Fraction, product: Factors, root: fmpz_mpoly
+) -> LiftedTerm:
     """A product of the problem's facts in terms of the state's facts."""
     factors: Factors = ()
     for k, e in product:
@@ -111,10 +115,10 @@ def term(problem: Problem, coefficient: Fraction, product: Factors, root: fmpz_m
                 merge(factors, power(step.lead_factors, n * e)),
                 coefficient * step.lead_scale ** (n * e),
             )
-    return Term(coefficient, factors, root)
+    return LiftedTerm(coefficient, factors, root)
 
 
-def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
+def sum_of(problem: LeafProblem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
     """(p, c) with c * p the value of a sum over the problem's facts."""
     common = lcm(*(c.denominator for c, _ in total))
     poly = problem.ring.zero
@@ -137,7 +141,10 @@ def with_sign(
 
 
 def finish(
-    source: Source, reduction: Reduction, terms: Sequence[Term], cofactors: dict[int, fmpz_mpoly]
+    source: Source,
+    reduction: Reduction,
+    terms: Sequence[LiftedTerm],
+    cofactors: dict[int, fmpz_mpoly],
 ) -> Psatz | None:
     """The node ("psatz", products, equations) for an identity that holds modulo the reduction's
     equations; None if it does not lift.
@@ -147,7 +154,7 @@ def finish(
     """
     ring, lowered = source.ring, source.lowered
     common = lcm(1, *(t.coefficient.denominator for t in terms))
-    terms = [Term(t.coefficient * common, t.factors, t.root) for t in terms]
+    terms = [LiftedTerm(t.coefficient * common, t.factors, t.root) for t in terms]
     owed = {k: c * common for k, c in cofactors.items()}
     extra: Factors = ()
     total = ring.zero
@@ -168,7 +175,9 @@ def finish(
             )
             if step.lead_factors:
                 extra = merge(extra, power(step.lead_factors, count))
-            terms = [Term(t.coefficient * step.lead_scale**count, t.factors, t.root) for t in terms]
+            terms = [
+                LiftedTerm(t.coefficient * step.lead_scale**count, t.factors, t.root) for t in terms
+            ]
             owed = {k: c * step.lead**count for k, c in owed.items()}
         multiple, factors, more = with_sign(source, step.multiple, step.multiple_factors)
         owed = {k: c * multiple for k, c in owed.items()}
@@ -189,7 +198,7 @@ def finish(
                 continue
             scale *= content
             multiple, factors, more = with_sign(source, equation.multiple, equation.factors)
-            terms = [Term(t.coefficient * scale, t.factors, t.root) for t in terms]
+            terms = [LiftedTerm(t.coefficient * scale, t.factors, t.root) for t in terms]
             owed = {k: c * multiple * scale for k, c in owed.items()}
             for k, c in equation.combination.items():
                 owed[k] = owed.get(k, ring.zero) - quotient * more * c
@@ -198,14 +207,14 @@ def finish(
             break
     if total:
         return None
-    terms = [Term(t.coefficient, merge(t.factors, extra), t.root) for t in terms]
+    terms = [LiftedTerm(t.coefficient, merge(t.factors, extra), t.root) for t in terms]
     owed = {k: c for k, c in owed.items() if c}
     return written(source, *without_common_facts(source, terms, owed))
 
 
 def without_common_facts(
-    source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]
-) -> tuple[Sequence[Term], dict[int, fmpz_mpoly]]:
+    source: Source, terms: Sequence[LiftedTerm], owed: dict[int, fmpz_mpoly]
+) -> tuple[Sequence[LiftedTerm], dict[int, fmpz_mpoly]]:
     """The identity divided by the facts that all its terms have in common, as often as they divide
     the cofactors.
     """
@@ -217,7 +226,7 @@ def without_common_facts(
             if any(rest for _, rest in parts.values()):
                 break
             owed = {at: quotient for at, (quotient, _) in parts.items()}
-            terms = [Term(t.coefficient, lessened(t.factors, k), t.root) for t in terms]
+            terms = [LiftedTerm(t.coefficient, lessened(t.factors, k), t.root) for t in terms]
     return terms, owed
 
 
@@ -230,7 +239,7 @@ def lessened(factors: Factors, fact: int) -> Factors:
     return tuple((k, e - (k == fact)) for k, e in factors if k != fact or e > 1)
 
 
-def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> Psatz:
+def written(source: Source, terms: Sequence[LiftedTerm], owed: dict[int, fmpz_mpoly]) -> Psatz:
     """The node of an identity between lowered facts, every term brought to one weight by powers of
     the scales.
     """

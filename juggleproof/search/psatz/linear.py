@@ -28,8 +28,8 @@ from juggleproof.algebra.polynomials import (
 )
 from juggleproof.search.psatz.facts import Factors, merge, power
 from juggleproof.search.psatz.lifting import (
+    LiftedTerm,
     MonomialCofactor,
-    Term,
     finish,
     lift,
     powers_of,
@@ -42,7 +42,7 @@ from juggleproof.search.psatz.linear_program import (
     counted,
     solve,
 )
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
@@ -61,11 +61,11 @@ Solution = tuple[
 MOST_TERMS = 3_000_000  # of the columns together: some 300 MB
 
 
-class TooLarge(Exception):
+class ProgramTooLarge(Exception):
     """A program would have more columns, or terms in them, than can be solved."""
 
 
-class Combination:
+class ProductCombination:
     """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
     times squares of the roots.
 
@@ -74,7 +74,7 @@ class Combination:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: LeafProblem,
         degree: int,
         bernstein: int,
         roots: list[fmpz_mpoly],
@@ -88,7 +88,7 @@ class Combination:
         others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
         if bounded is not None:
             others = [k for k in others if not problem.implied_by_bounds(k, bounded)]
-            degrees = [fact.degree(bounded.variable) for fact in facts]
+            degrees = [fact.degrees[bounded.variable] for fact in facts]
         most = (
             bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
         )
@@ -102,7 +102,7 @@ class Combination:
             np.array(degrees, dtype=np.int64),
             np.array(own_heights, dtype=np.int64),
         )
-        levels: dict[int, Level] = {}
+        levels: dict[int, BernsteinLevel] = {}
         for count in range(degree + 1):
             if count:
                 self._count(*products.sizes_with_facts())
@@ -112,7 +112,7 @@ class Combination:
                 part = products.only(rooms == room)
                 for level in {0, room} if room >= 0 else ():
                     if level not in levels:
-                        levels[level] = Level(problem, level, self.packing)
+                        levels[level] = BernsteinLevel(problem, level, self.packing)
                     self._add(levels[level], part, -1)
                     for which, square in enumerate(squares if count < 2 else ()):
                         low = heights[which] + in_others[part.chosen].sum(axis=1) <= highest
@@ -132,7 +132,7 @@ class Combination:
 
     def _count(self, columns: int, terms: int) -> None:
         if columns > MOST_COLUMNS or terms > MOST_TERMS:
-            raise TooLarge
+            raise ProgramTooLarge
 
     def _height(self, poly: fmpz_mpoly) -> int:
         """The total degree in all but the bounded variable."""
@@ -144,7 +144,7 @@ class Combination:
             for monomial in poly.monoms()
         )
 
-    def _add(self, level: Level, products: Products, root: int) -> None:
+    def _add(self, level: BernsteinLevel, products: Products, root: int) -> None:
         """A block of columns: every product times every Bernstein polynomial of one degree."""
         count, size = len(products.places), len(level.strict)
         self.columns += count * size
@@ -236,7 +236,7 @@ class Block:
     """
 
     start: int
-    level: Level
+    level: BernsteinLevel
     chosen: Keys
     root: int
 
@@ -255,7 +255,7 @@ class Products:
     Equal monomials of one product are left apart.
     """
 
-    def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
+    def __init__(self, problem: LeafProblem, others: list[int], packing: Packing) -> None:
         rows = [problem.row(problem.facts[k].poly, packing) for k in others]
         self.lengths = np.array([len(keys) for keys, _ in rows], dtype=np.int64)
         self.own_keys = np.concatenate([np.zeros(0, np.int64), *(keys for keys, _ in rows)])
@@ -339,12 +339,12 @@ class Products:
         )
 
 
-class Level:
+class BernsteinLevel:
     """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
     variable, and how often.
     """
 
-    def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
+    def __init__(self, problem: LeafProblem, degree: int, packing: Packing) -> None:
         self.degree = degree
         bounded, facts = problem.bounded, problem.facts
         if bounded is None or degree == 0:
@@ -398,7 +398,7 @@ SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
 TRIPLES: tuple[Stage, ...] = ((3, 2, ""),)
 
 
-def close_by_equations(problem: Problem) -> Node | None:
+def close_by_equations(problem: LeafProblem) -> Node | None:
     """Closes a state whose equations are contradictory, or make a fact false or a nonzero
     polynomial zero.
     """
@@ -409,8 +409,8 @@ def close_by_equations(problem: Problem) -> Node | None:
         pairs = list(zip(reduction.steps, fact.counts))
         factors = merge(fact.factors, *(power(step.lead_factors, n) for step, n in pairs))
         scale = prod((step.lead_scale**n for step, n in pairs), start=Fraction(1))
-        terms = [Term(scale, factors, ring.one)] + (
-            [Term(Fraction(-value), (), ring.one)] if value else []
+        terms = [LiftedTerm(scale, factors, ring.one)] + (
+            [LiftedTerm(Fraction(-value), (), ring.one)] if value else []
         )
         return finish(problem.source, reduction, terms, {})
     if equation is not None:
@@ -421,13 +421,13 @@ def close_by_equations(problem: Problem) -> Node | None:
         return finish(
             problem.source,
             reduction,
-            [Term(Fraction(value * value), power(equation.factors, 2), ring.one)],
+            [LiftedTerm(Fraction(value * value), power(equation.factors, 2), ring.one)],
             owed,
         )
     return None
 
 
-def contrary_bounds(problem: Problem) -> Solution | None:
+def contrary_bounds(problem: LeafProblem) -> Solution | None:
     """Two facts of which a positive combination is a number less than it has to be."""
     before: dict[tuple[Monomial, bool], list[int]] = {}  # by the leading monomial and its sign
     for k, fact in enumerate(problem.facts):
@@ -447,7 +447,7 @@ def contrary_bounds(problem: Problem) -> Solution | None:
     return None
 
 
-def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | None:
+def search(problem: LeafProblem, stages: Sequence[Stage], budget: Budget) -> Node | None:
     """The first node that one of the stages finds; None where none does.
 
     Raises Exhausted where the budget ends.
@@ -482,9 +482,15 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
             left = budget.left
             try:
                 with np.errstate(over="raise"):
-                    program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
+                    program = ProductCombination(
+                        problem, degree, bernstein, roots[kind], goal_facts
+                    )
                     solution = program.solution(budget)
-            except (TooLarge, OverflowError, FloatingPointError):  # of terms, or of coefficients
+            except (
+                ProgramTooLarge,
+                OverflowError,
+                FloatingPointError,
+            ):  # of terms, or of coefficients
                 budget.spend(TOO_LARGE)
             if len(_solved) >= MOST_SOLVED:
                 _solved.clear()

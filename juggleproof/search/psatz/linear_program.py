@@ -143,7 +143,7 @@ def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -
 
 
 @dataclass(frozen=True)
-class Matrix:
+class SparseMatrix:
     """A matrix by its entries that are not 0, one column's after another's, and those by rows.
 
     Shapes, for N entries: `at_row`, `at_column` and `values` (N,).
@@ -156,7 +156,7 @@ class Matrix:
     values: Floats
 
     @staticmethod
-    def of(turned: Floats) -> Matrix:
+    def of(turned: Floats) -> SparseMatrix:
         """The transpose of an array.
 
         >>> Matrix.of(np.array([[0.0, 2.0], [0.0, 0.0], [1.0, 0.0]])).dense().tolist()
@@ -165,15 +165,15 @@ class Matrix:
         columns, rows = turned.shape
         places = np.flatnonzero(turned != 0)
         at_column, at_row = np.divmod(places, rows or 1)
-        return Matrix(rows, columns, at_row, at_column, turned.ravel()[places])
+        return SparseMatrix(rows, columns, at_row, at_column, turned.ravel()[places])
 
-    def of_columns(self, chosen: Keys) -> Matrix:
+    def of_columns(self, chosen: Keys) -> SparseMatrix:
         """Some of the columns, given in ascending order, without the rows that are 0 in them."""
         place = np.full(self.columns, -1)
         place[chosen] = np.arange(len(chosen))
         kept = place[self.at_column] >= 0
         rows, at_row = np.unique(self.at_row[kept], return_inverse=True)
-        return Matrix(
+        return SparseMatrix(
             len(rows), len(chosen), at_row, place[self.at_column[kept]], self.values[kept]
         )
 
@@ -197,7 +197,7 @@ MOST_COLUMNS = 20_000
 NOISE = np.random.default_rng(7).random(MOST_COLUMNS)
 
 
-def assemble(program: Program, budget: Budget) -> Matrix | None:
+def assemble(program: Program, budget: Budget) -> SparseMatrix | None:
     """The coefficients as a matrix, one row for each monomial that the equations leave; None if it
     is too large.
     """
@@ -228,7 +228,7 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
         if len(keys) * columns > MOST_ENTRIES:
             return None
     turned = np.bincount(places * len(keys) + inverse, values, columns * len(keys))
-    return Matrix.of(turned.astype(np.float64, copy=False).reshape(columns, len(keys)))
+    return SparseMatrix.of(turned.astype(np.float64, copy=False).reshape(columns, len(keys)))
 
 
 def counted(counts: Keys) -> Keys:
@@ -294,7 +294,7 @@ def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
     return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 
 
-def presolve(matrix: Matrix, count: int, strict: Mask, budget: Budget) -> Keys | None:
+def presolve(matrix: SparseMatrix, count: int, strict: Mask, budget: Budget) -> Keys | None:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
     None if no strict one is left. Raises Exhausted where the budget ends.
 
@@ -320,7 +320,7 @@ def presolve(matrix: Matrix, count: int, strict: Mask, budget: Budget) -> Keys |
 
 
 def optimum(
-    matrix: Matrix, inequality: Mask, strict: Mask, costs: Floats, iterations: int
+    matrix: SparseMatrix, inequality: Mask, strict: Mask, costs: Floats, iterations: int
 ) -> Floats | None:
     """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
     floats; None where HiGHS finds none.

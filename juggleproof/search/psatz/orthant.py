@@ -28,7 +28,7 @@ from juggleproof.algebra.polynomials import (
 from juggleproof.search.psatz.facts import Factors, merge, power
 from juggleproof.search.psatz.lifting import MonomialCofactor, lift
 from juggleproof.search.psatz.linear_program import EXACT, Program, solve
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget, Exhausted
 
@@ -43,7 +43,7 @@ Multiple = tuple[Fraction, Factors]  # a positive number times strict facts
 
 
 @dataclass
-class Step:
+class OrthantStep:
     """gen - rest, divided by a factor, in place of a variable, whose generator stands for a fact
     from then on; the factor is positive, or negative where `sign` is -1, and of this size.
     """
@@ -91,10 +91,10 @@ class Orthant:
     ({0: 1, 1: 0}, '-x^2 - 2*x*y - 2*x')
     """
 
-    def __init__(self, problem: Problem, only: Sequence[int], budget: Budget) -> None:
+    def __init__(self, problem: LeafProblem, only: Sequence[int], budget: Budget) -> None:
         self.problem, self.ring, self.only, self.budget = problem, problem.ring, only, budget
         self.own: dict[int, int] = {}
-        self.steps: list[Step] = []
+        self.steps: list[OrthantStep] = []
         self.facts = [fact.poly for fact in problem.facts]
         self.multiples: list[Multiple] = [(Fraction(1), ()) for _ in self.facts]
         while step := self._best():
@@ -106,12 +106,12 @@ class Orthant:
                 self.multiples[k] = both(self.multiples[k], more)
             self.facts[step.fact] = self.ring.gens[step.variable]
 
-    def _best(self) -> Step | None:
+    def _best(self) -> OrthantStep | None:
         """The step after which most facts have no negative coefficient; constant factors and linear
         facts first.
         """
         self.budget.spend(len(self.only) * self.ring.size)
-        best: tuple[tuple[int, ...], Step] | None = None
+        best: tuple[tuple[int, ...], OrthantStep] | None = None
         facts = [(k, self.facts[k]) for k in self.only]
         small = [(p, not_negative(p)) for _, p in facts if len(p) <= SMALL]
         for k, poly in facts:
@@ -131,7 +131,7 @@ class Orthant:
                         best = score, step
         return best[1] if best else None
 
-    def _step(self, k: int, v: int) -> Step | None:
+    def _step(self, k: int, v: int) -> OrthantStep | None:
         """The step that a fact is for a variable that it is linear in, if the variable's factor is
         a product of strict facts.
         """
@@ -151,7 +151,7 @@ class Orthant:
             return None
         size = size[0] * abs(number), size[1]
         sign = 1 if number > 0 else -1
-        return Step(k, v, factor, self.facts[k] - self.ring.gens[v] * factor, sign, size)
+        return OrthantStep(k, v, factor, self.facts[k] - self.ring.gens[v] * factor, sign, size)
 
     def changed(self, poly: fmpz_mpoly) -> tuple[fmpz_mpoly, Multiple]:
         """The polynomial in the coordinates, times a multiple, and that."""
@@ -190,7 +190,7 @@ class Base:
         self.degree = total_degree(self.poly)
 
 
-def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
+def search_orthant(problem: LeafProblem, most: int, budget: Budget) -> Node | None:
     """The node of an identity of at most so many products; None where none was found, or where the
     facts in coordinates are too large for the budget.
 
@@ -204,7 +204,7 @@ def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
     own = [k for k in every if not any(problem.facts[k].poly.degrees()[v] for v in others)]
     for only in (own, every) if len(own) < len(every) else (every,):
         try:
-            leaf = Leaf(Orthant(problem, only, budget))
+            leaf = OrthantLeaf(Orthant(problem, only, budget))
         except Exhausted:
             return None
         starts = [[k for k, fact in enumerate(leaf.alone) if fact == last]]
@@ -216,7 +216,7 @@ def search_orthant(problem: Problem, most: int, budget: Budget) -> Node | None:
     return None
 
 
-class Leaf:
+class OrthantLeaf:
     """The linear program in coordinates."""
 
     def __init__(self, orthant: Orthant) -> None:

@@ -8,13 +8,13 @@ from itertools import combinations
 from flint import fmpz_mpoly
 
 from juggleproof.algebra.polynomials import degree_in
-from juggleproof.search.psatz.facts import Axis, Bounded, sides_of
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.facts import Axis, BoundedVariable, sides_of
+from juggleproof.search.psatz.problem import LeafProblem
 
 MOST_BOUNDED = 10  # variables with bounds, of which some are the parameters
 
 
-def bounds(problem: Problem) -> dict[int, Axis]:
+def bounds(problem: LeafProblem) -> dict[int, Axis]:
     """The variables that facts in them alone bound, with the tightest bounds."""
     facts, axes = problem.facts, dict[int, Axis]()
     low, high = sides_of(facts)
@@ -24,7 +24,7 @@ def bounds(problem: Problem) -> dict[int, Axis]:
         elif facts[low[v]].end(v) >= facts[high[v]].end(v):
             axes[v] = Axis(v, low[v], None)  # a box needs a width
         else:
-            axes[v] = Bounded(v, low[v], high[v])
+            axes[v] = BoundedVariable(v, low[v], high[v])
     return axes
 
 
@@ -34,14 +34,14 @@ def degree_in_all(poly: fmpz_mpoly, variables: Sequence[int]) -> int:
 
 
 def split_variables(
-    problem: Problem, goal: fmpz_mpoly, axes: dict[int, Axis]
+    problem: LeafProblem, goal: fmpz_mpoly, axes: dict[int, Axis]
 ) -> tuple[list[int], list[int]] | None:
     """(parameters, others), so that the goal is of degree 2 at most in the others, if possible of
     degree 2 in each term; None where there are none.
     """
     degrees = [int(d) for d in goal.degrees()]
     used = {v for poly in problem.polys() for v, d in enumerate(poly.degrees()) if d}
-    both = {v for v, axis in axes.items() if isinstance(axis, Bounded)}
+    both = {v for v, axis in axes.items() if isinstance(axis, BoundedVariable)}
     fixed = [v for v in sorted(used) if not degrees[v] and v in both]
     open_ = [v for v in axes if degrees[v]]
     if len(open_) > MOST_BOUNDED:

@@ -24,18 +24,18 @@ from juggleproof.algebra.polynomials import (
 )
 from juggleproof.search.psatz.candidates import MOST, Pool, resultants, squares
 from juggleproof.search.psatz.facts import (
-    Bounded,
+    BoundedVariable,
     Fact,
     Factors,
     Reduction,
     Scaling,
+    ShownSigns,
     Signed,
-    Signs,
     Sum,
     sides_of,
     times,
 )
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -66,7 +66,7 @@ class Source:
 MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 
-class Problem:
+class LeafProblem:
     """What a leaf of a proof has to contradict; `whole`, with the facts too that seem only to
     define a root, or are of high degree; `high`, with the latter; without `quotients`, equations
     give only what they need not divide for.
@@ -83,7 +83,7 @@ class Problem:
 
     def __init__(
         self,
-        state: State,
+        state: SearchState,
         ring: Ring,
         whole: bool = False,
         quotients: bool = True,
@@ -183,9 +183,9 @@ class Problem:
                 return
         self.facts.append(fact)
 
-    def signs(self) -> Signs:
+    def signs(self) -> ShownSigns:
         """The signs that the facts show at sight."""
-        return Signs(self.facts, self.bounded)
+        return ShownSigns(self.facts, self.bounded)
 
     def polys(self) -> list[fmpz_mpoly]:
         """The polynomials of the equations left and of the facts."""
@@ -231,15 +231,17 @@ class Problem:
 
     # -------------------------------------------------------- bounded variables
 
-    def _most_common_bounded(self) -> Bounded | None:
+    def _most_common_bounded(self) -> BoundedVariable | None:
         """The variable bounded on both sides that occurs in most facts."""
         low, high = sides_of(self.facts)
-        occurs = [sum(bool(fact.degree(v)) for fact in self.facts) for v in range(self.ring.size)]
+        occurs = [
+            sum(map(bool, degrees)) for degrees in zip(*(fact.degrees for fact in self.facts))
+        ]
         both = [v for v in low if v in high]
         best = max(both, key=lambda v: (occurs[v], -v), default=None)
-        return None if best is None else Bounded(best, low[best], high[best])
+        return None if best is None else BoundedVariable(best, low[best], high[best])
 
-    def implied_by_bounds(self, index: int, bounded: Bounded) -> bool:
+    def implied_by_bounds(self, index: int, bounded: BoundedVariable) -> bool:
         """Whether a fact is one of the bounds, or in the bounded variable alone and implied by
         them.
         """
@@ -405,10 +407,10 @@ FLOAT_BITS = 900  # of the coefficients of a fact, which are divided by a power 
 Array = NDArray[np.float64]
 
 
-class Values:
+class FactValues:
     """The facts of a problem as arrays, ready to be evaluated at many points."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: LeafProblem) -> None:
         self.used = sorted(
             {v for fact in problem.facts for v, d in enumerate(fact.poly.degrees()) if d}
         )
@@ -453,13 +455,13 @@ class Values:
         return result
 
 
-def has_interior_point(problem: Problem, budget: Budget) -> bool:
+def has_interior_point(problem: LeafProblem, budget: Budget) -> bool:
     """Whether a floating point was found at which every fact is positive by a margin; never where
     an equation is left.
     """
     if problem.reduction.left or not problem.facts or len(problem.facts) > 40:
         return False
-    values = Values(problem)
+    values = FactValues(problem)
     budget.spend(200 + SAMPLES * ROUNDS * len(values.powers) // 20)
     random = np.random.default_rng(11)
     shape = SAMPLES, len(values.used)

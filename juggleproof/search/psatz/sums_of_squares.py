@@ -31,7 +31,7 @@ from juggleproof.algebra.semidefinite import (
 )
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.lifting import MonomialCofactor, lift, powers_of
-from juggleproof.search.psatz.problem import Problem
+from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
@@ -240,7 +240,7 @@ STAGES = (
 
 
 def programs_of_facts(
-    problem: Problem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
+    problem: LeafProblem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
 ) -> Iterator[SquaresProgram]:
     """The programs of the stages, smaller ones first.
 
@@ -273,7 +273,7 @@ class ProductsOfFacts:
     """The blocks and cofactors of a program of products of a problem's facts."""
 
     def __init__(
-        self, problem: Problem, count: int, degree: int, only: Sequence[int], budget: Budget
+        self, problem: LeafProblem, count: int, degree: int, only: Sequence[int], budget: Budget
     ) -> None:
         self.problem, self.ring, self.degree, self.only = problem, problem.ring, degree, only
         polys = [

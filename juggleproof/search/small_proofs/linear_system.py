@@ -24,7 +24,7 @@ from juggleproof.algebra.numbers import fraction
 from juggleproof.algebra.trees import HOLDS, leaves, truth
 from juggleproof.certificates import checker
 from juggleproof.statements.nodes import Certificate, Counterexample, Node, Point
-from juggleproof.statements.states import State, state_of
+from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 ONE = -1  # the place of x_0, which the constant of a polynomial is a multiple of
@@ -271,7 +271,7 @@ def by_pivots(
 
 
 @dataclass(frozen=True)
-class Leaf:
+class ContradictoryFacts:
     """Facts that contradict one another."""
 
     products: Sequence[tuple[FactKey | None, Fraction]]
@@ -284,7 +284,7 @@ class Leaf:
 
 
 @dataclass(frozen=True)
-class Split:
+class CaseSplit:
     """Cases of a disjunction, or of the sign of the polynomial of a fact != 0."""
 
     on: Choice | Fact
@@ -292,7 +292,7 @@ class Split:
     uses: frozenset[object]
 
 
-Tree = Union["Leaf", "Split"]
+Tree = Union["ContradictoryFacts", "CaseSplit"]
 
 
 def key_of(fact: Fact) -> FactKey:
@@ -302,7 +302,7 @@ def key_of(fact: Fact) -> FactKey:
 
 
 def decide(
-    state: State, budget: Budget, find_basis: FindBasis, depth: int = 0
+    state: SearchState, budget: Budget, find_basis: FindBasis, depth: int = 0
 ) -> Vertex | Tree | None:
     """A point that meets all that a state of linear facts and disjunctions assumes, or why there is
     none; None where cases are nested too deep.
@@ -342,13 +342,13 @@ def decide(
         else:
             parts.append(part)
             uses |= part.uses & assumed
-    return None if undecided else Split(on, parts, frozenset(uses))
+    return None if undecided else CaseSplit(on, parts, frozenset(uses))
 
 
 MOST_SPLITS = 150  # below one another: the checker goes down as many
 
 
-def cases_of(state: State, on: Choice | Fact) -> list[State]:
+def cases_of(state: SearchState, on: Choice | Fact) -> list[SearchState]:
     """The states of the cases: of a disjunction each alternative, of p != 0 p < 0 and p > 0."""
     if isinstance(on, tuple):
         below, _, above = state.by_sign(state.context.show(on[0]))
@@ -363,12 +363,12 @@ def use_of(on: Choice | Fact) -> object:
     return key_of(on) if isinstance(on, tuple) else id(on)
 
 
-def uses_of(state: State) -> frozenset[object]:
+def uses_of(state: SearchState) -> frozenset[object]:
     """All that a contradiction may use in a state."""
     return frozenset((None, *map(use_of, state.facts), *map(use_of, state.choices)))
 
 
-def leaf(facts: Sequence[Fact], found: Farkas) -> Leaf:
+def leaf(facts: Sequence[Fact], found: Farkas) -> ContradictoryFacts:
     """A contradiction by the facts themselves, for their numbers."""
     products: list[tuple[FactKey | None, Fraction]] = [(None, Fraction(found.one))]
     cofactors: list[tuple[FactKey, Fraction]] = []
@@ -378,13 +378,13 @@ def leaf(facts: Sequence[Fact], found: Farkas) -> Leaf:
             cofactors.append((key_of(facts[k]), Fraction(multiple * poly.den)))
         else:
             products.append((key_of(facts[k]), Fraction(multiple * poly.den)))
-    return Leaf([pair for pair in products if pair[1]], cofactors)
+    return ContradictoryFacts([pair for pair in products if pair[1]], cofactors)
 
 
-def node_of(state: State, tree: Tree) -> Node:
+def node_of(state: SearchState, tree: Tree) -> Node:
     """The node by which the checker closes the state."""
     place = {use_of(fact): k for k, fact in reversed(list(enumerate(state.facts)))}
-    if isinstance(tree, Leaf):
+    if isinstance(tree, ContradictoryFacts):
         return (
             "psatz",
             [(str(c), ((place[key], 1),) if key else (), "1") for key, c in tree.products],
@@ -436,7 +436,7 @@ def search_linear(
     inside = state_of(unfolding)
     state = inside.branch(unfolding.goal(False))
     try:
-        found = Leaf([], []) if state.closed else decide(state, budget, find_basis)
+        found = ContradictoryFacts([], []) if state.closed else decide(state, budget, find_basis)
         if isinstance(found, Vertex):
             close: Node = ("close",)
             return {"refuted": Counterexample(statement.name, [], terms(found), close, close)}

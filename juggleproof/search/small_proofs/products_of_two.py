@@ -19,7 +19,7 @@ from juggleproof.search.small_proofs.linear_system import (
     solve,
 )
 from juggleproof.statements.nodes import Certificate, Node, Point, Power
-from juggleproof.statements.states import State, state_of, variables_in
+from juggleproof.statements.states import SearchState, state_of, variables_in
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 MOST_FACTS, MOST_VARIABLES, MOST_CASES = 10, 4, 16
@@ -51,7 +51,7 @@ def search_by_pairs(statement: checker.Statement, budget: Budget) -> Certificate
     return {"certified": ("proof", [], node), "point": anywhere}
 
 
-def close_by_pairs(state: State, budget: Budget, cases: int = 1) -> Node | None:
+def close_by_pairs(state: SearchState, budget: Budget, cases: int = 1) -> Node | None:
     """A node that closes the state: by its facts, or by the cases of its disjunctions."""
     if state.closed:
         return ("close",)
@@ -77,7 +77,7 @@ def close_by_pairs(state: State, budget: Budget, cases: int = 1) -> Node | None:
 Summand = tuple[checker.Poly, str, tuple[Sequence[Power], str] | tuple[int, str]]
 
 
-def leaf_by_pairs(state: State, budget: Budget) -> Node | None:
+def leaf_by_pairs(state: SearchState, budget: Budget) -> Node | None:
     """A node by the facts of a state alone, of single facts or of pairs and squares."""
     used = {name for poly, _ in state.facts for name in variables_in(state.context, poly)}
     names = [name for name in state.context.index if name in used]
@@ -95,7 +95,7 @@ def row_of(poly: checker.Poly) -> Row:
     return {m or ONE: c for m, c in poly.terms.items()}
 
 
-def singles(state: State) -> list[Summand]:
+def singles(state: SearchState) -> list[Summand]:
     """The facts, those != 0 squared."""
     found: list[Summand] = []
     for k, (poly, relation) in enumerate(state.facts):
@@ -108,7 +108,7 @@ def singles(state: State) -> list[Summand]:
     return found
 
 
-def pairs(state: State, names: Sequence[str]) -> list[Summand]:
+def pairs(state: SearchState, names: Sequence[str]) -> list[Summand]:
     """The products of two facts, squares of simple terms, and equations times variables."""
     found: list[Summand] = []
     signed = [(k, *fact) for k, fact in enumerate(state.facts) if fact[1] in (">", ">=")]

@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates import checker
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from tests.certificates.checker.harness import Json
 
 HEAD = """From Coq Require Import QArith List Bool.
@@ -83,7 +83,9 @@ class Scope:
     Facts that a node assumes come after those of the state, so that the numbers of these stay.
     """
 
-    def __init__(self, state: State, numbers: Numbers, known: Sequence[checker.Statement]) -> None:
+    def __init__(
+        self, state: SearchState, numbers: Numbers, known: Sequence[checker.Statement]
+    ) -> None:
         self.state = state
         self.numbers = numbers
         self.known = known
@@ -128,7 +130,7 @@ class Scope:
         for name, own in names.items():
             numbers[len(context.index)] = own
             context.declare(name)
-        return Scope(State(context, self.state), numbers, self.known)
+        return Scope(SearchState(context, self.state), numbers, self.known)
 
     def by_sign(self, text: str) -> list[Scope]:
         return [Scope(case, self.numbers, self.known) for case in self.state.by_sign(text)]
@@ -300,7 +302,7 @@ class Written:
     def scope(
         self, premises: Sequence[checker.Formula], known: Sequence[checker.Statement]
     ) -> Scope:
-        state = State(self.context).assume(checker.join("and", premises))
+        state = SearchState(self.context).assume(checker.join("and", premises))
         return Scope(state, self.numbers, known)
 
     def text(self) -> str:
@@ -323,7 +325,7 @@ def accepted(
     """
     lemmas = [one for one in known.values() if one.kind == "universal"]
     before = listed([Written(one).text() for one in lemmas])
-    free = Scope(State(checker.Context()), {}, lemmas)
+    free = Scope(SearchState(checker.Context()), {}, lemmas)
     if statement.kind == "sharp" and sorted(certificate) == ["certified"]:
         return sharp(statement, certificate["certified"], earlier, before, free)
     if statement.kind != "universal":
@@ -361,7 +363,7 @@ def sharp(
         proof = Written(earlier[name], over, [domain, condition]).proof(inside[name], free.known)
         point = free.found(points[name], [own])
         entries.append(f"entry_of ({own.text()}) {proof} ({point})")
-    state = State(context).assume(context.formula(domain))
+    state = SearchState(context).assume(context.formula(domain))
     state.assume(checker.negate(context.formula(condition)))
     fails = Scope(state, numbers, free.known).found(outside, written, over)
     parts = [formula(context.formula(part), numbers) for part in (domain, condition)]

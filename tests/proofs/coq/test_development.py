@@ -11,7 +11,13 @@ from dataclasses import replace
 import pytest
 
 from juggleproof.proofs.theorem import coq
-from juggleproof.proofs.theorem.coq import STATEMENTS, Attraction, Piece, current, statements
+from juggleproof.proofs.theorem.coq import (
+    STATEMENTS,
+    AttractionText,
+    PieceText,
+    current,
+    statements,
+)
 from tests.proofs.coq.development import SOURCES, Coq, order, rest_on_the_reals, theorems
 from tests.share import share
 
@@ -111,11 +117,11 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: C
     assert rest_on_the_reals(development, asked)
 
 
-def changed(**changes: object) -> Callable[[Attraction], Attraction]:
+def changed(**changes: object) -> Callable[[AttractionText], AttractionText]:
     return lambda theorem: replace(theorem, **changes)  # type: ignore[arg-type]
 
 
-def stages(k: int, text: str) -> Callable[[Attraction], Attraction]:
+def stages(k: int, text: str) -> Callable[[AttractionText], AttractionText]:
     return lambda theorem: replace(
         theorem,
         stages=tuple(
@@ -124,25 +130,29 @@ def stages(k: int, text: str) -> Callable[[Attraction], Attraction]:
     )
 
 
-def contraction(**changes: object) -> Callable[[Attraction], Attraction]:
-    def with_changes(theorem: Attraction) -> Attraction:
+def contraction(**changes: object) -> Callable[[AttractionText], AttractionText]:
+    def with_changes(theorem: AttractionText) -> AttractionText:
         inner = replace(theorem.contraction, **changes)  # type: ignore[arg-type]
         return replace(theorem, contraction=inner)
 
     return with_changes
 
 
-TABLES: dict[str, Callable[[Attraction], Attraction]] = {
+TABLES: dict[str, Callable[[AttractionText], AttractionText]] = {
     "range": changed(given="0 < alpha and alpha < 1/2"),
     "space": changed(space="0 < x"),
     "first-image": lambda t: replace(
-        t, pieces=(Piece("x < w", ("alpha*w - x", "2 - alpha*w")), t.pieces[1])
+        t, pieces=(PieceText("x < w", ("alpha*w - x", "2 - alpha*w")), t.pieces[1])
     ),
-    "second-image": lambda t: replace(t, pieces=(t.pieces[0], Piece("w <= x", ("x - w", "w + 1")))),
+    "second-image": lambda t: replace(
+        t, pieces=(t.pieces[0], PieceText("w <= x", ("x - w", "w + 1")))
+    ),
     "region": lambda t: replace(
-        t, pieces=(Piece("w < x", t.pieces[0].images), Piece("x <= w", t.pieces[1].images))
+        t, pieces=(PieceText("w < x", t.pieces[0].images), PieceText("x <= w", t.pieces[1].images))
     ),
-    "second-region": lambda t: replace(t, pieces=(t.pieces[0], Piece("w < x", t.pieces[1].images))),
+    "second-region": lambda t: replace(
+        t, pieces=(t.pieces[0], PieceText("w < x", t.pieces[1].images))
+    ),
     "point": lambda t: replace(t, point=(("e_x", "2*alpha/(alpha + 1)"), t.point[1])),
     "root": changed(root=("u", "4*x + (w + 1)^2")),
     "rank": changed(rank="2*u - (1 - w)/2"),

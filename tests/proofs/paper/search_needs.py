@@ -19,9 +19,9 @@ from juggleproof.certificates import checker
 from juggleproof.proofs.paper.names import STANDING
 from juggleproof.search.certificate import point_or_counterexample, search_proof
 from juggleproof.search.points import assignments, values_of_assignment
-from juggleproof.search.witness_terms import Task
+from juggleproof.search.witness_terms import TermTask
 from juggleproof.statements.language import Roles
-from juggleproof.statements.states import State
+from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
 from juggleproof.votes.z3 import vote
 
@@ -256,8 +256,10 @@ def refuted_there(
     for effort in (0, 1):
         some = assignments(condition, names, integers, budget, effort, roles=roles)
         for assignment in islice(some, 8):
-            task = Task(plain, "counterexample", {}, {}, budget, effort=1)
-            refutation = values_of_assignment(task, State(checker.Context()), assignment, names)
+            task = TermTask(plain, "counterexample", {}, {}, budget, effort=1)
+            refutation = values_of_assignment(
+                task, SearchState(checker.Context()), assignment, names
+            )
             if refutation is not None:
                 return refutation
     return None

@@ -11,7 +11,11 @@ from functools import cache
 import pytest
 
 from juggleproof.judging.claims import Assertion, Claim, Reading, Readings, Remark
-from juggleproof.judging.correcting import Candidate, coefficients_on_printed_terms, differences
+from juggleproof.judging.correcting import (
+    CorrectedPrint,
+    coefficients_on_printed_terms,
+    differences,
+)
 from juggleproof.judging.judge import judge
 from juggleproof.judging.judgement import Resources
 from juggleproof.judging.register import load_register
@@ -132,7 +136,7 @@ def test_sB_3_f2_is_mended_in_names_that_its_section_binds_holds() -> None:
 def test_rejects_a_correction_with_a_name_that_nothing_binds(
     claim_id: str, latex: str, unbound: list[str]
 ) -> None:
-    candidate = Candidate("marks", "", latex, Printed(latex))
+    candidate = CorrectedPrint("marks", "", latex, Printed(latex))
     assert candidate.unbound(claims()[claim_id]) == unbound
 
 

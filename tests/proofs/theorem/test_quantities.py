@@ -24,13 +24,13 @@ from juggleproof.proofs.theorem.definition import (
 from juggleproof.proofs.theorem.orbits import (
     PRINTED_LOSS,
     TRUE_LOSS,
-    State,
+    ExactState,
     a_state,
     flight_length,
     moves,
     step,
 )
-from juggleproof.proofs.theorem.quantities import Bound, bracket, entry_into_region, into_region
+from juggleproof.proofs.theorem.quantities import StepBound, bracket, entry_into_region, into_region
 from juggleproof.reports.tables import exact, shown
 from juggleproof.statements.language import ClaimError, reals
 
@@ -54,11 +54,11 @@ def between(low: Fraction | int, high: Fraction | int, largest: int) -> SearchSt
 
 
 below_a_third = between(Fraction(1, 100), Fraction(33, 100), 100)
-states = st.builds(State, below_a_third, between(0, 60, 12), between(-15, 15, 12))
+states = st.builds(ExactState, below_a_third, between(0, 60, 12), between(-15, 15, 12))
 pairs = between(-30, 30, 20)
 
 
-def after(state: State, periods: int) -> State:
+def after(state: ExactState, periods: int) -> ExactState:
     for _ in range(periods):
         state = step(state)
     return state
@@ -69,10 +69,10 @@ def test_numbers_of_known_states_holds() -> None:
     # alpha w = 19/13 and w = 20/13.
     assert quantities.by_the_theorem(
         a_state(Fraction(3, 10), Fraction(1000), Fraction(-41))
-    ) == Bound(175, 176)
+    ) == StepBound(175, 176)
     assert quantities.by_the_theorem(
         a_state(Fraction(3, 10), Fraction(60, 169), Fraction(20, 13))
-    ) == Bound(5, 6)
+    ) == StepBound(5, 6)
     assert (
         quantities.via_little_energy(a_state(Fraction(1, 5), Fraction(0), Fraction(1)), 4).to_little
         == 0
@@ -98,7 +98,7 @@ def test_rejects_a_width_that_the_claim_does_not_allow() -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(state=states, more=st.integers(0, 8), past=st.integers(0, 3))
-def test_orbits_keep_what_is_certified_holds(state: State, more: int, past: int) -> None:
+def test_orbits_keep_what_is_certified_holds(state: ExactState, more: int, past: int) -> None:
     for bound in (
         quantities.by_the_theorem(state),
         quantities.best_way(state).bound,
@@ -114,14 +114,14 @@ def test_orbits_keep_what_is_certified_holds(state: State, more: int, past: int)
 
 @settings(max_examples=60, deadline=None)
 @given(state=states, periods=st.integers(0, 6))
-def test_closed_form_is_the_orbit_in_the_trap_holds(state: State, periods: int) -> None:
+def test_closed_form_is_the_orbit_in_the_trap_holds(state: ExactState, periods: int) -> None:
     entry = next(move.state for move in moves(state) if move.state.is_in(TRAP))
     assert theorem.later(entry, periods) == after(entry, periods)
 
 
 @settings(max_examples=60, deadline=None)
 @given(state=states)
-def test_moves_are_the_orbit_holds(state: State) -> None:
+def test_moves_are_the_orbit_holds(state: ExactState) -> None:
     here, count = state, 0
     for move in moves(state, 3):
         assert (move.state, move.start) == (here, count)
@@ -315,7 +315,7 @@ def test_printed_loss_is_violated_from_the_claimed_alpha_on_holds(alpha: Fractio
         least_integer(lambda k: bracket(PRINTED_LOSS, alpha, Fraction(k, steps))[1] > 1, steps) - 1,
         steps,
     )
-    start = State(alpha, Fraction(0), 1 + u)
+    start = ExactState(alpha, Fraction(0), 1 + u)
     assert (
         bracket(PRINTED_LOSS, alpha, u)[1]
         == 1

@@ -16,7 +16,7 @@ from juggleproof.scenes.juggler import boundary, grid, listed, orbit, physical, 
 from juggleproof.scenes.juggler.bounded import RADIUS, radius_of
 from juggleproof.scenes.juggler.compiled_map import formulas, region
 from juggleproof.scenes.juggler.exact import as_fraction, flight
-from juggleproof.scenes.juggler.orbits import Row, heights
+from juggleproof.scenes.juggler.orbits import OrbitRow, heights
 from juggleproof.scenes.juggler.tables import in_units
 from tests.rows import each_row
 
@@ -29,7 +29,7 @@ speeds = st.fractions(-12, 12, max_denominator=40)
 steps = st.integers(0, 40)
 
 
-def holds(ball: Row, exact: Row) -> bool:
+def holds(ball: OrbitRow, exact: OrbitRow) -> bool:
     return encloses(ball.x, exact.x) and encloses(ball.w, exact.w)
 
 
@@ -37,7 +37,7 @@ def encloses(ball: arb, exact: Fraction) -> bool:
     return abs(as_fraction(ball.mid().fmpq()) - exact) <= radius_of(ball)
 
 
-def bound_holds(fast: Row, exact: Row) -> bool:
+def bound_holds(fast: OrbitRow, exact: OrbitRow) -> bool:
     assert fast.error is not None
     return abs(Fraction(fast.x) - exact.x) <= Fraction(fast.error[0]) and abs(
         Fraction(fast.w) - exact.w

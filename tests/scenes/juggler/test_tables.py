@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 
 from juggleproof.scenes.juggler.exact import as_fraction
-from juggleproof.scenes.juggler.tables import CASES, Case, Finding, finding
+from juggleproof.scenes.juggler.tables import CASES, ArithmeticFinding, ExactStart, finding
 
 LONG = "10^6 periods"
 WRONG = {
@@ -38,16 +38,16 @@ EDGES = {
 
 
 @pytest.fixture(scope="module", params=CASES, ids=lambda case: case.name)
-def one(request: pytest.FixtureRequest) -> Finding:
-    case: Case = request.param
+def one(request: pytest.FixtureRequest) -> ArithmeticFinding:
+    case: ExactStart = request.param
     return finding(case)
 
 
-def test_floats_take_the_wrong_branch_only_where_it_is_said_holds(one: Finding) -> None:
+def test_floats_take_the_wrong_branch_only_where_it_is_said_holds(one: ArithmeticFinding) -> None:
     assert one.wrong_at == WRONG.get(one.case.name)
 
 
-def test_balls_hold_the_truth_and_prove_the_edges_holds(one: Finding) -> None:
+def test_balls_hold_the_truth_and_prove_the_edges_holds(one: ArithmeticFinding) -> None:
     assert (
         one.enclosed.end == "reached"
         and one.enclosed.error is not None
@@ -63,7 +63,9 @@ def test_balls_hold_the_truth_and_prove_the_edges_holds(one: Finding) -> None:
         assert one.exact.end == "too long" and one.case.most_bits is not None
 
 
-def test_bounded_floats_hold_the_truth_or_say_that_they_cannot_tell_holds(one: Finding) -> None:
+def test_bounded_floats_hold_the_truth_or_say_that_they_cannot_tell_holds(
+    one: ArithmeticFinding,
+) -> None:
     assert one.fast.error is not None
     assert one.fast.end == ("undecided" if one.case.name in UNDECIDED else "reached")
     if one.fast.end == "reached" and one.exact.end == "reached":

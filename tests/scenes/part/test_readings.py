@@ -14,15 +14,15 @@ import pytest
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import readings
-from juggleproof.scenes.part.onsets import PAPER, Row, table_one
+from juggleproof.scenes.part.onsets import PAPER, OnsetRow, table_one
 from juggleproof.scenes.part.readings import (
     BANDWIDTH,
     DIGIT,
     ONSETS,
-    Point,
-    Reading,
-    Stage,
-    Task,
+    AlikeReadings,
+    ReadingOutcome,
+    SimulatedReading,
+    TableReading,
     as_good,
     as_json,
     by_rules,
@@ -42,13 +42,13 @@ from juggleproof.scenes.part.readings import (
 )
 from tests.rows import each_row
 
-LIKELY = Reading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92)
+LIKELY = TableReading("2x4", "peak-to-peak", -90, -90, 0.875, 0.92)
 HORIZON = 12.0
 
 
-def row(paper: float | None, onsets: Sequence[float], chaotic: int = 0) -> Row:
+def row(paper: float | None, onsets: Sequence[float], chaotic: int = 0) -> OnsetRow:
     turning = (True,) * chaotic + (False,) * (len(onsets) - chaotic)
-    return Row(30.0, 1e-3, paper, np.array(onsets), turning, HORIZON)
+    return OnsetRow(30.0, 1e-3, paper, np.array(onsets), turning, HORIZON)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -62,7 +62,9 @@ def test_likelihood_is_a_distribution_over_what_could_be_printed_holds() -> None
     grid = np.linspace(math.log(DIGIT), math.log(HORIZON), 4001)
 
     def of(paper: float | None) -> float:
-        return math.exp(row_likelihood(Row(30.0, 1e-3, paper, np.array(onsets), turning, HORIZON)))
+        return math.exp(
+            row_likelihood(OnsetRow(30.0, 1e-3, paper, np.array(onsets), turning, HORIZON))
+        )
 
     density = [of(math.exp(one)) for one in grid]
     total = float(np.trapezoid(density, grid)) + of(None)
@@ -90,7 +92,7 @@ def test_likelihood_of_a_table_is_the_product_of_its_rows_holds() -> None:
 
 
 def test_onsets_by_the_three_rules_holds() -> None:
-    last = Row(30.0, 1e-3, 2.1, np.array([3.0, np.inf, np.inf]), (False, True, True), HORIZON)
+    last = OnsetRow(30.0, 1e-3, 2.1, np.array([3.0, np.inf, np.inf]), (False, True, True), HORIZON)
     by_last, first, stopped = by_rules(last, np.array([2.0, 2.5, np.inf]))
     assert by_last is last
     assert first.onsets.tolist() == [2.0, math.inf, math.inf] and first.chaotic == last.chaotic
@@ -110,7 +112,7 @@ def test_the_table_starts_at_its_lowest_where_both_phases_are_minus_90_holds() -
 
 def test_the_first_time_is_before_the_last_holds() -> None:
     pytest.importorskip("numba")
-    setting = Reading("2x4", "peak", 0, 0, 0.7, 0.06).scene(f_x=30.0, A_x=2e-3)
+    setting = TableReading("2x4", "peak", 0, 0, 0.7, 0.06).scene(f_x=30.0, A_x=2e-3)
     notes, first = watched(setting, np.radians(np.arange(0.0, 91.0, 10.0)), 6.0)
     last = float(notes[:, readings.body.LAST_UPRIGHT].max())
     assert 0.1 <= first <= math.ceil(last * 10) / 10 + 0.1 < 6.0
@@ -118,7 +120,7 @@ def test_the_first_time_is_before_the_last_holds() -> None:
 
 def test_a_point_is_table_one_of_its_reading_holds() -> None:
     pytest.importorskip("numba")
-    one = point(Task(LIKELY, LIKELY.scene(), 1, 3, 1.0))
+    one = point(SimulatedReading(LIKELY, LIKELY.scene(), 1, 3, 1.0))
     table = table_one(LIKELY.scene(), ensembles=1, horizon=1.0, seed=3, peak=LIKELY.peak)
     assert one.likelihoods[0] == pytest.approx(likelihood(table.rows), abs=1e-3)
     assert one.chaotic == tuple(sum(row.chaotic) for row in table.rows)
@@ -127,16 +129,16 @@ def test_a_point_is_table_one_of_its_reading_holds() -> None:
 
 def test_a_reading_is_given_up_only_where_it_is_sure_to_be_unlikely_holds() -> None:
     pytest.importorskip("numba")
-    whole = point(Task(LIKELY, LIKELY.scene(), 1, 3, 1.0))
-    kept = point(Task(LIKELY, LIKELY.scene(), 1, 3, 1.0, whole.likelihood - 1e-2))
-    given_up = point(Task(LIKELY, LIKELY.scene(), 1, 3, 1.0, whole.likelihood + 1e-2))
+    whole = point(SimulatedReading(LIKELY, LIKELY.scene(), 1, 3, 1.0))
+    kept = point(SimulatedReading(LIKELY, LIKELY.scene(), 1, 3, 1.0, whole.likelihood - 1e-2))
+    given_up = point(SimulatedReading(LIKELY, LIKELY.scene(), 1, 3, 1.0, whole.likelihood + 1e-2))
     assert kept == whole and not given_up.likelihoods and given_up.impacts <= whole.impacts
     assert given_up.likelihood == -math.inf
 
 
 def test_a_sweep_does_not_depend_on_the_executor_holds() -> None:
     pytest.importorskip("numba")
-    tasks = [Task(LIKELY, LIKELY.scene(), 1, seed, 0.3) for seed in (1, 2)]
+    tasks = [SimulatedReading(LIKELY, LIKELY.scene(), 1, seed, 0.3) for seed in (1, 2)]
     with ThreadPoolExecutor(2) as executor:
         assert sweep(tasks, executor) == [point(task) for task in tasks]
 
@@ -145,11 +147,11 @@ def test_a_sweep_does_not_depend_on_the_executor_holds() -> None:
     ("tasks", "reason"),
     [
         ([], "a sweep of 0 points is outside 1 .. 10000"),
-        ([Task(LIKELY, LIKELY.scene(), 1, 0, -1.0)], "horizon = -1 s is outside"),
-        ([Task(LIKELY, LIKELY.scene(), 1, 0, 0.01)], "horizon = 0.01 s is below 0.1 s"),
+        ([SimulatedReading(LIKELY, LIKELY.scene(), 1, 0, -1.0)], "horizon = -1 s is outside"),
+        ([SimulatedReading(LIKELY, LIKELY.scene(), 1, 0, 0.01)], "horizon = 0.01 s is below 0.1 s"),
     ],
 )
-def test_rejects_a_sweep_that_makes_none(tasks: list[Task], reason: str) -> None:
+def test_rejects_a_sweep_that_makes_none(tasks: list[SimulatedReading], reason: str) -> None:
     with pytest.raises(SceneError, match=reason):
         sweep(tasks)
 
@@ -205,10 +207,12 @@ def test_rejects_a_record_that_cannot_be_read(
 
 
 def test_likeliest_are_those_within_scatter_holds() -> None:
-    def at(e: float, lnl: float) -> Point:
-        return Point(Reading("2x4", "peak", 0, 0, e, 0.1), (), (), (), (lnl,) * len(ONSETS), 1)
+    def at(e: float, lnl: float) -> ReadingOutcome:
+        return ReadingOutcome(
+            TableReading("2x4", "peak", 0, 0, e, 0.1), (), (), (), (lnl,) * len(ONSETS), 1
+        )
 
-    found = Stage(24, 2, 12.0, 3, 3, (at(0.5, -3.0), at(0.7, -1.9), at(0.8, -1.0)))
+    found = AlikeReadings(24, 2, 12.0, 3, 3, (at(0.5, -3.0), at(0.7, -1.9), at(0.8, -1.0)))
     assert most_likely_point([found]).reading.e == 0.8 and chosen([found]).reading.e == 0.7
     assert [one.reading.e for one in as_good([found])] == [0.7, 0.8]
     assert [task.reading.e for task in finals(found.points)] == [0.875, 0.7, 0.8, 0.7, 0.5]
