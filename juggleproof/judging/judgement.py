@@ -100,7 +100,8 @@ def digest_of_question(text: str, budget: VoteBudget) -> str:
     """The digest of all that a vote depends on, apart from our own sources: the text of the
     statement, the budget, and the versions of the tools that vote.
     """
-    return digest(f"{budget}\n{text}")
+    work = f"rlimit={budget.rlimit}, boxes={budget.boxes}, width={budget.width!r}"
+    return digest(f"Budget({work})\n{text}")
 
 
 # -------------------------------------------------------------------------------------------------

@@ -22,8 +22,7 @@ from juggleproof.algebra.box_trees import Box, Terms, value_at
 from juggleproof.algebra.numbers import exact
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.search.boxes.branching import Branching
-from juggleproof.search.boxes.descent import SHARE, Best, shorter
-from juggleproof.search.boxes.descent import BoxProblem
+from juggleproof.search.boxes.descent import SHARE, Best, BoxProblem, shorter
 from juggleproof.search.boxes.over_box import FactOverBox, facts_over_box
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.sums_of_squares import (
