@@ -62,8 +62,11 @@ def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[ExtremePoin
     """The stationary points inside, along each curve constraint = 0, and the corners that satisfy
     all constraints >= 0.
 
-    >>> candidates(w - x, [x, 1 - w, w])
-    [Candidate(x=0, w=1, value=1, active=(x, 1 - w)), Candidate(x=0, w=0, value=0, active=(x, w))]
+    >>> largest, least = candidates(w - x, [x, 1 - w, w])
+    >>> largest
+    ExtremePoint(x=0, w=1, value=1, active=(x, 1 - w))
+    >>> least
+    ExtremePoint(x=0, w=0, value=0, active=(x, w))
     """
     _refuse_stationary_inside(objective)
     points: list[tuple[Expr, Expr, tuple[Expr, ...]]] = []

@@ -12,9 +12,6 @@ from fractions import Fraction
 from math import ceil, floor, lcm, prod
 from typing import TypeVar
 
-from flint import fmpq_poly
-
-from juggleproof.algebra.numbers import fraction
 from juggleproof.certificates import checker
 
 # -------------------------------------------------------------------------------------------------
@@ -194,14 +191,14 @@ def _corner_is_above(sizes: list[int], c: list[int], top: int) -> bool:
 MOST_LETTERS = 240  # of the tree of a polynomial in one variable
 
 
-def tree_above_zero(poly: fmpq_poly, low: Fraction, high: Fraction) -> str | None:
+def tree_above_zero(coefficients: Iterable[Fraction], low: Fraction, high: Fraction) -> str | None:
     """The tree of one axis that shows that a polynomial is positive from low to high; None where it
-    is not, or where that takes many letters.
+    is not, or where that takes many letters.  The coefficient of x^0 comes first.
 
-    >>> tree_above_zero(fmpq_poly([1, -4, 5]), Fraction(0), Fraction(1))
+    >>> tree_above_zero(map(Fraction, [1, -4, 5]), Fraction(0), Fraction(1))
     'aa...'
     """
-    terms: Terms = {(k,): fraction(c) for k, c in enumerate(poly.coeffs()) if c}
+    terms: Terms = {(k,): c for k, c in enumerate(coefficients) if c}
     if low > high or not terms:
         return None
     return search_tree(terms, [(low, high)], MOST_LETTERS, strict=True)

@@ -88,8 +88,8 @@ class PaperItem:
         """The first 16 hexadecimal digits of the SHA-256 of the text, runs of white space counted
         as one space.
 
-        >>> kept = Item("3-s01", "3", 7, "sentence", "a  b ")
-        >>> kept.digest == Item("3-s01", "3", 7, "sentence", "a b").digest
+        >>> kept = PaperItem("3-s01", "3", 7, "sentence", "a  b ")
+        >>> kept.digest == PaperItem("3-s01", "3", 7, "sentence", "a b").digest
         True
         """
         return hashlib.sha256(" ".join(self.text.split()).encode()).hexdigest()[:16]
@@ -225,7 +225,7 @@ class LedgerRow:
     def section(self) -> str:
         """The section that the key names.
 
-        >>> Row("A.3.1-d04", 694, "display", "0" * 16, ("sA.3.1-35",)).section
+        >>> LedgerRow("A.3.1-d04", 694, "display", "0" * 16, ("sA.3.1-35",)).section
         'A.3.1'
         """
         return self.key.rpartition("-")[0]

@@ -463,8 +463,9 @@ def picture(nodes: Sequence[MarkedStatement], title: str) -> str:
 def depths(nodes: Sequence[MarkedStatement]) -> Mapping[str, int]:
     """The length of the longest path to each node from above; raises ValueError for a cycle.
 
-    >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
-    >>> depths([a, b, Node("c", "", "", "", "")])
+    >>> a = MarkedStatement("a", "", "", "", "", below=("b", "c"))
+    >>> b = MarkedStatement("b", "", "", "", "", below=("c",))
+    >>> depths([a, b, MarkedStatement("c", "", "", "", "")])
     {'a': 0, 'b': 1, 'c': 2}
     """
     known = {node.name: node for node in nodes}

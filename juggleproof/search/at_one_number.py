@@ -101,7 +101,7 @@ def _contradiction(state: SearchState, index: int, adjoined: AdjoinedNumber) -> 
             (equation, dense_text(-v / gcd[0], adjoined.name)),
         ]
         return "psatz", [("1", [], "1")], cofactors
-    tree = tree_above_zero(-dense, adjoined.low, adjoined.high)
+    tree = tree_above_zero(map(fraction, (-dense).coeffs()), adjoined.low, adjoined.high)
     return None if tree is None else ("boxes", index, [(low, high)], tree)
 
 

@@ -31,7 +31,7 @@ def close_by_variables(state: SearchState, ring: Ring, budget: Budget) -> Node |
     >>> for name in "xyz":
     ...     context.declare(name)
     >>> motzkin = "x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2"
-    >>> state = State(context).assume(context.formula(checker.parse(f"{motzkin} < 0")))
+    >>> state = SearchState(context).assume(context.formula(checker.parse(f"{motzkin} < 0")))
     >>> node = close_by_variables(state, Ring(("x", "y", "z")), Budget(10**6))
     >>> state.is_closed_by(node, {})
     True

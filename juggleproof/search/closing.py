@@ -87,7 +87,7 @@ def search_closing(
     >>> context = checker.Context()
     >>> context.declare("x")
     >>> formula = context.formula(checker.parse("x > 1 and x^2 <= x"))
-    >>> search_closing(State(context).assume(formula), {}, Budget(10**6))
+    >>> search_closing(SearchState(context).assume(formula), {}, Budget(10**6))
     ('psatz', [('1', ((0, 1),), '1'), ('1', ((1, 1),), '1'), ('1', ((0, 2),), '1')], [])
     """
     uses, inside = with_uses(state, known, hints.uses if hints else ())

@@ -54,7 +54,7 @@ def close_in_one_variable(state: SearchState, budget: Budget) -> Node | None:
     >>> context = checker.Context()
     >>> context.declare("x")
     >>> text = "x^3 = 2 and x^2 > 3 or x^2 = 2 and x >= 2"
-    >>> state = State(context).assume(context.formula(checker.parse(text)))
+    >>> state = SearchState(context).assume(context.formula(checker.parse(text)))
     >>> node = close_in_one_variable(state, Budget(10**6))
     >>> state.is_closed_by(node, {})
     True

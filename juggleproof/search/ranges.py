@@ -204,7 +204,7 @@ def condition_of(line: CutDomain, parameter: str, domain: Formula) -> Formula:
 
     >>> from juggleproof.statements.language import reals
     >>> (a,) = reals("alpha")
-    >>> line = Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False))
+    >>> line = CutDomain((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False))
     >>> str(condition_of(line, "alpha", a > 0))
     '3*alpha < 1'
     """
@@ -234,7 +234,7 @@ def one_relation(line: CutDomain, parameter: str, domain: Formula) -> Formula | 
     >>> from juggleproof.statements.language import reals
     >>> (a,) = reals("alpha")
     >>> ends = real_roots(fmpq_poly([-1, 10, -20, 10]))[:2]
-    >>> line = Line(tuple(ends), (False, False, True, False, False))
+    >>> line = CutDomain(tuple(ends), (False, False, True, False, False))
     >>> str(one_relation(line, "alpha", (a > 0) & (a < 1)))
     '10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0'
     """

@@ -101,7 +101,7 @@ def answer(asked: ScriptQuestion) -> ScriptAnswer:
     """The answer, which the checker has accepted.
 
     >>> text = "statement f/check-1\\nforall x\\nshow not x^2 = 2"
-    >>> answer(Question("f/check-1", (text,))).numbers
+    >>> answer(ScriptQuestion("f/check-1", (text,))).numbers
     ('-3/2 <= theta <= -7/5, -theta^2 + 2 = 0',)
     """
     for text, certificate in asked.stored.items():

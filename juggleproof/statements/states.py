@@ -22,7 +22,8 @@ class SearchState:
 
     >>> context = checker.Context()
     >>> context.declare("x")
-    >>> state = State(context).assume(context.formula(checker.parse("x > 1 and (x < 2 or x = 3)")))
+    >>> formula = checker.parse("x > 1 and (x < 2 or x = 3)")
+    >>> state = SearchState(context).assume(context.formula(formula))
     >>> len(state.facts), len(state.choices), state.closed
     (1, 1, False)
     >>> [len(case.facts) for case in state.by_sign("x - 2")]

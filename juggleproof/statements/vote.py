@@ -29,7 +29,7 @@ class VoteBudget:
     def times(self, factor: int) -> VoteBudget:
         """The budget with `factor` times as much work.
 
-        >>> Budget().times(3).boxes
+        >>> VoteBudget().times(3).boxes
         9000
         """
         return VoteBudget(self.rlimit * factor, self.boxes * factor, self.width)

@@ -92,7 +92,7 @@ def test_revote_asks_again_and_changes_no_byte_holds(
 def test_rejects_votes_with_another_budget(
     tmp_path: Path, asked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(judge, "Budget", lambda: VoteBudget(boxes=VoteBudget().boxes - 1))
+    monkeypatch.setattr(judge, "VoteBudget", lambda: VoteBudget(boxes=VoteBudget().boxes - 1))
     fresh(tmp_path)
     assert {name.split("/")[0] for name in asked} == {*CHOSEN}
 

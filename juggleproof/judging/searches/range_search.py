@@ -208,7 +208,7 @@ def line_text(
     none, and for each irrational end its name in `numbers`, its decimals and its equation.
 
     >>> from fractions import Fraction
-    >>> line_text(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
+    >>> line_text(CutDomain((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
     'a < 1/3'
     """
     names = {

@@ -370,7 +370,7 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
 def in_words(split: EndSplit) -> str:
     """Where blocks end on a still table, and the angle that separates them.
 
-    >>> split = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
+    >>> split = EndSplit((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
     >>> print(in_words(split))  # doctest: +NORMALIZE_WHITESPACE
     Without vibration 27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the
     paper says. The two part

@@ -64,7 +64,7 @@ def row_likelihood(row: OnsetRow) -> float:
     c of n ensembles being so; else ln((sum_i N(ln(print/onset_i); 0.2) + 1/(2 ln(horizon/0.1 s)))
     /(n + 1)), per unit of the logarithm of the onset.
 
-    >>> row = Row(15.0, 4e-3, None, np.full(3, np.inf), (True, True, False), 12.0)
+    >>> row = OnsetRow(15.0, 4e-3, None, np.full(3, np.inf), (True, True, False), 12.0)
     >>> round(math.exp(row_likelihood(row)), 6)  # 2.5/4
     0.625
     """
@@ -134,7 +134,7 @@ class TableReading:
         is given.  A shape replaces the face, a drive both vibrations.  Raises SceneError for
         numbers that make no scene.
 
-        >>> Reading("1x2", "peak-to-peak", 0, 0, 0.7, 0.08).scene().A_y
+        >>> TableReading("1x2", "peak-to-peak", 0, 0, 0.7, 0.08).scene().A_y
         0.0001
         """
         given = {"e": self.e, "mu": self.mu}

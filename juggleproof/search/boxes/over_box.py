@@ -109,7 +109,7 @@ def close_over_box(state: SearchState, most: int, budget: Budget) -> Node | None
     >>> for name in "xy":
     ...     context.declare(name)
     >>> text = "0 <= x and x <= 1 and 0 <= y and y <= 1 and x*y*(1 - x) > 1/4"
-    >>> state = State(context).assume(context.formula(checker.parse(text)))
+    >>> state = SearchState(context).assume(context.formula(checker.parse(text)))
     >>> close_over_box(state, 9, Budget(10**6))
     ('boxes', 4, [(0, 1), (2, 3)], 'Ba..')
 

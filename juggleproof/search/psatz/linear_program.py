@@ -159,7 +159,7 @@ class SparseMatrix:
     def of(turned: Floats) -> SparseMatrix:
         """The transpose of an array.
 
-        >>> Matrix.of(np.array([[0.0, 2.0], [0.0, 0.0], [1.0, 0.0]])).dense().tolist()
+        >>> SparseMatrix.of(np.array([[0.0, 2.0], [0.0, 0.0], [1.0, 0.0]])).dense().tolist()
         [[0.0, 0.0, 1.0], [2.0, 0.0, 0.0]]
         """
         columns, rows = turned.shape

@@ -80,12 +80,12 @@ class Orthant:
 
     >>> from juggleproof.certificates import checker
     >>> from juggleproof.algebra.polynomials import Ring
-    >>> from juggleproof.statements.states import State
+    >>> from juggleproof.statements.states import SearchState
     >>> context = checker.Context()
     >>> for name in ("x", "y"):
     ...     context.declare(name)
     >>> formula = context.formula(checker.parse("x > 1 and y >= x and y^2 < x^2"))
-    >>> problem = Problem(State(context).assume(formula), Ring(("x", "y")))
+    >>> problem = LeafProblem(SearchState(context).assume(formula), Ring(("x", "y")))
     >>> orthant = Orthant(problem, [0, 1, 2], Budget(10**5))
     >>> orthant.own, str(orthant.facts[2])
     ({0: 1, 1: 0}, '-x^2 - 2*x*y - 2*x')

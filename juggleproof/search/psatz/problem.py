@@ -12,7 +12,7 @@ from flint import fmpz_mpoly
 from numpy.typing import NDArray
 
 from juggleproof.algebra.box_trees import tree_above_zero
-from juggleproof.algebra.numbers import univariate
+from juggleproof.algebra.numbers import fraction, univariate
 from juggleproof.algebra.polynomials import (
     Keys,
     Packing,
@@ -76,7 +76,7 @@ class LeafProblem:
     >>> for name in ("r", "x", "y"):
     ...     context.declare(name)
     >>> formula = context.formula(checker.parse("r > 0 and x >= r and 2*y = x + r and y < r"))
-    >>> problem = Problem(State(context).assume(formula), Ring(("r", "x", "y")))
+    >>> problem = LeafProblem(SearchState(context).assume(formula), Ring(("r", "x", "y")))
     >>> [(str(fact.poly), fact.strict) for fact in problem.facts]
     [('x - 1', False), ('-x + 1', True)]
     """
@@ -251,7 +251,7 @@ class LeafProblem:
         if used_in(poly) != (v,):
             return False
         ends = (self.facts[k].end(v) for k in (bounded.low, bounded.high))
-        return tree_above_zero(univariate(poly, v), *ends) is not None
+        return tree_above_zero(map(fraction, univariate(poly, v).coeffs()), *ends) is not None
 
     # -------------------------------------------------------- candidates and divided facts
 

@@ -17,8 +17,8 @@ from typing import Any
 from juggleproof.algebra.conditions import Condition, ring_of
 from juggleproof.certificates import checker
 from juggleproof.proofs.paper.names import STANDING
-from juggleproof.search.certificate import point_or_counterexample, search_proof
-from juggleproof.search.points import assignments, values_of_assignment
+from juggleproof.search.certificate import search_proof
+from juggleproof.search.points import assignments, search_values, values_of_assignment
 from juggleproof.search.witness_terms import TermTask
 from juggleproof.statements.language import Roles
 from juggleproof.statements.states import SearchState
@@ -150,8 +150,15 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
                 if search_proof(opposite, {}, part, effort=effort, roles=roles) is not None:
                     return NOT_NEEDED, "", None
             elif (
-                refutation := point_or_counterexample(
-                    opposite, "counterexample", {}, part, effort, roles
+                refutation := search_values(
+                    opposite,
+                    SearchState(checker.Context()),
+                    "counterexample",
+                    {},
+                    {},
+                    part,
+                    effort=effort,
+                    roles=roles,
                 )
             ) is not None and is_refuted(plain, refutation):
                 return NEEDED, "", refutation
