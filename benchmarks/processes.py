@@ -89,7 +89,7 @@ def output_of(command: Sequence[str], text: str, seconds: float = inf) -> str | 
 # on with the next.
 
 
-class Timed(NamedTuple, Generic[Answer]):
+class TimedProcess(NamedTuple, Generic[Answer]):
     """The answer to one piece of work, None if it used up its CPU seconds; and those it took."""
 
     answer: Answer | None
@@ -100,7 +100,7 @@ def each(
     start: Callable[[], Callable[[Item], Callable[[], Answer]]],
     items: Sequence[Item],
     seconds: float,
-) -> Iterator[Timed[Answer]]:
+) -> Iterator[TimedProcess[Answer]]:
     """The answers to all items in order.
 
     `start` is called in the warm process and loads what it needs; it returns the function that
@@ -121,7 +121,7 @@ def each(
                     began = at
                     continue
                 done += 1
-                yield Timed(answer, at - began)
+                yield TimedProcess(answer, at - began)
                 last = at
         except EOFError:
             pass
@@ -135,7 +135,7 @@ def each(
                 raise ChildProcessError("the work raised what is printed above")
             used = children_seconds() - before
             done += 1
-            yield Timed(None, used - max(began, last))
+            yield TimedProcess(None, used - max(began, last))
 
 
 def _work(

@@ -47,7 +47,7 @@ from juggleproof.symbolic.mechanics import boundary_height, collision_margin, ha
 # x, so a curve gives x as a function of w.
 
 
-class ExtremePoint(NamedTuple):
+class Candidate(NamedTuple):
     """A point (x, w) with the value there and the constraints that hold with equality by its
     construction.
     """
@@ -58,15 +58,15 @@ class ExtremePoint(NamedTuple):
     active: tuple[Expr, ...]
 
 
-def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[ExtremePoint]:
+def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[Candidate]:
     """The stationary points inside, along each curve constraint = 0, and the corners that satisfy
     all constraints >= 0.
 
     >>> largest, least = candidates(w - x, [x, 1 - w, w])
     >>> largest
-    ExtremePoint(x=0, w=1, value=1, active=(x, 1 - w))
+    Candidate(x=0, w=1, value=1, active=(x, 1 - w))
     >>> least
-    ExtremePoint(x=0, w=0, value=0, active=(x, w))
+    Candidate(x=0, w=0, value=0, active=(x, w))
     """
     _refuse_stationary_inside(objective)
     points: list[tuple[Expr, Expr, tuple[Expr, ...]]] = []
@@ -75,13 +75,13 @@ def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[ExtremePoin
     for first, second in combinations(constraints, 2):
         points += [(*point, (first, second)) for point in _meeting_points(first, second)]
     return [
-        ExtremePoint(reduced(px), reduced(pw), reduced(objective.subs({x: px, w: pw})), active)
+        Candidate(reduced(px), reduced(pw), reduced(objective.subs({x: px, w: pw})), active)
         for px, pw, active in points
         if all(sign_for_lossy_impacts(_at(g, px, pw)) >= 0 for g in constraints if g not in active)
     ]
 
 
-def greatest(found: Sequence[ExtremePoint]) -> ExtremePoint:
+def greatest(found: Sequence[Candidate]) -> Candidate:
     """The candidate of the greatest value for all 0 < alpha < 1; DerivationError where the order
     depends on alpha.
 

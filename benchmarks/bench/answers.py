@@ -19,7 +19,7 @@ from juggleproof.algebra.box_trees import Exponents, Terms, simple_points, value
 
 
 @dataclass(frozen=True)
-class Problem:
+class BoundQuestion:
     """The supremum of over/under on the box; under > 0 inside it, and where under = 0 on its
     boundary, over < 0.
 
@@ -150,7 +150,7 @@ class Start:
 
 
 @dataclass(frozen=True)
-class Ensemble:
+class OrbitQuestion:
     """Random states for one alpha, all followed for the same number of periods."""
 
     alpha: Fraction = Fraction(3, 10)
@@ -163,7 +163,7 @@ class Drops:
     copies: int = 500
 
 
-Work = Problem | Start | Ensemble | Drops
+Work = BoundQuestion | Start | OrbitQuestion | Drops
 
 # -------------------------------------------------------------------------------------------------
 # Answers, and measurements of them.
@@ -213,7 +213,7 @@ class Strayed:
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredAnswer:
     """One method on one piece of work: its answer with its seconds, or why there is none."""
 
     method: str
@@ -245,7 +245,7 @@ NOISE = 2.0**-52
 CLOSE = 1e-9  # values farther apart than this differ for certain
 
 
-def best_point(problem: Problem, slack: Fraction) -> tuple[Point, Fraction]:
+def best_point(problem: BoundQuestion, slack: Fraction) -> tuple[Point, Fraction]:
     """A point of the box and the value there, which no point tried exceeds by more than `slack`.
 
     Raises ArithmeticError if the fraction has no value at any of them.
@@ -270,7 +270,7 @@ def best_point(problem: Problem, slack: Fraction) -> tuple[Point, Fraction]:
 class _Quotient:
     """over/under in floating point, on the box."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: BoundQuestion) -> None:
         self.low, self.high = ([float(pair[k]) for pair in problem.box] for k in (0, 1))
         self.monomials = [
             (e, float(problem.over.get(e, 0)), float(problem.under.get(e, 0)))

@@ -14,7 +14,7 @@ import signal
 import sys
 from fractions import Fraction
 
-from juggleproof.benchmarks.bench.answers import GaveUp, Measured
+from juggleproof.benchmarks.bench.answers import GaveUp, MeasuredAnswer
 from juggleproof.benchmarks.bench.methods import BLOCKS, ENSEMBLE, METHODS, ORBITS
 from juggleproof.benchmarks.processes import GRACE, allow, cpu_seconds
 
@@ -33,7 +33,7 @@ def _over(*_: object) -> None:
     raise Over
 
 
-def measured() -> Measured:
+def measured() -> MeasuredAnswer:
     """The answer with its seconds, or the reason why there is none."""
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE | BLOCKS)[name]
@@ -55,16 +55,16 @@ def measured() -> Measured:
             answer = method.solve(work, size)
             took.append(cpu_seconds() - start)
     except GaveUp as reason:
-        return Measured(name, size, reason=f"gave up: {reason}")
+        return MeasuredAnswer(name, size, reason=f"gave up: {reason}")
     except Over:
         if not took:
-            return Measured(name, size, reason=f"gave up: {seconds:g} s")
+            return MeasuredAnswer(name, size, reason=f"gave up: {seconds:g} s")
     allow(seconds)  # as much to compare an orbit with the exact one
     try:
         answer = answer() if callable(answer) else answer
     except (Over, GaveUp):
-        return Measured(name, size, reason="gave up: no exact orbit to compare with")
-    return Measured(name, size, took[0], min(took[1:], default=None), answer)
+        return MeasuredAnswer(name, size, reason="gave up: no exact orbit to compare with")
+    return MeasuredAnswer(name, size, took[0], min(took[1:], default=None), answer)
 
 
 if __name__ == "__main__":

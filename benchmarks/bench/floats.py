@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.algebra.box_trees import Terms
-from juggleproof.benchmarks.bench.answers import Answer, Problem
+from juggleproof.benchmarks.bench.answers import Answer, BoundQuestion
 from juggleproof.search.boxes.descent import FloatPolynomial
 
 Array = NDArray[np.float64]
 MOST, AT_ONCE = 10**7, 10**5  # samples
 
 
-def sampling(problem: Problem, width: Fraction) -> Answer:
+def sampling(problem: BoundQuestion, width: Fraction) -> Answer:
     """The greatest of 1/width samples, 10^7 at most, uniform in the box from a fixed seed."""
     random, left, best = np.random.default_rng(1), min(max(int(1 / width), 100), MOST), -np.inf
     low, high = (np.array([float(pair[k]) for pair in problem.box]) for k in (0, 1))
@@ -31,7 +31,7 @@ def sampling(problem: Problem, width: Fraction) -> Answer:
     return Answer(Fraction(best), None, f"{count} samples")
 
 
-def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
+def scipy_optimize(problem: BoundQuestion, width: Fraction) -> Answer:
     """SciPy's differential evolution to this tolerance, from a fixed seed, polished."""
     from scipy.optimize import differential_evolution
 

@@ -21,10 +21,10 @@ from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
     Answer,
+    BoundQuestion,
     Drops,
     GaveUp,
     Point,
-    Problem,
     Strayed,
     Work,
     best_point,
@@ -38,7 +38,7 @@ from juggleproof.certificates import checker
 FEW, MANY = 8, 20000  # boxes: for width 0, which needs few or fails, and for the width asked for
 
 
-def bernstein(problem: Problem, width: Fraction) -> Answer:
+def bernstein(problem: BoundQuestion, width: Fraction) -> Answer:
     """Certifies that the value at a rational point is attained, and that nothing exceeds it; or, if
     that fails, that nothing exceeds it by more than the width.
 
@@ -54,7 +54,7 @@ def bernstein(problem: Problem, width: Fraction) -> Answer:
     raise GaveUp(f"{MANY} boxes")
 
 
-def can_be_a_corner(problem: Problem, point: Point) -> bool:
+def can_be_a_corner(problem: BoundQuestion, point: Point) -> bool:
     """Whether few halvings lead to boxes with the point at a corner: only at a corner is a
     Bernstein coefficient the value of the polynomial.
     """
@@ -62,7 +62,7 @@ def can_be_a_corner(problem: Problem, point: Point) -> bool:
     return all(2**FEW % place.denominator == 0 for place in places)
 
 
-def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
+def _checked(problem: BoundQuestion, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
     """The bytes of the certificate that the checker accepts, read back from what would be stored;
     raises ArithmeticError where it rejects it.
     """

@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Protocol, Union
 
 from juggleproof.algebra.box_trees import Terms
-from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
+from juggleproof.benchmarks.bench.answers import SHARE, Answer, BoundQuestion, GaveUp, best_point
 
 if TYPE_CHECKING:
     from flint import arb
@@ -85,7 +85,7 @@ class Mpmath:
         return value.b
 
 
-class Enclosed:
+class EnclosedBound:
     """A polynomial and its slopes on boxes."""
 
     def __init__(self, terms: Terms, size: int, numbers: Intervals) -> None:
@@ -127,7 +127,7 @@ def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> i
     """The number of boxes that show that the polynomial is >= 0 on the box; None if it is not, or
     if it is undecided at a point.
     """
-    excess, boxes, stack = Enclosed(terms, len(box), numbers), 0, [box]
+    excess, boxes, stack = EnclosedBound(terms, len(box), numbers), 0, [box]
     while stack:
         sides, boxes = stack.pop(), boxes + 1
         powers = excess.powers(sides)
@@ -167,7 +167,7 @@ def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> i
 
 
 def _by_mean_value(
-    excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Ball], numbers: Intervals
+    excess: EnclosedBound, sides: Sequence[Side], slopes: Mapping[int, Ball], numbers: Intervals
 ) -> bool:
     middles = [(low + high) / 2 for low, high in sides]
     value = excess.value(0, excess.powers([(middle, middle) for middle in middles]))
@@ -176,7 +176,7 @@ def _by_mean_value(
     return bool(numbers.least(value) >= 0)
 
 
-def _enclosed(make: Callable[[], Intervals], problem: Problem, width: Fraction) -> Answer:
+def _enclosed(make: Callable[[], Intervals], problem: BoundQuestion, width: Fraction) -> Answer:
     low = best_point(problem, width / SHARE)[1]
     high = low + width * (SHARE - 1) / SHARE
     boxes = never_negative(problem.excess(high), problem.box, make())
@@ -185,11 +185,11 @@ def _enclosed(make: Callable[[], Intervals], problem: Problem, width: Fraction) 
     return Answer(low, high, f"{boxes} boxes")
 
 
-def arb_boxes(problem: Problem, width: Fraction) -> Answer:
+def arb_boxes(problem: BoundQuestion, width: Fraction) -> Answer:
     """Branch and bound in Arb's balls."""
     return _enclosed(Arb, problem, width)
 
 
-def mpmath_boxes(problem: Problem, width: Fraction) -> Answer:
+def mpmath_boxes(problem: BoundQuestion, width: Fraction) -> Answer:
     """Branch and bound in mpmath's intervals."""
     return _enclosed(Mpmath, problem, width)

@@ -15,7 +15,7 @@ from flint import arb, ctx, fmpq
 from mpmath import mpf
 from mpmath.libmp import to_rational
 
-from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
+from juggleproof.benchmarks.bench.answers import GaveUp, OrbitQuestion, Start, Strayed
 from juggleproof.scenes import juggler
 from juggleproof.scenes.juggler.compiled_map import formulas
 from juggleproof.scenes.juggler.orbits import Orbits, Value
@@ -121,7 +121,7 @@ def _of_float(value: Value) -> fmpq:
     return fmpq(*float(value).as_integer_ratio())
 
 
-def ensemble(work: Ensemble, size: Fraction) -> Strayed:
+def ensemble(work: OrbitQuestion, size: Fraction) -> Strayed:
     """Random states in float64 with their bounds; the answer is the largest bound, the note counts
     undecided states.
     """

@@ -19,7 +19,7 @@ from functools import cache
 import sympy
 
 from juggleproof import symbolic
-from juggleproof.benchmarks.bench.answers import Problem
+from juggleproof.benchmarks.bench.answers import BoundQuestion
 from juggleproof.encoding import from_sympy
 from juggleproof.statements.language import ClaimError, Formula, Term, equal
 from juggleproof.symbolic.algebra import (
@@ -65,7 +65,7 @@ class Question:
         """
         return truth_at_ends(self.closed_form, self.sign)
 
-    def problem(self) -> Problem:
+    def problem(self) -> BoundQuestion:
         """The question as plain data."""
         over, under = (
             sympy.Poly(part, *self.variables)
@@ -79,7 +79,7 @@ class Question:
         }
         flip = -1 if under.as_expr().xreplace(middle) < 0 else 1
         statement = self._statement()
-        return Problem(
+        return BoundQuestion(
             self.name,
             tuple(map(str, self.variables)),
             tuple(_ends(v) for v in self.variables),
@@ -290,7 +290,7 @@ TOP = Fraction(4)  # the greatest closing speed, beyond that at which the energy
 VARIABLE_WIDTH = Fraction(1, 1000)
 
 
-def balls(count: int) -> tuple[Problem, Fraction]:
+def balls(count: int) -> tuple[BoundQuestion, Fraction]:
     """The most energy that `count` balls gain together, each struck as it leaves the table (x = 0),
     in count + 1 variables; and the closed form.
 
@@ -311,4 +311,6 @@ def balls(count: int) -> tuple[Problem, Fraction]:
     ]
     statement = bounding(f"{count}-balls", " ".join(names), givens, str(from_sympy(total)), "1", 1)
     truth = truth_at_ends(lowest_terms(symbolic.delta_E_max() / r**2), 1) * count
-    return Problem(f"{count}-balls", names, box, over, one, 1, statement, denial(statement)), truth
+    return BoundQuestion(
+        f"{count}-balls", names, box, over, one, 1, statement, denial(statement)
+    ), truth

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Drops, Ensemble, Measured, Work
+from juggleproof.benchmarks.bench.answers import Drops, MeasuredAnswer, OrbitQuestion, Work
 from juggleproof.benchmarks.bench.methods import (
     BLOCKS,
     ENSEMBLE,
@@ -43,7 +43,7 @@ START = 5.0  # CPU seconds that a process may take to start and to end
 Report = Callable[[str], None]
 
 
-def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measured:
+def measure(method: Method, work: Work, size: Fraction, seconds: float) -> MeasuredAnswer:
     """Cold and warm CPU seconds and the answer of one method; `seconds` limits the cold answer, and
     all answers together.
     """
@@ -72,19 +72,19 @@ def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measu
             pickle.dumps(work), timeout=STALLED * (seconds + START)
         )
     except subprocess.TimeoutExpired:
-        return Measured(method.name, size, reason="gave up")
+        return MeasuredAnswer(method.name, size, reason="gave up")
     finally:
         end_with_children(process)
     if process.returncode in (-signal.SIGKILL, -signal.SIGXCPU):
-        return Measured(method.name, size, reason="gave up")
+        return MeasuredAnswer(method.name, size, reason="gave up")
     if process.returncode:
         lines = errors.decode(errors="replace").strip().splitlines()
-        return Measured(
+        return MeasuredAnswer(
             method.name, size, reason=f"failed: {lines[-1] if lines else process.returncode}"[:200]
         )
-    measured: Measured = pickle.loads(output)
+    measured: MeasuredAnswer = pickle.loads(output)
     if measured.cold is not None and measured.cold > seconds:
-        return Measured(method.name, size, reason="gave up")
+        return MeasuredAnswer(method.name, size, reason="gave up")
     return measured
 
 
@@ -102,7 +102,7 @@ def measure_all(
     sizes: Sequence[Fraction],
     seconds: float,
     report: Report,
-) -> Iterator[Measured]:
+) -> Iterator[MeasuredAnswer]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
         for size in sizes:
@@ -179,7 +179,7 @@ COSTS = {
         ENSEMBLE,
         tuple(ENSEMBLE),
         tuple(Fraction(10**k) for k in range(2, 7)),
-        same(Ensemble()),
+        same(OrbitQuestion()),
         "states",
     ),
     "part": Cost(
@@ -252,7 +252,7 @@ def _seconds(text: str) -> float:
     return float(text)
 
 
-class Run:
+class BenchRun:
     """A run, which prints as it goes, and counts wrong answers."""
 
     def __init__(self, wanted: Wish, folder: Path, report: Report) -> None:

@@ -16,8 +16,8 @@ from pathlib import Path
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
     Answer,
+    BoundQuestion,
     GaveUp,
-    Problem,
     best_point,
     horner,
 )
@@ -46,12 +46,12 @@ def has_coq_interval() -> bool:
     return any((folder / "Interval" / "Tactic.vo").exists() for folder in folders)
 
 
-def goal(problem: Problem, bound: Fraction) -> str:
+def goal(problem: BoundQuestion, bound: Fraction) -> str:
     """The goal that the excess is >= 0 on the box, by bisection of all variables, with slopes along
     the last.
 
     >>> from fractions import Fraction as F
-    >>> one = Problem("half", ("p",), ((F(0), F(1)),), {(1,): F(1)}, {(0,): F(2)}, 1, "", "")
+    >>> one = BoundQuestion("half", ("p",), ((F(0), F(1)),), {(1,): F(1)}, {(0,): F(2)}, 1, "", "")
     >>> print(goal(one, F(1)).splitlines()[-2])
     Goal forall v0 : R, 0/1 <= v0 <= 1/1 -> 0 <= 2/1 + v0*(-1/1).
     """
@@ -91,10 +91,10 @@ def proves(text: str, seconds: float) -> bool:
 
 START = Fraction(4)  # every supremum asked for lies between -4 and 4, which is asked too
 ENOUGH = 3600.0  # CPU seconds: fewer are left to the process that asks
-Exceeds = Callable[[Problem, Fraction], bool]
+Exceeds = Callable[[BoundQuestion, Fraction], bool]
 
 
-def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
+def bisected(exceeds: Exceeds, problem: BoundQuestion, width: Fraction) -> Answer:
     """Halves the range until it is as narrow as the width; raises GaveUp if the supremum is not in
     [-START, START].
     """
@@ -107,7 +107,7 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
     return Answer(low, high, f"{asked} questions")
 
 
-def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
+def asked_once(exceeds: Exceeds, problem: BoundQuestion, width: Fraction) -> Answer:
     """Asks one question, a little above the value at a point, which floating point finds and exact
     arithmetic evaluates; raises GaveUp if the supremum exceeds it.
     """
@@ -124,7 +124,7 @@ def _decided(answer: str) -> bool:
     return answer == "sat"
 
 
-def by_z3(problem: Problem, bound: Fraction) -> bool:
+def by_z3(problem: BoundQuestion, bound: Fraction) -> bool:
     """Z3's nlsat, in this process, which is its fastest way."""
     import z3
 
@@ -133,7 +133,7 @@ def by_z3(problem: Problem, bound: Fraction) -> bool:
     return _decided(str(solver.check()))
 
 
-def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
+def by_cvc5(problem: BoundQuestion, bound: Fraction, proof: bool = False) -> bool:
     """cvc5, in this process; if asked to, it writes its proof, in its own format.  Raises GaveUp if
     it does not decide, or writes none.
     """
@@ -156,12 +156,12 @@ def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
     return exceeds
 
 
-def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
+def by_cvc5_with_proof(problem: BoundQuestion, bound: Fraction) -> bool:
     """cvc5, which writes its proof where nothing exceeds the bound."""
     return by_cvc5(problem, bound, True)
 
 
-def by_qepcad(problem: Problem, bound: Fraction) -> bool:
+def by_qepcad(problem: BoundQuestion, bound: Fraction) -> bool:
     """QEPCAD B, which is used as a program that is started for each question."""
     from juggleproof.benchmarks.bench.qepcad import fails
 
@@ -171,7 +171,7 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
     return answer
 
 
-def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
+def by_coq_interval(problem: BoundQuestion, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
     Its proof is checked by Coq's kernel.  Raises GaveUp if there is none.
     """

@@ -10,26 +10,26 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
 
-from juggleproof.benchmarks.bench.answers import Answer, Measured
+from juggleproof.benchmarks.bench.answers import Answer, MeasuredAnswer
 from juggleproof.benchmarks.bench.methods import Method
 from juggleproof.benchmarks.figures import as_svg, new_figure
 from juggleproof.reports.tables import plain
 
 Time = Literal["cold", "seconds"]
 AIM = 10
-Results = Mapping[str, Mapping[Fraction, Measured]]  # by method and size
+Results = Mapping[str, Mapping[Fraction, MeasuredAnswer]]  # by method and size
 WORDS: dict[Time, str] = {"seconds": "warm", "cold": "cold"}
 
 
-def by_method(measurements: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
+def by_method(measurements: Sequence[MeasuredAnswer]) -> dict[str, dict[Fraction, MeasuredAnswer]]:
     """The measurements, by method and size."""
-    results: dict[str, dict[Fraction, Measured]] = {}
+    results: dict[str, dict[Fraction, MeasuredAnswer]] = {}
     for one in measurements:
         results.setdefault(one.method, {})[one.size] = one
     return results
 
 
-def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
+def resized(one: MeasuredAnswer, size: Fraction, truth: Fraction) -> MeasuredAnswer:
     """The same measurement for work of this size; its answer becomes the distance from the truth,
     so that the truth is 0.
     """
@@ -90,7 +90,7 @@ def measured(
     return plain(rows)
 
 
-def _cell(one: Measured | None, word: str, truth: Fraction) -> str:
+def _cell(one: MeasuredAnswer | None, word: str, truth: Fraction) -> str:
     if one is None:
         return "not asked" if word == "warm s" else ""
     if one.answer is None:

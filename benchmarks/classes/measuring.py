@@ -18,7 +18,7 @@ from z3 import Context, Z3_eval_smtlib2_string, Z3Exception, set_param
 
 from juggleproof.benchmarks.classes.classes import Made
 from juggleproof.benchmarks.generated import in_columns
-from juggleproof.benchmarks.processes import Timed, children_seconds, each, output_of
+from juggleproof.benchmarks.processes import TimedProcess, children_seconds, each, output_of
 from juggleproof.smtlib.answering import answer, question
 from juggleproof.smtlib.script import read_problems
 from juggleproof.statements.language import ClaimError
@@ -130,7 +130,7 @@ class Measured:
 
     group: str
     problems: Sequence[Made]
-    said: Mapping[str, Sequence[Timed[Said]]]
+    said: Mapping[str, Sequence[TimedProcess[Said]]]
     certified: int
     size: int
     checking: float

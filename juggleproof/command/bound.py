@@ -38,14 +38,14 @@ def bench(
     """Runs the benchmark; returns 1 where an enclosure does not contain the closed form, or nothing
     was measured.  Raises ClaimError, one line, for a question that cannot be measured.
     """
-    from juggleproof.benchmarks.bench.run import Run, wish
+    from juggleproof.benchmarks.bench.run import BenchRun, wish
 
     wanted = wish(asked, widths, seconds, quick)
     folder = output or FOLDER
     fault = _fault(folder)
     if fault:
         raise ClaimError(f"-o {folder}: {fault}; name another folder")
-    return Run(wanted, folder, _show_progress).all()
+    return BenchRun(wanted, folder, _show_progress).all()
 
 
 def _fault(folder: Path) -> str:

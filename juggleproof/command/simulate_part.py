@@ -53,7 +53,7 @@ from juggleproof.scenes.part.resting import (
     ANY_ANGLE,
     Clearing,
     Orientation,
-    Starts,
+    RestingStarts,
     between,
     clearing,
     listed,
@@ -360,7 +360,7 @@ def _clear(options: PartOptions, executor: Executor | None) -> int:
     return 0
 
 
-def _starts(options: PartOptions) -> Starts:
+def _starts(options: PartOptions) -> RestingStarts:
     text = options.angles
     if text is None:
         return ANY_ANGLE

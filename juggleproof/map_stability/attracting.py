@@ -13,7 +13,7 @@ from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
 from juggleproof.map_stability.certifying import (
     EFFORTS,
-    Candidate,
+    CandidateProof,
     ProvedStatements,
     Report,
     function_of,
@@ -68,7 +68,7 @@ class Strategy:
     says to be positive.
     """
 
-    candidates: Callable[[Setting], Iterable[Candidate]]
+    candidates: Callable[[Setting], Iterable[CandidateProof]]
     efforts: Sequence[int] = (1, 2)
     budget: int = limits.PREMISE_WORK
     affine: bool = False
@@ -85,7 +85,9 @@ class Strategy:
             every = sorted(every, key=lambda one: one.rank)[: self.best]
         return any(self.takes(proof, setting, one, log) for one in islice(every, self.first))
 
-    def takes(self, proof: ProvedStatements, setting: Setting, one: Candidate, log: Report) -> bool:
+    def takes(
+        self, proof: ProvedStatements, setting: Setting, one: CandidateProof, log: Report
+    ) -> bool:
         """Return whether one candidate is certified: for the map, or for the map on the candidate's
         set, which every orbit enters.
         """
@@ -105,13 +107,13 @@ class Strategy:
         return False
 
 
-def of_map(one: Candidate, setting: Setting) -> Candidate:
+def of_map(one: CandidateProof, setting: Setting) -> CandidateProof:
     """Return the candidate with a statement about the map of this setting."""
     rows = (("map", f"{setting.system.name}/{setting.map}"), *one.rule.rows[1:])
     return replace(one, rules=(replace(one.rule, rows=rows),))
 
 
-def two_sided_without_searches(setting: Setting) -> Iterator[Candidate]:
+def two_sided_without_searches(setting: Setting) -> Iterator[CandidateProof]:
     """Yield the two-sided candidates for a second try, without their own searches: these do not
     depend on the budget, and would fail again.
     """
@@ -224,7 +226,7 @@ def divisors(setting: Setting) -> list[str]:
     return several + found + both
 
 
-def fitting_candidates(setting: Setting) -> Iterator[Candidate]:
+def fitting_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates for sums of terms that samples do not refute."""
     system = setting.system
     positive = divisors(setting)

@@ -28,7 +28,7 @@ Search = Callable[[checker.Statement, dict[str, checker.Statement]], Premise | N
 
 
 @dataclass(frozen=True)
-class Candidate:
+class CandidateProof:
     """Statements that are certified together or not at all.  One of them has a function V, whose
     premises have searches of their own; `budget` is the counted work for each, or 0; `rank` is
     small where V is simple and its constants fit samples well.
@@ -133,7 +133,7 @@ class ProvedStatements:
         return next(each["domain"] for each in rows if "domain" in each)
 
     def takes(
-        self, candidate: Candidate, efforts: Sequence[int], budget: int, report: Report
+        self, candidate: CandidateProof, efforts: Sequence[int], budget: int, report: Report
     ) -> bool:
         """Return whether all statements of a candidate are certified; else none is added.  Efforts
         and budget are for the statement with a function V, which the report names.

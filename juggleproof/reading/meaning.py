@@ -147,11 +147,11 @@ class Meaning(Evaluation):
         call = self.meanings.get(t.Limit(HOLE, HOLE))
         return value if call is None else applied(call, value)
 
-    def extremum(self, tree: t.Extremum) -> Value:
+    def extremum(self, tree: t.PrintedExtremum) -> Value:
         """An extremum as a value of its own, or the meaning that the environment gives to it."""
         condition = None if tree.condition is None else self.formula(tree.condition)
         value = ExtremalValue(tree.sign, condition, self.here(tree.body))
-        call = self.meanings.get(t.Extremum(tree.sign, HOLE, HOLE))
+        call = self.meanings.get(t.PrintedExtremum(tree.sign, HOLE, HOLE))
         return value if call is None else applied(call, value)
 
     def restriction(self, tree: t.Restriction) -> Value:
@@ -204,7 +204,7 @@ Meaning.rules = {
     t.Operator: Meaning.operator,
     t.Derivative: Meaning.derivative,
     t.Limit: Meaning.limit,
-    t.Extremum: Meaning.extremum,
+    t.PrintedExtremum: Meaning.extremum,
     t.Restriction: Meaning.restriction,
     t.Cases: Meaning.cases,
     t.Chain: Meaning.chain,

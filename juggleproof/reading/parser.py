@@ -30,7 +30,6 @@ from juggleproof.reading.tree import (
     Chain,
     Component,
     Derivative,
-    Extremum,
     ForAll,
     Group,
     Juxtaposition,
@@ -40,6 +39,7 @@ from juggleproof.reading.tree import (
     Number,
     Operator,
     Power,
+    PrintedExtremum,
     Quotient,
     Restriction,
     Root,
@@ -559,7 +559,7 @@ class Parser(Pieces):
             condition = self.script()[0]
         body = self.expression(BINARY[r"\cdot"])
         if start.text != r"\lim":
-            return Extremum(start.text, condition, body, at=start.start)
+            return PrintedExtremum(start.text, condition, body, at=start.start)
         if condition is None:
             self.refuse("a limit needs a condition before")
         return Limit(condition, body, at=start.start)

@@ -175,7 +175,7 @@ class Limit(Tree):
 
 
 @dataclass(frozen=True, slots=True)
-class Extremum(Tree):
+class PrintedExtremum(Tree):
     r"""\max_{condition} body, and so \min, \sup, \inf."""
 
     sign: str

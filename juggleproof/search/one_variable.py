@@ -75,7 +75,7 @@ def close_in_one_variable(state: SearchState, budget: Budget) -> Node | None:
     whole = fmpq_poly([1])
     for factor in factors.values():
         whole *= factor
-    return LineSearch(name, budget).whole(state, real_roots(whole), *_bounds(whole))
+    return OneVariableSearch(name, budget).whole(state, real_roots(whole), *_bounds(whole))
 
 
 def _bounds(poly: fmpq_poly) -> tuple[fmpq, fmpq]:
@@ -115,7 +115,7 @@ class OpenPiece:
         return sign(poly(self.sample))
 
 
-class LineSearch:
+class OneVariableSearch:
     """The search over one variable, with its budget."""
 
     def __init__(self, name: str, budget: Budget) -> None:

@@ -19,7 +19,7 @@ from juggleproof.proofs.theorem.definition import (
     NORMAL,
     WHOLE,
     Contraction,
-    Setting,
+    TheoremSetting,
     contracts,
     escapes,
     opposite,
@@ -130,7 +130,7 @@ def exists() -> Formula:
     return opposite(is_below_the_table(turned(BORN))) & is_a_collision(turned(DIES))
 
 
-def map_beside() -> Setting:
+def map_beside() -> TheoremSetting:
     """What is left of (z1, z2) beside the start after all flights, as a map."""
     return replace(
         NORMAL,

@@ -16,7 +16,7 @@ from juggleproof.coq_store.text import without_primes
 from juggleproof.encoding import from_sympy, written
 from juggleproof.proofs.theorem import definition as chosen
 from juggleproof.proofs.theorem.coq_templates import HEADER, PINS, THEOREMS
-from juggleproof.proofs.theorem.definition import NORMAL, PHYSICAL, Setting
+from juggleproof.proofs.theorem.definition import NORMAL, PHYSICAL, TheoremSetting
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import write_file
 from juggleproof.symbolic.algebra import DerivationError, alpha, lowest_terms, r
@@ -100,7 +100,7 @@ def ball() -> AttractionText:
     )
 
 
-def _pieces(setting: Setting) -> tuple[PieceText, ...]:
+def _pieces(setting: TheoremSetting) -> tuple[PieceText, ...]:
     return tuple(PieceText(str(guard), tuple(map(str, images))) for guard, images in setting.pieces)
 
 

@@ -258,7 +258,7 @@ def ceiling(constant: Fraction, factor: Fraction, square: Fraction) -> int:
 
 
 @dataclass(frozen=True)
-class Setting:
+class TheoremSetting:
     """The map in some coordinates: parameters, which of them are integers, state, pieces and fixed
     points, and what the x, w and units of the normal form are in them.
     """
@@ -285,9 +285,9 @@ class Setting:
         return str(of_alpha)
 
 
-NORMAL = Setting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
+NORMAL = TheoremSetting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
 STRIKES_HERE = where_positive("collision_margin")
-PHYSICAL = Setting(
+PHYSICAL = TheoremSetting(
     parameters=(alpha, r, g),
     positive=(r > 0, g > 0),
     state=(term(b.component(1)), term(b.component(2))),
@@ -308,7 +308,7 @@ def listed(items: Iterable[object]) -> str:
     return ", ".join(map(str, items))
 
 
-def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
+def the_map(name: str, setting: TheoremSetting, of_alpha: Formula = WHOLE) -> MapRule:
     """f maps the space into itself, by one of its pieces at each state."""
     pieces = [("piece", f"{guard} -> {listed(images)}") for guard, images in setting.pieces]
     return MapRule(
@@ -325,7 +325,7 @@ def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
     )
 
 
-def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[str, Term]]:
+def _roots(roots: Sequence[tuple[str, Term]], setting: TheoremSetting) -> list[tuple[str, Term]]:
     return [(name, setting.here(under)) for name, under in roots]
 
 
@@ -346,7 +346,7 @@ def _terms(*things: Nested) -> tuple[Term | Formula, ...]:
 def descends(
     name: str,
     of: str,
-    setting: Setting,
+    setting: TheoremSetting,
     of_alpha: Formula,
     descent: Descent,
     lemmas: Sequence[Formula] = (),
@@ -372,7 +372,7 @@ def descends(
 
 
 def contracts(
-    name: str, of: str, setting: Setting, of_alpha: Formula, contraction: Contraction
+    name: str, of: str, setting: TheoremSetting, of_alpha: Formula, contraction: Contraction
 ) -> MapRule:
     """The set is mapped into itself and brought closer to the fixed point."""
     weights = [
@@ -401,7 +401,9 @@ def attracts(name: str, descent: str, contraction: str) -> MapRule:
     return MapRule(name, (("descent", descent), ("contraction", contraction)))
 
 
-def escapes(name: str, of: str, setting: Setting, of_alpha: Formula, word: str = "1 2") -> MapRule:
+def escapes(
+    name: str, of: str, setting: TheoremSetting, of_alpha: Formula, word: str = "1 2"
+) -> MapRule:
     """The other orbit, by default that of e_2, an impact and a flight by turns, does not tend to
     the fixed point.
     """

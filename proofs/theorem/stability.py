@@ -38,7 +38,7 @@ from juggleproof.proofs.theorem.definition import (
     TRAP,
     WHOLE,
     Descent,
-    Setting,
+    TheoremSetting,
     attracts,
     contracts,
     descends,
@@ -74,7 +74,7 @@ from juggleproof.statements.language import (
 # flight by turns, never comes near e_1.
 
 
-def stable_exactly_below_a_third(claim_id: str, setting: Setting) -> list[AnyStatement]:
+def stable_exactly_below_a_third(claim_id: str, setting: TheoremSetting) -> list[AnyStatement]:
     """The statements of the theorem, each resting on those before it."""
 
     def name(part: str) -> str:

@@ -11,7 +11,7 @@ from juggleproof.benchmarks.classes import measuring
 from juggleproof.benchmarks.classes.classes import CLASSES, SEEDS, Made, every_problem, made
 from juggleproof.benchmarks.classes.polynomials import FORMS
 from juggleproof.benchmarks.classes.writing import variables
-from juggleproof.benchmarks.processes import Timed
+from juggleproof.benchmarks.processes import TimedProcess
 from juggleproof.coq_store import share_of
 from juggleproof.smtlib.script import problems_of_file
 
@@ -72,7 +72,7 @@ def test_the_page_has_every_class_and_no_certificate_is_refused_holds(every: lis
 
 def measured(word: str) -> measuring.Measured:
     problem = Made("forms", "square-0", "unsat", "")
-    said = {"ours": [Timed(measuring.Said(word), 0.1)]}
+    said = {"ours": [TimedProcess(measuring.Said(word), 0.1)]}
     return measuring.Measured("forms", [problem], said, int(word == "unsat"), 10, 0.1)
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from juggleproof.map_stability import limits
 from juggleproof.map_stability.attracting import Strategy
-from juggleproof.map_stability.certifying import Candidate, ProvedStatements
+from juggleproof.map_stability.certifying import CandidateProof, ProvedStatements
 from juggleproof.map_stability.functions.candidates import Setting
 from juggleproof.map_stability.maps import Map, read_rows
 from juggleproof.map_stability.points import fixed_points
@@ -53,7 +53,7 @@ def of_its_map(setting: Setting) -> ProvedStatements:
 
 def proved(
     setting: Setting,
-    candidates: Callable[[Setting], Iterable[Candidate]],
+    candidates: Callable[[Setting], Iterable[CandidateProof]],
     first: int | None = None,
     licensed: bool = False,
 ) -> list[str]:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from juggleproof.map_stability.attracting import Strategy
-from juggleproof.map_stability.certifying import Candidate, either
+from juggleproof.map_stability.certifying import CandidateProof, either
 from juggleproof.map_stability.functions.candidates import Setting
 from juggleproof.map_stability.functions.norms import norm_candidates
 from tests.map_stability.maps import at_point, map_of, of_its_map
@@ -19,7 +19,7 @@ def halving() -> Setting:
     return at_point(map_of("state x\npiece x/2"))
 
 
-def weaker(one: Candidate, rank: float) -> Candidate:
+def weaker(one: CandidateProof, rank: float) -> CandidateProof:
     """The candidate with a loss that is too large."""
     rows = tuple((key, "value" if key == "loss" else text) for key, text in one.rule.rows)
     return replace(one, rules=(replace(one.rule, rows=rows),), rank=rank)
@@ -62,7 +62,7 @@ def test_a_strategy_for_affine_maps_has_no_candidates_for_others_holds() -> None
     setting = at_point(map_of("state x\nspace x > 0\npiece (x + 2/x)/2"))
     asked: list[Setting] = []
 
-    def candidates(one: Setting) -> list[Candidate]:
+    def candidates(one: Setting) -> list[CandidateProof]:
         asked.append(one)
         return []
 

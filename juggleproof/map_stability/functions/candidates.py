@@ -18,7 +18,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate, Search
+from juggleproof.map_stability.certifying import CandidateProof, Search
 from juggleproof.map_stability.functions.templates import Function, squares_of
 from juggleproof.map_stability.maps import Map
 from juggleproof.map_stability.premise_searches import proof_by_signs
@@ -282,7 +282,7 @@ class Setting:
         on: str = "",
         rank: float = 0.0,
         searches: Mapping[str, Search] | None = None,
-    ) -> Candidate:
+    ) -> CandidateProof:
         """Return the statement `lyapunov` that V falls by the loss on a set, or on the space.
 
         least: a bound of the loss by the distance; ball: the texts of `radius` and `upper`, with
@@ -292,7 +292,7 @@ class Setting:
         rows = [("loss", loss), ("least", least), ("upper", upper), ("radius", radius)]
         before = [("on", on or self.system.space)]
         rule = self.rule(f"{self.system.name}/lyapunov", function, rows, before)
-        return Candidate((rule,), searches or {}, rank)
+        return CandidateProof((rule,), searches or {}, rank)
 
 
 def losses(
@@ -321,7 +321,7 @@ def losses(
             yield rank + power / 4, constant, loss, start + least + over.format("level")
 
 
-def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[Candidate]:
+def lyapunov_candidates(setting: Setting, function: Function) -> Iterator[CandidateProof]:
     """The candidates for this V whose loss is a constant times the sum of the squares of the
     distances, or of their fourth powers, divided by a power of 1 + V.
     """
@@ -392,7 +392,7 @@ def lyapunov_form(setting: Setting) -> tuple[str, str] | None:
     return written(total), written(sympy.factor(divisor))
 
 
-def equation_candidates(setting: Setting) -> Iterator[Candidate]:
+def equation_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates whose V solves the discrete Lyapunov equation at the point."""
     found = lyapunov_form(setting)
     if found is None:

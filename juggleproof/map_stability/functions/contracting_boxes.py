@@ -22,7 +22,7 @@ import numpy as np
 import sympy
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate, beyond
+from juggleproof.map_stability.certifying import CandidateProof, beyond
 from juggleproof.map_stability.functions.candidates import (
     Setting,
     bounded_below,
@@ -62,7 +62,7 @@ from juggleproof.statements.language import MapRule
 Ends = dict[Side, Expr]  # as terms in the parameters
 
 
-def contracting_box_candidates(setting: Setting) -> Iterator[Candidate]:
+def contracting_box_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates by which the point attracts every state; what samples refute is left out."""
     system, known = setting.system, setting
     plain = not (setting.point.roots or setting.outer)
@@ -108,10 +108,10 @@ def contracting_box_candidates(setting: Setting) -> Iterator[Candidate]:
 
 def _with_descents(
     setting: Setting,
-    every: Sequence[Candidate],
+    every: Sequence[CandidateProof],
     radius: str,
     descents: Sequence[tuple[str, str]],
-) -> Iterator[Candidate]:
+) -> Iterator[CandidateProof]:
     """The candidates with a descent for each bound, on a map whose space has the bounds before."""
     system, space = setting.system, setting.system.space
     maps: list[MapRule] = []
@@ -134,7 +134,7 @@ def _with_descents(
 
 def box_candidates(
     setting: Setting, box: Ends, widths: Sequence[Expr], on: str
-) -> Iterator[Candidate]:
+) -> Iterator[CandidateProof]:
     """Return the candidates for a V that has the same value on all faces of the box."""
     names = setting.system.state
     weights = list(without_divisors(setting, sympy.Matrix([1 / one for one in widths])))

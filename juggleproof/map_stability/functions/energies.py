@@ -18,7 +18,7 @@ import numpy as np
 import sympy
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate, Search
+from juggleproof.map_stability.certifying import CandidateProof, Search
 from juggleproof.map_stability.functions.candidates import (
     Setting,
     lyapunov_candidates,
@@ -30,7 +30,7 @@ from juggleproof.map_stability.terms import Expr, column, expression, symbols, w
 from juggleproof.search.decrease_proofs.by_products import proof_by_products
 
 
-def energy_candidates(setting: Setting) -> Iterator[Candidate]:
+def energy_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates that samples do not refute, those that fit best first, with searches for the
     premises that V falls, and by how much at least.
     """

@@ -16,7 +16,7 @@ import numpy as np
 import sympy
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate
+from juggleproof.map_stability.certifying import CandidateProof
 from juggleproof.map_stability.functions.candidates import Setting, bounded_below, inverse
 from juggleproof.map_stability.functions.templates import Function
 from juggleproof.map_stability.premise_searches import proof_by_signs
@@ -110,7 +110,7 @@ def slopes(setting: Setting, reach: Expr) -> list[Expr]:
     return list(dict.fromkeys([*found, *map(sympy.Integer, limits.SLOPES)]))
 
 
-def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[Candidate]:
+def envelope_candidates(setting: Setting, closed: bool = False) -> Iterator[CandidateProof]:
     """The candidates by which the point attracts every state of the map's space, without those that
     samples refute.  `closed`: the multiplier may be -1 at some of the parameters.
     """
@@ -199,7 +199,7 @@ def implied(part: str, points: Arrays) -> bool:
     return len(next(iter(points.values()), ())) > 0 and bool(np.all(holds(part, points)))
 
 
-def candidates_for(setting: Setting, envelope: Envelope, closed: bool) -> Iterator[Candidate]:
+def candidates_for(setting: Setting, envelope: Envelope, closed: bool) -> Iterator[CandidateProof]:
     """The candidates whose loss is a constant times V, or times (s - e)^2 V where `closed`."""
     (state,) = setting.system.state
     function = envelope.function(state)

@@ -12,7 +12,7 @@ import highspy
 import numpy as np
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate
+from juggleproof.map_stability.certifying import CandidateProof
 from juggleproof.map_stability.functions.candidates import Setting, derivatives
 from juggleproof.map_stability.functions.templates import (
     Function,
@@ -150,7 +150,7 @@ def norms(matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
 
 def norm_candidate(
     setting: Setting, rows: Sequence[Sequence[Fraction]], rate: Fraction, size: Fraction
-) -> Candidate:
+) -> CandidateProof:
     """The candidate whose function is the norm of these rows: on the whole space, or where the norm
     is at most `size`, if that is not 0.
     """
@@ -168,7 +168,7 @@ def norm_candidate(
     return setting.candidate(Function(tuple(forms)), loss, far, ball, inside)
 
 
-def norm_candidates(setting: Setting) -> Iterator[Candidate]:
+def norm_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates whose function is a norm that all pieces contract."""
     far = corners(setting)
     count = len(next(iter(far.values()))) if far else 1
@@ -181,7 +181,7 @@ def norm_candidates(setting: Setting) -> Iterator[Candidate]:
 # Near the point only: a norm that the derivative there contracts, and a set on which the map does.
 
 
-def local_norm_candidates(setting: Setting) -> Iterator[Candidate]:
+def local_norm_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates whose function is a norm, on the set where it is at most a number.  The
     largest number that samples allow comes first.
     """

@@ -23,7 +23,7 @@ import sympy
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate
+from juggleproof.map_stability.certifying import CandidateProof
 from juggleproof.map_stability.functions.candidates import Setting, bounded_below
 from juggleproof.map_stability.functions.equations import (
     at_parameters,
@@ -51,7 +51,7 @@ from juggleproof.map_stability.terms import (
 from juggleproof.statements.cases import conjunction
 
 
-def ratio_candidates(setting: Setting) -> Iterator[Candidate]:
+def ratio_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates that samples do not refute, those whose loss fits best first, with searches
     for most premises.
     """
@@ -61,7 +61,7 @@ def ratio_candidates(setting: Setting) -> Iterator[Candidate]:
         yield from next(filter(None, every), [])
 
 
-def weighted_distance_candidates(setting: Setting) -> Iterator[Candidate]:
+def weighted_distance_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """Return the candidates for weighted distances of a map that contracts them in the whole space,
     by the comparison matrix |A| of the derivative A at the point.
     """
@@ -77,7 +77,7 @@ def has_ratios(setting: Setting) -> bool:
 
 def candidates_for(
     setting: Setting, put: dict[Expr, Expr], origin: Sequence[Expr]
-) -> list[Candidate]:
+) -> list[CandidateProof]:
     """The candidates for one origin, with the first rows that make any."""
     derivative = in_logarithms(setting, origin, put)
     for rows in sets_of_rows(len(setting.system.state), is_plain(origin)):
@@ -293,7 +293,7 @@ def _weighted(
     rows: Sequence[Row],
     weights: Sequence[Expr],
     falls: Sequence[Expr],
-) -> Iterator[Candidate]:
+) -> Iterator[CandidateProof]:
     """The candidates with these weights, for several shapes of the loss."""
     terms = terms_of(setting, put, origin, rows, weights)
     if is_plain(origin):

@@ -12,7 +12,7 @@ import numpy as np
 import sympy
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate
+from juggleproof.map_stability.certifying import CandidateProof
 from juggleproof.map_stability.functions.candidates import Setting, bounded_below, small_balls
 from juggleproof.map_stability.functions.templates import (
     Function,
@@ -34,7 +34,7 @@ from juggleproof.map_stability.terms import (
 )
 
 
-def saturated_candidates(setting: Setting) -> Iterator[Candidate]:
+def saturated_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates for quadratic forms that fall at samples, with a loss c V/(1 + V).  Their
     premises are searched for by the cases of signs.
     """
@@ -71,7 +71,7 @@ def weights_with_missed(rows: Floats, every: Floats) -> Floats | None:
     return None
 
 
-def candidates_for(setting: Setting, term: str) -> Iterator[Candidate]:
+def candidates_for(setting: Setting, term: str) -> Iterator[CandidateProof]:
     """The candidates for one function.
 
     Where V falls by c V in the pieces that reach the point and by c in the others, it falls by

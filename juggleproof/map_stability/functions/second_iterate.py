@@ -20,7 +20,7 @@ import sympy
 from numpy.typing import NDArray
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate
+from juggleproof.map_stability.certifying import CandidateProof
 from juggleproof.map_stability.functions.candidates import (
     Setting,
     bounded_below,
@@ -51,7 +51,7 @@ def licensed_space(setting: Setting) -> str:
     return space
 
 
-def second_iterate_candidates(setting: Setting) -> Iterator[Candidate]:
+def second_iterate_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates that samples do not refute, on the space where the map's images divide by
     nothing that is 0, those first whose loss fits best, with searches for the premises that V
     falls.
@@ -114,7 +114,7 @@ def function_of(setting: Setting, slope: Expr, sign: int, mean: tuple[int, int])
     return Function(tuple(terms))
 
 
-def candidates_for(setting: Setting, slope: Expr, function: Function) -> Iterator[Candidate]:
+def candidates_for(setting: Setting, slope: Expr, function: Function) -> Iterator[CandidateProof]:
     """The candidates for one function."""
     samples, (state,) = setting.states, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate, Search
+from juggleproof.map_stability.certifying import CandidateProof, Search
 from juggleproof.map_stability.functions.candidates import (
     Setting,
     bounded_below,
@@ -86,7 +86,7 @@ class TwoSides:
     sides: tuple[SideDistance, ...] = ()
 
 
-def two_sided_candidates(setting: Setting) -> Iterator[Candidate]:
+def two_sided_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """The candidates that samples do not refute, with searches for the premises that V falls, and
     by how much at least.
     """
@@ -238,7 +238,9 @@ def crossing(setting: Setting, side: int) -> list[Expr]:
     )
 
 
-def candidates_for(setting: Setting, sides: TwoSides, put: dict[Expr, Expr]) -> Iterator[Candidate]:
+def candidates_for(
+    setting: Setting, sides: TwoSides, put: dict[Expr, Expr]
+) -> Iterator[CandidateProof]:
     """The candidates for a function, for losses of several shapes."""
     samples, function, (state,) = setting.states, sides.function, setting.system.state
     here, there = function.along(setting.system, samples.points, len(samples.which))

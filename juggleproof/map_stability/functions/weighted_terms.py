@@ -23,7 +23,7 @@ from functools import partial
 import numpy as np
 
 from juggleproof.map_stability import limits
-from juggleproof.map_stability.certifying import Candidate, either
+from juggleproof.map_stability.certifying import CandidateProof, either
 from juggleproof.map_stability.functions.candidates import (
     Setting,
     bounded_below,
@@ -75,7 +75,7 @@ def _over(system: Map, name: str, gap: str, bound: Mapping[str, str]) -> str:
     return f"{renamed(text, {one: f'{one}_point' for one in system.state})}*({gap})/{text}"
 
 
-def part_metric_candidates(setting: Setting) -> Iterator[Candidate]:
+def part_metric_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """Yield the candidates for distances that samples do not refute."""
     if len(setting.system.state) == 1:
         return  # for which `two_sided` has more
@@ -149,7 +149,7 @@ def _weights(setting: Setting, texts: Sequence[str]) -> tuple[Fraction, ...]:
 # Sums of absolute values.
 
 
-def weighted_sum_candidates(setting: Setting) -> Iterator[Candidate]:
+def weighted_sum_candidates(setting: Setting) -> Iterator[CandidateProof]:
     """Yield the candidates for sums that fall at samples.  Their premises are searched for by
     products, then by the cases of the signs of the forms.
     """
@@ -171,7 +171,7 @@ def weighted_sum_candidates(setting: Setting) -> Iterator[Candidate]:
     seen: set[MapRule] = set()
     for scaled, even in itertools.product(scales(setting), (True, False)):
         template = SizesOfForms(gaps, factors, even)
-        ranked: dict[MapRule, Candidate] = {}
+        ranked: dict[MapRule, CandidateProof] = {}
         found = itertools.chain.from_iterable(
             lyapunov_functions(template, system, states, tests, scale) for scale in scaled
         )
@@ -216,7 +216,7 @@ def with_axes(system: Map, points: Arrays) -> Arrays:
 
 def scaled_candidates(
     setting: Setting, function: Function, scaled: Sequence[str]
-) -> Iterator[Candidate]:
+) -> Iterator[CandidateProof]:
     """Yield the candidates for a function, whose loss goes to 0 with one of the terms."""
     samples = setting.states
     here, there = function.along(setting.system, samples.points, len(samples.which))

@@ -181,7 +181,7 @@ def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = N
     def follow(places: NDArray[np.int64], x: Bounded, w: Bounded) -> list[int]:
         alpha = Bounded(*(one[places // starts.count] for one in numbers))
         with np.errstate(all="ignore"):
-            return _Chunk(result, places, alpha, x, w).run(report)
+            return _LimitsChunk(result, places, alpha, x, w).run(report)
 
     unsure: list[int] = []
     for low in range(0, total, CHUNK):
@@ -201,7 +201,7 @@ def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = N
     return result
 
 
-class _Chunk:
+class _LimitsChunk:
     """The orbits with these places, as far as their limits are not known."""
 
     def __init__(

@@ -102,7 +102,7 @@ def resting_faces(
 
 
 @dataclass(frozen=True)
-class Starts:
+class RestingStarts:
     """A distribution of starting angles, in degrees: even over an interval, or over a list, where
     each is moved by at most a millionth of a degree, for equal starts have equal ends.
     """
@@ -137,22 +137,22 @@ class Starts:
         return f"from {first}{', ..' if len(self.angles) > 6 else ''} degrees"
 
 
-def between(low: float, high: float) -> Starts:
+def between(low: float, high: float) -> RestingStarts:
     """Angles that are even over an interval, in degrees; raises SceneError if it has no width."""
     if not -360 <= low < high <= 360:
         raise SceneError(
             f"angles from {low:g} to {high:g}: give ends that grow, within -360 .. 360"
         )
-    return Starts((float(low), float(high)), True)
+    return RestingStarts((float(low), float(high)), True)
 
 
-def listed(angles: Sequence[float]) -> Starts:
+def listed(angles: Sequence[float]) -> RestingStarts:
     """Angles of a list, in degrees, each as probable as the others; raises SceneError for an empty
     one.
     """
     if not angles or not all(-360 <= one <= 360 for one in angles):
         raise SceneError("angles: give at least one, within -360 .. 360 degrees")
-    return Starts(tuple(map(float, angles)), False)
+    return RestingStarts(tuple(map(float, angles)), False)
 
 
 ANY_ANGLE = between(0, 360)
@@ -181,7 +181,7 @@ class Orientation:
     """The number of parts that lie on each face at the end, and of those that lie on none."""
 
     setting: Scene
-    starts: Starts
+    starts: RestingStarts
     shaken: float
     counts: tuple[int, ...]
     moving: int
@@ -236,7 +236,7 @@ class Orientation:
 
 def orientation(
     setting: Scene,
-    starts: Starts = ANY_ANGLE,
+    starts: RestingStarts = ANY_ANGLE,
     *,
     parts: int = 1000,
     shaken: float = 12.0,
@@ -337,7 +337,7 @@ class Clearing:
     values: tuple[float, ...]
     left: tuple[int, ...]
     parts: int
-    starts: Starts
+    starts: RestingStarts
     shaken: float
 
     def least(self) -> float | None:
@@ -436,7 +436,7 @@ def clearing(
     faces: Sequence[int],
     grid: Mapping[str, Sequence[float]],
     *,
-    starts: Starts = ANY_ANGLE,
+    starts: RestingStarts = ANY_ANGLE,
     parts: int = 200,
     shaken: float = 12.0,
     seed: int = 1,

@@ -20,9 +20,9 @@ from juggleproof.benchmarks.bench import child, run, table
 from juggleproof.benchmarks.bench import methods as methods_ours
 from juggleproof.benchmarks.bench.answers import (
     Answer,
+    BoundQuestion,
     GaveUp,
-    Measured,
-    Problem,
+    MeasuredAnswer,
     Strayed,
     best_point,
 )
@@ -214,7 +214,7 @@ def test_a_wrong_closed_form_is_noticed(
     monkeypatch.setattr(run, "questions", lambda: {"p-outside-R": wrong})
     monkeypatch.setattr(run, "METHODS", {"bernstein": METHODS["bernstein"]})
     assert (
-        run.Run(
+        run.BenchRun(
             run.Wish(("p-outside-R",), (Fraction(1, 1000),), 60.0, False),
             tmp_path,
             lambda what: None,
@@ -261,7 +261,9 @@ def test_the_sum_over_balls_has_its_closed_form_holds(count: int) -> None:
 
 def test_coq_is_asked_for_the_excess_on_the_box() -> None:
     box = ((Fraction(-1, 2), Fraction(3)), (Fraction(0), Fraction(1)))
-    problem = Problem("t", ("a", "b"), box, {(1, 0): Fraction(1)}, {(0, 1): Fraction(2)}, 1, "", "")
+    problem = BoundQuestion(
+        "t", ("a", "b"), box, {(1, 0): Fraction(1)}, {(0, 1): Fraction(2)}, 1, "", ""
+    )
     assert (
         "Goal forall v0 v1 : R, -1/2 <= v0 <= 3/1 -> 0/1 <= v1 <= 1/1 -> 0 <= v1*(6/1) + v0*(-1/1)."
         in goal(problem, Fraction(3))
@@ -297,10 +299,12 @@ def test_rejects_a_run_that_measures_nothing(
     asked = run.COSTS["part"]._replace(methods={"blocks": method})
     monkeypatch.setitem(run.COSTS, "part", asked)
     monkeypatch.setattr(
-        run, "measure", lambda method, work, size, _: Measured(method.name, size, reason="gave up")
+        run,
+        "measure",
+        lambda method, work, size, _: MeasuredAnswer(method.name, size, reason="gave up"),
     )
     wish = run.Wish(("part",), (), 1.0, False)
-    assert run.Run(wish, tmp_path, lambda what: None).all() == 1
+    assert run.BenchRun(wish, tmp_path, lambda what: None).all() == 1
     assert "nothing was measured" in capsys.readouterr().out
     assert not list(tmp_path.iterdir())
 
@@ -328,14 +332,14 @@ def test_what_is_kept_is_made_before_anything_is_measured_holds(
 def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:
     methods = [METHODS[name] for name in ("bernstein", "arb", "cvc5-proof", "z3")]
     answer, sizes = Answer(Fraction(0), Fraction(0)), [COARSE, WIDTH]
-    found = [Measured("bernstein", size, 0.5, 0.001, answer) for size in sizes]
+    found = [MeasuredAnswer("bernstein", size, 0.5, 0.001, answer) for size in sizes]
     found += [
-        Measured("cvc5-proof", COARSE, 5.0, 0.02, answer),
-        Measured("cvc5-proof", WIDTH, 5.0, 0.005, answer),
+        MeasuredAnswer("cvc5-proof", COARSE, 5.0, 0.02, answer),
+        MeasuredAnswer("cvc5-proof", WIDTH, 5.0, 0.005, answer),
     ]
     found += [
-        Measured("arb", COARSE, 0.4, 0.001, answer),
-        Measured("z3", COARSE, reason="gave up"),
+        MeasuredAnswer("arb", COARSE, 0.4, 0.001, answer),
+        MeasuredAnswer("z3", COARSE, reason="gave up"),
     ]  # Arb's boxes are our own
     lines = [
         one.line() for one in table.judged("DE-H", methods, sizes, table.by_method(found), 10.0)
@@ -402,7 +406,9 @@ def test_absent_peers_are_named_holds(
         for name in ("cvc5", "coq")
     }
     monkeypatch.setattr(run, "METHODS", absent)
-    run.Run(run.Wish(("p-outside-R",), (COARSE,), 1.0, False), tmp_path, lambda what: None).all()
+    run.BenchRun(
+        run.Wish(("p-outside-R",), (COARSE,), 1.0, False), tmp_path, lambda what: None
+    ).all()
     output = capsys.readouterr().out
     assert (
         "absent: cvc5 (pip install cvc5), coq-interval (Debian packages coq and libcoq-interval)"
