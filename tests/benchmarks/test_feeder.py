@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
+import pytest
+
 from juggleproof.benchmarks import feeder
 from juggleproof.certificates.sine.checker import Rectangle, outcome
 from juggleproof.command.sine import SineOptions, interval, rectangle_of
@@ -28,6 +30,7 @@ def test_the_page_has_the_restitutions_of_the_generator_holds() -> None:
     ]
 
 
+@pytest.mark.exhaust
 @each_row(("alpha", "gamma", "slow", "fast"), ROWS)
 def test_what_the_page_tells_is_certified_and_as_much_as_is_certified_holds(
     alpha: str, gamma: str, slow: str, fast: str

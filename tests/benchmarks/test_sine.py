@@ -14,6 +14,7 @@ AREA = (
 )
 
 
+@pytest.mark.exhaust
 def test_every_table_is_told_holds(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

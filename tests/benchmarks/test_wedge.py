@@ -20,6 +20,7 @@ def test_the_page_has_the_shares_of_the_certificates_holds() -> None:
     assert wedge.TABLE.text() == wedge.table()
 
 
+@pytest.mark.exhaust
 def test_shares_are_those_of_random_pairs_of_the_wedge_holds() -> None:
     source = random.Random(7)
     low, high = wedge.ENDS[0], wedge.ENDS[-1]

@@ -24,6 +24,7 @@ from tests.rows import each_row
 BEYOND = "restitution-beyond-five-sevenths"
 
 
+@pytest.mark.exhaust
 @each_row("name", ["restitution-to-three-fifths", "restitution-two-thirds", BEYOND])
 def test_words_of_the_claims_are_those_found_holds(name: str) -> None:
     assert search_for(RANGES[name]) == (RANGES[name].runs, RANGES[name].never)

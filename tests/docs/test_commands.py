@@ -32,6 +32,12 @@ VARIABLES = {
     "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
     "PYTEST_PLUGINS": "juggleproof.pytest_plugin",
 }
+LONG = (  # commands that take over 4 CPU seconds
+    "python -m juggleproof.benchmarks.stability",
+    "juggleproof explain restitution-unequal --premises",
+    "juggleproof explain theorem --bounds",
+    "juggleproof certify saturated.py",
+)
 # What is appended to commands that begin so: the last of two equal options counts.
 SMALLER = {
     "juggleproof simulate juggler --alpha 3/10 --random": "--random 1000",
@@ -201,7 +207,16 @@ def arguments(command: str, page: Path, folder: Path) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    ("page", "command"), COMMANDS, ids=[f"{name(page)}: {one}" for page, one in COMMANDS]
+    ("page", "command"),
+    [
+        pytest.param(
+            page,
+            one,
+            marks=[pytest.mark.exhaust] * one.startswith(LONG),
+            id=f"{name(page)}: {one}",
+        )
+        for page, one in COMMANDS
+    ],
 )
 def test_a_command_that_is_shown_runs(
     page: Path, command: str, tmp_path: Path, run: Run, lozi: Path

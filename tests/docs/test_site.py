@@ -61,6 +61,7 @@ def test_nothing_is_loaded_from_elsewhere_holds(site: Path) -> None:
         assert loaded and not [one for one in loaded if re.match(r"(\w+:)?//", one)], page
 
 
+@pytest.mark.exhaust
 def test_pages_fit_a_phone_and_follow_the_readers_colours_holds(site: Path) -> None:
     with chromium() as driver:
         resize(driver, 390)

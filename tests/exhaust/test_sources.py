@@ -106,6 +106,7 @@ CHECKERS = (
 )
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize(
     ("file", "more", "all_of", "none_of"),
     [
@@ -205,6 +206,7 @@ def test_an_import_inside_a_function_asks_for_what_it_brings_holds(
     )
 
 
+@pytest.mark.exhaust
 def test_a_statement_asks_for_its_claim_and_its_certificate_for_its_share_holds(
     sources: Sources, stages: Stages
 ) -> None:
@@ -262,6 +264,7 @@ def opened(sources: Sources, run: str, *arguments: str) -> set[str]:
     return names & set(sources.files)
 
 
+@pytest.mark.exhaust
 def test_a_fresh_search_opens_nothing_else_holds(sources: Sources, stages: Stages) -> None:
     seen = opened(sources, "__main__", "tests.exhaust.fresh", "eq-3")
     told = {f"{STORE}/{name}" for name in ("statements.txt", "certificates.jsonl", "findings")}

@@ -170,11 +170,9 @@ def environment(python: str, folder: Path) -> tuple[Path, Path]:
     return bin, site
 
 
-# the wheel where tests run, and the editable install; what else there is takes minutes
-PLACES = [RUNNING, "editable"]
-PLACES += [
-    pytest.param(one, marks=pytest.mark.exhaust) for one in (*PYTHONS, "sdist") if one != RUNNING
-]
+# the editable install; what else there is takes minutes
+PLACES = ["editable"]
+PLACES += [pytest.param(one, marks=pytest.mark.exhaust) for one in (*PYTHONS, "sdist")]
 
 
 @pytest.fixture(scope="module", params=PLACES)

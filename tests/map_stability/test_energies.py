@@ -17,6 +17,7 @@ def oscillator(velocity: str) -> Setting:
     return at_point(map_of(TURNED.format(velocity)))
 
 
+@pytest.mark.exhaust
 def test_an_oscillator_whose_damping_saturates_comes_to_rest_holds() -> None:
     setting = oscillator("y - max(-1, min(1, y/2))")
     assert [written(one) for one in energies(setting)] == ["x_gap^2 + y_gap^2"]

@@ -102,6 +102,7 @@ def test_a_map_is_settled_as_it_behaves_holds(line: str, tmp_path: Path) -> None
     assert_settled(line, SETTLED[line], tmp_path)
 
 
+@pytest.mark.exhaust
 def test_two_runs_are_the_same_to_the_byte_holds(tmp_path: Path) -> None:
     """In two processes, whose hashes differ."""
     path, results = map_file(tmp_path, "tent"), []

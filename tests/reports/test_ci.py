@@ -96,6 +96,7 @@ def messages(suite: ElementTree.Element, kind: str) -> dict[str, str]:
     }
 
 
+@pytest.mark.exhaust
 def test_paper_as_registered_has_no_failure_holds() -> None:
     suite = read(paper())
     assert (

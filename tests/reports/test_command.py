@@ -25,6 +25,7 @@ def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return shown.err
 
 
+@pytest.mark.exhaust
 def test_page_is_written_and_its_path_printed_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

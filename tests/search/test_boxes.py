@@ -9,6 +9,7 @@ import json
 import random
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -163,6 +164,7 @@ def test_squares_prove_the_minimum_of_a_valley(name: str) -> None:
     assert list(found.point.values()) == [Fraction(value) for value in at.split()]
 
 
+@pytest.mark.exhaust
 @each_row("exponent", [3, 9])
 def test_squares_enclose_an_irrational_minimum_of_a_valley(exponent: int) -> None:
     text = "100*(y - x^2)^2 + (1 - x)^2 + 100*(z - y^2)^2 + (1 - y)^2 + x*z/10"

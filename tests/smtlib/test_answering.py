@@ -279,6 +279,7 @@ def test_several_threads_find_the_same_bytes_holds(tmp_path: Path, alone: dict[s
         assert everything(tmp_path / "here", pool) == alone
 
 
+@pytest.mark.exhaust
 def test_processes_that_share_nothing_find_the_same_bytes_holds(
     tmp_path: Path, alone: dict[str, bytes]
 ) -> None:
@@ -411,6 +412,7 @@ def _formula(rng: Random, depth: int) -> str:
     return f"({sign} {' '.join(parts)})"
 
 
+@pytest.mark.exhaust
 @each_row("seed", range(3))
 def test_random_problems_with_divisions_by_anything_are_answered_as_by_z3_holds(seed: int) -> None:
     rng, words = Random(seed), Counter[str]()

@@ -6,6 +6,8 @@ import random
 from fractions import Fraction
 from pathlib import Path
 
+import pytest
+
 from juggleproof.smtlib.answering import answer, answer_files, question
 from juggleproof.smtlib.script import Problem, read_problems
 from juggleproof.smtlib.statements import statement_of
@@ -78,6 +80,7 @@ SIZES = {
 }
 
 
+@pytest.mark.exhaust
 @each_row("kind", SIZES)
 def test_what_is_large_is_answered_holds(kind: str) -> None:
     body, contrary = SIZES[kind]

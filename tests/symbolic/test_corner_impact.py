@@ -162,6 +162,7 @@ def modes_of(one: Impact, sigma: int) -> list[str]:
     return found + [f"{one}-in-{other}" for one in then for other in when]
 
 
+@pytest.mark.exhaust
 def test_modes_are_those_of_the_walk_in_random_impacts_holds() -> None:
     met: Counter[str] = Counter()
     for one in random_impacts(COUNT):

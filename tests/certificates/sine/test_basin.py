@@ -81,6 +81,7 @@ def test_rejects_a_rank_for_any_cell_without_one(basin: Certificate) -> None:
     assert refused == 12
 
 
+@pytest.mark.exhaust
 def test_the_command_finds_a_share_for_a_pair(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

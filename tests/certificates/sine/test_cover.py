@@ -252,6 +252,7 @@ def test_without_a_rectangle_those_of_the_wide_cover_are_certified(
     assert lines[::2][:2] == [f"certified: {WORDS} {one}" for one in ends]
 
 
+@pytest.mark.exhaust
 def test_the_wide_cover_is_of_boxes_that_the_checker_takes_holds() -> None:
     lines = (WIDE / "certificates.jsonl").read_text().splitlines()
     proved = boxes_in(WIDE)

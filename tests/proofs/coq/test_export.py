@@ -89,6 +89,7 @@ CASES = [
 ]
 
 
+@pytest.mark.exhaust
 def test_every_statement_of_the_store_is_written_holds() -> None:
     wanted = share_of(statements(), OF_STORE)
     exported = export(STORE, wanted)
@@ -138,6 +139,7 @@ def bounded(polynomial: str, box: Any) -> tuple[checker.Statement, Any]:
     return statement, json.loads(json.dumps(found.certificates[LOWER]))
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("polynomial, box", BOUNDS)
 def test_a_box_tree_compiles(polynomial: str, box: Any, prelude: Coq) -> None:
     statement, entry = bounded(polynomial, box)
@@ -342,6 +344,7 @@ def test_a_share_is_a_part_of_the_store_holds() -> None:
     assert share_of(reversed(names), 12) == share[::-1] and share_of(names, 1) == names
 
 
+@pytest.mark.exhaust
 def test_export_writes_lemmas_on_the_axioms_of_the_reals(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -57,6 +57,7 @@ def test_what_a_simulation_shows_has_figures_and_no_statement_holds() -> None:
     assert all(re.search(r"\d", figures) for figures in simulated.values())
 
 
+@pytest.mark.exhaust
 def test_bare_checker_settles_every_stored_statement_holds() -> None:
     """It names each that is rejected, and counts the others."""
     done = subprocess.run(

@@ -102,6 +102,7 @@ def test_whole_flights_and_leaps_equal_single_steps_holds(
             assert abs(kept[-1].x - at.x) <= 1.01 * (kept[-1].error[0] + at.error[0]) + 1e-300
 
 
+@pytest.mark.exhaust
 def test_enclosed_orbits_of_a_million_steps_holds() -> None:
     rows = [
         orbit(scene(alpha, point(x, w)), "enclosed", 10**6).row(0)

@@ -45,6 +45,7 @@ def nearest(pixel: np.ndarray, colours: dict[tuple[int, ...], str]) -> tuple[int
     return min(tints, key=lambda word: float(abs(tints[word] - pixel).sum()))
 
 
+@pytest.mark.exhaust
 @each_row("units", ["normal", "physical"])
 def test_colours_of_a_basin_are_those_of_exact_orbits_holds(units: str) -> None:
     starts = (

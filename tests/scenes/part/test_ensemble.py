@@ -24,6 +24,7 @@ STICKY = scene(e=0.3, mu=0.9, A_x=2e-3, f_x=15.0)
 ANGLES = np.radians(np.arange(91))
 
 
+@pytest.mark.exhaust
 @each_row("setting", [SHAKEN, STICKY])
 def test_frames_are_of_the_orbit_without_stops_holds(setting: object) -> None:
     assert isinstance(setting, type(SHAKEN))

@@ -135,6 +135,7 @@ def state_of(z: Array) -> Array:
     return np.array([z[body.X], z[body.V_X], z[body.THETA], z[body.OMEGA]])
 
 
+@pytest.mark.exhaust
 @each_row("slide", [1, -1])
 def test_sliding_pivot_is_that_of_newton_and_euler_holds(slide: int) -> None:
     block = scene(e=0.5, mu=0.2, A_x=1e-4, f_x=30.0, A_y=1e-5, f_y=60.0, phase_x=0.3)

@@ -193,6 +193,7 @@ SCENES: tuple[dict[str, float], ...] = (
 )
 
 
+@pytest.mark.exhaust
 def test_million_impacts_break_no_guarantee_holds() -> None:
     impacts = 0.0
     for given in SCENES:

@@ -128,6 +128,7 @@ def test_ranks_that_the_checker_does_not_take_are_not_shown(
     assert sine.certified_for(0.05, 2.5) is None  # below the birth
 
 
+@pytest.mark.exhaust
 def test_ranks_of_a_basin_are_shown_in_cells_that_are_cut_holds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
