@@ -14,6 +14,7 @@ from typing import TypeVar
 
 from flint import fmpq_poly
 
+from juggleproof.algebra import limits
 from juggleproof.algebra.numbers import fraction
 from juggleproof.certificates import checker
 
@@ -25,7 +26,6 @@ Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of 
 Number = TypeVar("Number", Fraction, float)
 Box = Sequence[tuple[Fraction, Fraction]]
 LETTERS = "abcdefghijklmnopqrstuvwxyz"  # the axes of a box, in the text of a tree
-DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
 
 
 def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
@@ -58,7 +58,7 @@ def derivative(part: Mapping[Exponents, Number], axis: int) -> dict[Exponents, N
 def simple_points(x: Iterable[float], box: Box) -> Iterator[tuple[Fraction, ...]]:
     """Rational points of the box close to x, the simplest first."""
     seen = set()
-    for most in DENOMINATORS:
+    for most in limits.TREE_DENOMINATORS:
         point = tuple(
             min(max(Fraction(float(v)).limit_denominator(most), low), high)
             for v, (low, high) in zip(x, box)
@@ -191,9 +191,6 @@ def _corner_is_above(sizes: list[int], c: list[int], top: int) -> bool:
     return any(c[place] > top for place in places)
 
 
-MOST_LETTERS = 240  # of the tree of a polynomial in one variable
-
-
 def tree_above_zero(poly: fmpq_poly, low: Fraction, high: Fraction) -> str | None:
     """The tree of one axis that shows that a polynomial is positive from low to high; None where it
     is not, or where that takes many letters.
@@ -204,4 +201,4 @@ def tree_above_zero(poly: fmpq_poly, low: Fraction, high: Fraction) -> str | Non
     terms: Terms = {(k,): fraction(c) for k, c in enumerate(poly.coeffs()) if c}
     if low > high or not terms:
         return None
-    return search_tree(terms, [(low, high)], MOST_LETTERS, strict=True)
+    return search_tree(terms, [(low, high)], limits.MOST_LETTERS, strict=True)
