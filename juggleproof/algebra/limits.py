@@ -11,7 +11,7 @@ TREE_DENOMINATORS = (1, 2, 12, 120, 1000, *(10**k for k in (4, 6, 8, 10, 13, 16,
 MOST_LETTERS = 240  # of the tree of a polynomial in one variable [claims]
 MOST_TERMS = 4000  # of a polynomial; a longer one is dropped, with candidates that it has [never]
 MOST_FIELD_DEGREE = 64  # of a product of fields [problems, never]
-FIELD_WORK = 10**9  # units, for the field of one point [problems, never]
+FIELD_WORK = 10**9  # units, for the field of one point [problems]
 MULTIPLES = (1, -1, 2, -2, 3, -3, 5, -5, 7, 11)  # of a second root, for a primitive one [problems]
 
 # Semidefinite programs in floats [problems].
