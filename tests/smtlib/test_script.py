@@ -138,7 +138,8 @@ def holds(formula: Any, values: list[Fraction]) -> bool:
     if isinstance(formula, Atom):
         at = value_at(formula.poly, values)
         return {">": at > 0, ">=": at >= 0, "=": at == 0, "!=": at != 0}[formula.relation]
-    return (all if formula.op == "and" else any)(holds(part, values) for part in formula.parts)
+    op, parts = formula
+    return (all if op == "and" else any)(holds(part, values) for part in parts)
 
 
 def values_in(formula: Any, values: list[Fraction]) -> set[Fraction]:
@@ -147,7 +148,7 @@ def values_in(formula: Any, values: list[Fraction]) -> set[Fraction]:
         return set()
     if isinstance(formula, Atom):
         return {value_at(formula.poly, values)}
-    return {value for part in formula.parts for value in values_in(part, values)}
+    return {value for part in formula[1] for value in values_in(part, values)}
 
 
 @each_row("name", SAMPLE)
