@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Union
 
+from juggleproof.judging import limits
 from juggleproof.judging.claims import Claim
-from juggleproof.judging.judgement import DEFAULT_BUDGET
 from juggleproof.judging.run import Options, claims_of_file, run
-from juggleproof.smtlib.answering import BUDGET, answer_files, in_script
+from juggleproof.smtlib.answering import answer_files, in_script
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.nodes import Certificate
 
@@ -87,7 +87,9 @@ def _problems(
     path: Path, executor: Executor | None, budget: int, store: Path | None
 ) -> list[Result]:
     results = []
-    for one in answer_files([path], budget=budget or BUDGET, store=store, executor=executor):
+    for one in answer_files(
+        [path], budget=budget or limits.DEFAULT_BUDGET, store=store, executor=executor
+    ):
         if one.rejected:
             raise ClaimError(f"{one.answer.name}: rejected by the checker: {one.rejected}")
         model = dict(in_script(one.answer, one.problem)) if one.answer.word == "sat" else {}
@@ -111,7 +113,7 @@ def _claims(
     store: Path,
     routes: Sequence[str],
 ) -> list[Result]:
-    options = Options(store, tuple(routes), budget or DEFAULT_BUDGET, jobs=1)
+    options = Options(store, tuple(routes), budget or limits.DEFAULT_BUDGET, jobs=1)
     done = run(claims, options, executor=executor)
     if done.rejected:
         raise ClaimError("{}: rejected by the checker: {}".format(*done.rejected[0]))

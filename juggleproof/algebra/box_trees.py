@@ -12,6 +12,7 @@ from fractions import Fraction
 from math import ceil, floor, lcm, prod
 from typing import TypeVar
 
+from juggleproof.algebra import limits
 from juggleproof.certificates import checker
 
 # -------------------------------------------------------------------------------------------------
@@ -22,7 +23,6 @@ Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of 
 Number = TypeVar("Number", Fraction, float)
 Box = Sequence[tuple[Fraction, Fraction]]
 LETTERS = "abcdefghijklmnopqrstuvwxyz"  # the axes of a box, in the text of a tree
-DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
 
 
 def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
@@ -55,7 +55,7 @@ def derivative(part: Mapping[Exponents, Number], axis: int) -> dict[Exponents, N
 def simple_points(x: Iterable[float], box: Box) -> Iterator[tuple[Fraction, ...]]:
     """Rational points of the box close to x, the simplest first."""
     seen = set()
-    for most in DENOMINATORS:
+    for most in limits.TREE_DENOMINATORS:
         point = tuple(
             min(max(Fraction(float(v)).limit_denominator(most), low), high)
             for v, (low, high) in zip(x, box)
@@ -188,9 +188,6 @@ def _corner_is_above(sizes: list[int], c: list[int], top: int) -> bool:
     return any(c[place] > top for place in places)
 
 
-MOST_LETTERS = 240  # of the tree of a polynomial in one variable
-
-
 def tree_above_zero(coefficients: Iterable[Fraction], low: Fraction, high: Fraction) -> str | None:
     """The tree of one axis that shows that a polynomial is positive from low to high; None where it
     is not, or where that takes many letters.  The coefficient of x^0 comes first.
@@ -201,4 +198,4 @@ def tree_above_zero(coefficients: Iterable[Fraction], low: Fraction, high: Fract
     terms: Terms = {(k,): c for k, c in enumerate(coefficients) if c}
     if low > high or not terms:
         return None
-    return search_tree(terms, [(low, high)], MOST_LETTERS, strict=True)
+    return search_tree(terms, [(low, high)], limits.MOST_LETTERS, strict=True)

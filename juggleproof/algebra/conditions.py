@@ -10,7 +10,7 @@ from typing import Union
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from juggleproof.algebra import numbers, polynomials, trees
+from juggleproof.algebra import limits, numbers, polynomials, trees
 from juggleproof.algebra.numbers import AlgebraicNumber, fraction, real_roots, sign
 from juggleproof.algebra.polynomials import monomials
 from juggleproof.algebra.trees import HOLDS, OPPOSITE
@@ -315,10 +315,6 @@ def constant_of(poly: fmpq_mpoly) -> fmpq | None:
 # equational constraint, ISSAC 1999.  Only candidates come of it: no statement rests on their being
 # complete.
 
-# a polynomial with more terms than this is dropped: the candidates are then too few, which
-# certificates would show
-TERMS = 4000
-
 
 def border_polynomials(
     conditions: Sequence[tuple[Condition, Condition | None]],
@@ -465,7 +461,7 @@ def _vanishing(parts: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
 
 def _spend(budget: Budget, p: fmpq_mpoly, q: fmpq_mpoly) -> None:
     budget.spend(100 + 4 * len(p) * len(q))
-    if len(p) * len(q) > TERMS * TERMS:
+    if len(p) * len(q) > limits.MOST_TERMS * limits.MOST_TERMS:
         raise Exhausted
 
 
@@ -475,7 +471,7 @@ def _factors(polys: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """
     distinct: dict[str, fmpq_mpoly] = {}
     for poly in polys:
-        if poly == 0 or poly.is_constant() or len(poly) > TERMS:
+        if poly == 0 or poly.is_constant() or len(poly) > limits.MOST_TERMS:
             continue
         for factor, _ in poly.factor()[1]:
             monic = factor / factor.leading_coefficient()

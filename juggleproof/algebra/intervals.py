@@ -15,12 +15,12 @@ from functools import cached_property
 
 from flint import arb, arf, ctx, fmpz_mpoly
 
+from juggleproof.algebra import limits
 from juggleproof.algebra.polynomials import used_in
 
 Side = tuple[int, int, int]
 Box = tuple[Side, ...]
 Slopes = Mapping[int, arb]  # the number of a variable -> the partial derivative's enclosure
-PRECISION = 64
 
 
 def ends(side: Side) -> tuple[Fraction, Fraction]:
@@ -57,7 +57,7 @@ def working_precision() -> AbstractContextManager[object]:
     """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on
     what ran before.
     """
-    context: AbstractContextManager[object] = ctx.workprec(PRECISION)
+    context: AbstractContextManager[object] = ctx.workprec(limits.PRECISION)
     return context
 
 

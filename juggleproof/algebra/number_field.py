@@ -9,12 +9,11 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz_mpoly
 
+from juggleproof.algebra import limits
 from juggleproof.algebra.numbers import AlgebraicNumber, exact, real_roots
 from juggleproof.statements.work import Budget
 
-MOST = 64  # the degree of a product of fields
 GENERATOR = fmpq_poly([0, 1])
-MULTIPLES = (1, -1, 2, -2, 3, -3, 5, -5, 7, 11)
 
 
 def common_field(
@@ -65,9 +64,9 @@ def adjoined(
     field, t is that one.  Source: Cohen, A Course in Computational Algebraic Number Theory, 4.5.1.
     """
     size = degree(first) * degree(second)
-    if size > MOST:
+    if size > limits.MOST_FIELD_DEGREE:
         return None
-    for multiple in MULTIPLES:
+    for multiple in limits.MULTIPLES:
         budget.spend(100 + size**3 // 10)
         powers = basis_of_powers(first, second, multiple)
         if powers is None:
@@ -178,9 +177,6 @@ def at_elements(
     return total % modulus
 
 
-WORK = 10**9  # units, for the field of one point
-
-
 def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> int | None:
     """The sign (-1, 0 or 1) of a polynomial at a point of rational and algebraic numbers; None
     where one number with all of them in its field would have too high a degree.
@@ -189,7 +185,7 @@ def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> in
         str(k): exact(value) if isinstance(value, Fraction) else value
         for k, value in enumerate(point)
     }
-    field = common_field(values, Budget(WORK))
+    field = common_field(values, Budget(limits.FIELD_WORK))
     if field is None:
         return None
     number = field[1] or AlgebraicNumber.rational(0)

@@ -14,6 +14,7 @@ import numpy as np
 from flint import fmpq, fmpz_mat, fmpz_mpoly, nmod_mat
 from numpy.typing import NDArray
 
+from juggleproof.algebra import limits
 from juggleproof.algebra.polynomials import Monomial
 from juggleproof.statements.work import Budget
 
@@ -29,11 +30,6 @@ from juggleproof.statements.work import Budget
 # but it needs SciPy, 143 MB and 0.14 s a process, and its LAPACK too is the machine's.
 
 Floats = NDArray[np.float64]
-DUAL_STEPS = 60
-ENOUGH = 1e-6  # what equations may miss
-SMALL = 1e-13  # an eigenvalue of equations that depend on others
-LARGE = 1e9  # a solution that floats do not find
-HARDLY = 1e-6  # a cost of the trace below which rounding drives the dual value
 
 
 def feasible(
@@ -51,7 +47,7 @@ def feasible(
     if free.shape[1]:
         budget.spend(20 + len(right) ** 3 // 8000)
         values, left = np.linalg.eigh(free @ free.T)
-        rest = left[:, values <= SMALL * max(1.0, values.max(initial=0.0))].T
+        rest = left[:, values <= limits.DEPENDENT * max(1.0, values.max(initial=0.0))].T
         blocks, right = [np.tensordot(rest, block, 1) for block in blocks], rest @ right
     independent = _independent(blocks, right, budget)
     if independent is None:
@@ -71,11 +67,11 @@ def feasible(
         for _ in range(2)
     )
     best: list[Floats] | None = None
-    for _ in range(DUAL_STEPS):
+    for _ in range(limits.DUAL_STEPS):
         budget.spend(50 + cost // 4000)
         mu = _product(primal, dual) / total
         missing = right - sum((a @ x.ravel() for a, x in zip(flat, primal)), np.zeros(rows))
-        if np.abs(missing).max() < ENOUGH * (1 + np.abs(right).max()):
+        if np.abs(missing).max() < limits.ENOUGH * (1 + np.abs(right).max()):
             best = primal
         if mu < last:
             break
@@ -88,9 +84,9 @@ def feasible(
             break
         primal, dual, y = moved
         # by weak duality, `trace` times the trace of every solution is no less than right y
-        if float(right @ y) > LARGE * max(trace, HARDLY):
+        if float(right @ y) > limits.LARGE * max(trace, limits.HARDLY):
             break
-        if max(float(np.abs(x).max()) for x in primal) > LARGE:
+        if max(float(np.abs(x).max()) for x in primal) > limits.LARGE:
             break
     if best is None:
         return None
@@ -107,7 +103,7 @@ def _independent(
     budget.spend(20 + len(right) ** 3 // 8000)
     whole = np.hstack([block.reshape(len(right), -1) for block in blocks])
     values, left = np.linalg.eigh(whole @ whole.T)
-    kept = values > SMALL * max(1.0, values.max(initial=0.0))
+    kept = values > limits.DEPENDENT * max(1.0, values.max(initial=0.0))
     change = left[:, kept].T / np.sqrt(values[kept, None])
     if np.abs(right - left[:, kept] @ (left[:, kept].T @ right)).max() > 1e-7:
         return None
@@ -194,11 +190,8 @@ def _room(points: list[Floats], directions: list[Floats]) -> float:
 # -------------------------------------------------------------------------------------------------
 # Gram matrices from floats to exact squares: the image of a matrix as rationals, and LDL^T.
 
-# of a rational with a small denominator: eigenvectors of singular matrices are no better known
-TOLERANCE = 2e-3
 
-
-def rational_image(vectors: Floats, tolerance: float = TOLERANCE) -> list[list[int]] | None:
+def rational_image(vectors: Floats, tolerance: float = limits.TOLERANCE) -> list[list[int]] | None:
     """A basis of the space that the columns of a matrix of the shape (n, columns) span, as rows of
     small integers, in echelon form; None where none is within the tolerance.
     """

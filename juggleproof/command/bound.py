@@ -10,7 +10,8 @@ from fractions import Fraction
 from math import ceil, floor
 from pathlib import Path
 
-from juggleproof.judging.bounds import BUDGET, enclose_minimum, refuse_other_files
+from juggleproof.judging import limits
+from juggleproof.judging.bounds import enclose_minimum, refuse_other_files
 from juggleproof.statements.language import ClaimError
 
 
@@ -135,7 +136,7 @@ def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | N
     ends, sought = box(sides), number(width, "--width")
     if output is not None:
         refuse_other_files(output)
-    enclosed = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
+    enclosed = enclose_minimum(polynomial, ends, sought, budget or limits.BOXES)
     digits = SHOWN
     while sought and digits < 400 and Fraction(1, 10**digits) * 100 > sought:
         digits += 1

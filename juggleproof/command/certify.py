@@ -12,8 +12,9 @@ from pathlib import Path
 from rich.console import Console
 
 from juggleproof.command.outputs import asked_of, now_and_then, refuse_unwritable
+from juggleproof.judging import limits
 from juggleproof.judging.claims import CheckedApart, Claim, one_line
-from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, statements_of
+from juggleproof.judging.judgement import Judgement, statements_of
 from juggleproof.judging.register import PATH, Register, load_register, write_register
 from juggleproof.judging.run import Options, Progress, claims_of_files, findings_in, run, store_of
 from juggleproof.papers import derived
@@ -154,7 +155,7 @@ def _options(options: CertifyOptions) -> Options:
     return Options(
         options.store or own or DEFAULT,
         tuple(options.routes.split(",")),
-        options.budget or DEFAULT_BUDGET,
+        options.budget or limits.DEFAULT_BUDGET,
         options.jobs,
         options.fresh,
         tuple(options.only or ()),

@@ -9,8 +9,9 @@ import os
 from pathlib import Path
 
 from juggleproof.command.outputs import asked_of, refuse_unwritable
+from juggleproof.judging import limits
 from juggleproof.reports import problems
-from juggleproof.smtlib.answering import BUDGET, Answered, answer_files
+from juggleproof.smtlib.answering import Answered, answer_files
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import canonical, write_file
 
@@ -73,7 +74,7 @@ def certify(options: ProblemOptions) -> int:
 def _answered(options: ProblemOptions) -> list[Answered]:
     return answer_files(
         options.files,
-        budget=options.budget or BUDGET,
+        budget=options.budget or limits.DEFAULT_BUDGET,
         store=options.store,
         fresh=options.fresh,
         jobs=options.jobs if options.jobs > 0 else os.cpu_count() or 1,

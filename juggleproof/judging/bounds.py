@@ -14,6 +14,7 @@ from pathlib import Path
 
 from juggleproof.algebra.polynomials import Monomial, Ring, monomials
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.search.boxes.descent import BoxProblem
 from juggleproof.search.boxes.enclosures import Bounds, search_enclosure
 from juggleproof.search.psatz.problem import LeafProblem as FactsOfState
@@ -31,10 +32,6 @@ from juggleproof.statements.store import (
 )
 from juggleproof.statements.work import Budget, Exhausted
 
-BUDGET = 20000  # boxes
-SQUARES = 1_000_000  # units of work for squares times facts
-STAGES = ((1, 0, True), (1, 0, False), (2, 0, False), (1, 2, True))
-MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100
 LOWER, ATTAINED = "bound/lower", "bound/attained"
 Number = int | Fraction
 Box = Mapping[str, Sequence[Number]]  # the low and the high end of each variable
@@ -99,7 +96,7 @@ def refuse_other_files(folder: Path) -> None:
 
 
 def enclose_minimum(
-    polynomial: str | Term, box: Box, width: Number, budget: int = BUDGET
+    polynomial: str | Term, box: Box, width: Number, budget: int = limits.BOXES
 ) -> Enclosure:
     """An enclosure low <= min p <= high with high - low <= width, where p runs over the box {name:
     (low, high)}.
@@ -191,10 +188,10 @@ class _Question:
         (statement,) = checker.read_statements(self.lower(low)).values()
         unfolding = checker.Unfolding(statement, checker.Context())
         state = state_of(unfolding).assume(unfolding.goal(False))
-        budget = Budget(SQUARES)
+        budget = Budget(limits.SQUARES_WORK)
         try:
             facts = FactsOfState(state, Ring(tuple(state.context.index)), whole=True)
-            return search_squares(programs_of_facts(facts, budget, STAGES), budget)
+            return search_squares(programs_of_facts(facts, budget, limits.STAGES), budget)
         except Exhausted:
             return None
 
@@ -290,25 +287,25 @@ def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:
     for the search or the checker.
     """
     degrees = [max(exponents[k] for exponents in terms) for k in used]
-    if max(degrees, default=0) > MOST_DEGREE:
+    if max(degrees, default=0) > limits.MOST_DEGREE:
         raise ClaimError(
-            f"degree {max(degrees)} in one variable; at most {MOST_DEGREE} can be searched"
+            f"degree {max(degrees)} in one variable; at most {limits.MOST_DEGREE} can be searched"
         )
     coefficients, total = prod(n + 1 for n in degrees), sum(n + 1 for n in degrees)
-    if coefficients * total > MOST_PRODUCTS:
+    if coefficients * total > limits.MOST_PRODUCTS:
         raise ClaimError(
             f"degree + 1 of the {len(used)} variables has the product {coefficients} and the sum"
-            f" {total}; product times sum may be at most {MOST_PRODUCTS}: fewer variables, or lower"
-            " degrees, can be searched"
+            f" {total}; product times sum may be at most {limits.MOST_PRODUCTS}: fewer"
+            " variables, or lower degrees, can be searched"
         )
     sizes = [max(abs(low), abs(high), Fraction(1)) for low, high in ends.values()]
     if any(
-        abs(c) * prod(size**e for size, e in zip(sizes, exponents)) > MOST_VALUE
+        abs(c) * prod(size**e for size, e in zip(sizes, exponents)) > limits.MOST_VALUE
         for exponents, c in terms.items()
     ):
         raise ClaimError(
-            f"a term of the polynomial exceeds 10^{len(str(MOST_VALUE)) - 1} on the box; choose"
-            " other units for the variables"
+            f"a term of the polynomial exceeds 10^{len(str(limits.MOST_VALUE)) - 1} on the box;"
+            " choose other units for the variables"
         )
 
 

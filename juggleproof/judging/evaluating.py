@@ -13,6 +13,7 @@ from fractions import Fraction
 from math import isqrt
 
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.statements.language import Statement, Term, equal, names_in, real, term
 from juggleproof.statements.nodes import Counterexample
 
@@ -32,9 +33,6 @@ RELATIONS: Mapping[type, tuple[str, Callable[[Fraction, Fraction], bool]]] = {
     ast.Eq: ("=", operator.eq),
     ast.NotEq: ("!=", operator.ne),
 }
-LARGEST = 32  # denominator of the parameter's trial values
-TRIED = 4  # trial values of the parameter
-PLAIN = 16  # numerators and denominators up to here are simple
 
 
 def value_at(text: str, point: Point) -> Fraction | None:
@@ -212,7 +210,7 @@ def _is_surely_related(truth: bool, sign: type, left: Ends, right: Ends) -> bool
 def is_simple(found: Counterexample) -> bool:
     """Whether all values of the counterexample are rationals of small height."""
     numbers = [int(digits) for text in found.terms.values() for digits in re.findall(r"\d+", text)]
-    return not found.adjoined and max(numbers, default=0) <= PLAIN
+    return not found.adjoined and max(numbers, default=0) <= limits.PLAIN
 
 
 def at_simple_values(
@@ -222,11 +220,16 @@ def at_simple_values(
     at which the square roots of those terms that are in the parameter alone are rational.
     """
     under = [str(one) for one in roots if names_in(one) == {parameter}]
-    values = sorted({Fraction(p, q) for q in range(2, LARGEST + 1) for p in range(1, q)}, key=_size)
+    values = sorted(
+        {Fraction(p, q) for q in range(2, limits.TRIAL_DENOMINATOR + 1) for p in range(1, q)},
+        key=_size,
+    )
     tried = 0
     for value in values:
         squares = [value_at(text, {parameter: value}) for text in under]
-        if tried < TRIED and all(square is None or _is_square(square) for square in squares):
+        if tried < limits.TRIAL_VALUES and all(
+            square is None or _is_square(square) for square in squares
+        ):
             tried += 1
             given = ("given", equal(real(parameter), term(value)))
             yield replace(statement, lines=(*statement.lines, given))

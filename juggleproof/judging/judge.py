@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from juggleproof.certificates import checker
-from juggleproof.judging import searches
+from juggleproof.judging import limits, searches
 from juggleproof.judging.claims import (
     REMARK,
     Argument,
@@ -56,8 +56,6 @@ from juggleproof.statements.vote import Vote, VoteBudget, agree
 from juggleproof.statements.work import read
 
 NOT_FOUND = "not found"
-TRIAL = 10  # a candidate correction gets this part of the budget
-SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
 def judge(claim: Claim, resources: Resources) -> Judgement:
@@ -360,7 +358,7 @@ class Judge:
                 return False
         except (ClaimError, checker.Rejected):
             return False
-        trial = self.trial(self.resources.budget // (1 if named else TRIAL))
+        trial = self.trial(self.resources.budget // (1 if named else limits.TRIAL_SHARE))
         try:
             if any(trial.settle(part) != "certified" for part in statements):
                 return False
@@ -510,7 +508,9 @@ class Judge:
         if self.finding.get("not found", {}).get(prefix) == tried:
             return Sharp(NOT_FOUND, tried=tried)
         roles, budget = self.judgement.roles, self.resources.budget
-        result = searches.search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
+        result = searches.search_sharp_range(
+            name, parts, over, self.known, limits.SHARP_FACTOR * budget, roles
+        )
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
         sharp, proof = result

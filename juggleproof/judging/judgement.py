@@ -9,6 +9,7 @@ from functools import cache
 from importlib import import_module
 from typing import TypedDict
 
+from juggleproof.judging import limits
 from juggleproof.judging.claims import Claim, Verdict, as_body, assertions
 from juggleproof.statements.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.statements.nodes import Certificate
@@ -16,7 +17,6 @@ from juggleproof.statements.store import Store
 from juggleproof.statements.vote import ANSWERS, Vote, VoteBudget
 
 ROUTES = ("exact", "z3", "boxes")
-DEFAULT_BUDGET = 2_000_000
 
 # -------------------------------------------------------------------------------------------------
 # Findings: the entry of a claim in the file `findings` of a store; it saves time, proves nothing.
@@ -119,7 +119,7 @@ class Resources:
     """
 
     routes: tuple[str, ...] = ROUTES
-    budget: int = DEFAULT_BUDGET
+    budget: int = limits.DEFAULT_BUDGET
     store: Store | None = None
     findings: Mapping[str, Finding] = field(default_factory=dict)
     votes: Mapping[str, Mapping[str, RecordedVotes]] = field(default_factory=dict)

@@ -15,6 +15,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from juggleproof.judging import limits
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import canonical, plain_file, write_file
 
@@ -23,8 +24,6 @@ VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("juggleproof", "symbolic", "proofs", "certificates")  # in a wheel the first has the rest
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
-KEPT = 8  # files with the same prefix, each for one state of the sources
-LARGEST = 50_000_000
 
 
 def folder() -> Path | None:
@@ -82,7 +81,7 @@ def load(key: str) -> list[Record]:
     try:
         status = path.stat()
         if (
-            status.st_size > LARGEST
+            status.st_size > limits.KEPT_BYTES
             or hasattr(os, "getuid")
             and (status.st_uid != os.getuid() or status.st_mode & 0o022)
         ):
@@ -101,8 +100,8 @@ def load(key: str) -> list[Record]:
 
 
 def keep(key: str, records: Sequence[Record]) -> None:
-    """Keeps the records under the key, and removes all but the latest `KEPT` files; does nothing
-    where the folder cannot be written.
+    """Keeps the records under the key, and removes all but the latest files, `KEPT_FILES` of them;
+    does nothing where the folder cannot be written.
     """
     place = folder()
     if place is None:
@@ -118,7 +117,7 @@ def keep(key: str, records: Sequence[Record]) -> None:
             key=lambda path: path.stat().st_mtime,
             reverse=True,
         )
-        for path in files[KEPT:]:
+        for path in files[limits.KEPT_FILES :]:
             path.unlink()
     except (OSError, ClaimError):
         return

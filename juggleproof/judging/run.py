@@ -19,6 +19,7 @@ from itertools import islice
 from pathlib import Path
 
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.judging.checked import Checked, StoreReading, outcomes_of
 from juggleproof.judging.claims import (
     REMARK,
@@ -35,7 +36,6 @@ from juggleproof.judging.claims import (
 )
 from juggleproof.judging.judge import NOT_FOUND, judge
 from juggleproof.judging.judgement import (
-    DEFAULT_BUDGET,
     ROUTES,
     Finding,
     Judgement,
@@ -84,7 +84,7 @@ class Options:
 
     store: Path
     routes: tuple[str, ...] = ROUTES
-    budget: int = DEFAULT_BUDGET
+    budget: int = limits.DEFAULT_BUDGET
     jobs: int = 0
     fresh: bool = False
     only: tuple[str, ...] = ()

@@ -12,15 +12,13 @@ from collections.abc import Sequence
 
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.psatz.linear import close_by_equations
 from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
-
-MOST_VARIABLES = 8
-STAGES = ((1, 0, False), (1, 2, False), (1, 4, False))
 
 
 def close_by_variables(state: SearchState, ring: Ring, budget: Budget) -> Node | None:
@@ -44,8 +42,8 @@ def close_by_variables(state: SearchState, ring: Ring, budget: Budget) -> Node |
 
 def _closed(forms: SearchState, ring: Ring, budget: Budget) -> Node | None:
     used = _variables(forms)
-    node = _by_squares(forms, ring, budget, STAGES[:1])
-    if node is not None or not 1 < len(used) <= MOST_VARIABLES:
+    node = _by_squares(forms, ring, budget, limits.FORM_STAGES[:1])
+    if node is not None or not 1 < len(used) <= limits.MOST_FORM_VARIABLES:
         return node
     for name in used:
         below, at, above = forms.by_sign(name)
@@ -58,7 +56,10 @@ def _closed(forms: SearchState, ring: Ring, budget: Budget) -> Node | None:
 
 
 def _by_squares(
-    state: SearchState, ring: Ring, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
+    state: SearchState,
+    ring: Ring,
+    budget: Budget,
+    stages: Sequence[tuple[int, int, bool]] = limits.FORM_STAGES,
 ) -> Node | None:
     problem = LeafProblem(state, ring, True)
     node = close_by_equations(problem)

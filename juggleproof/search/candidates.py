@@ -14,76 +14,19 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly
 from juggleproof.algebra.conditions import Condition, evaluate
 from juggleproof.algebra.numbers import (
     AlgebraicNumber,
+    exact,
     fraction,
     real_roots,
     sign,
     simplest_between,
 )
+from juggleproof.search import limits
 from juggleproof.statements.language import Roles
 
 Value = Union[fmpq, AlgebraicNumber]
 
-FAVOURITES = tuple(
-    fmpq(p, q)
-    for p, q in (
-        (1, 1),
-        (2, 1),
-        (1, 2),
-        (0, 1),
-        (-1, 1),
-        (3, 1),
-        (4, 1),
-        (-1, 2),
-        (3, 2),
-        (-2, 1),
-        (1, 4),
-        (5, 1),
-        (3, 4),
-        (-3, 1),
-        (1, 3),
-        (6, 1),
-        (10, 1),
-        (5, 2),
-        (-3, 2),
-        (1, 10),
-        (-4, 1),
-        (8, 1),
-        (-1, 4),
-        (7, 2),
-        (1, 8),
-        (-1, 10),
-        (20, 1),
-        (1, 100),
-        (100, 1),
-    )
-)
-FAVOURITE_PARAMETERS = tuple(
-    fmpq(p, q)
-    for p, q in (
-        (1, 2),
-        (1, 4),
-        (3, 4),
-        (1, 5),
-        (3, 10),
-        (9, 10),
-        (1, 10),
-        (2, 5),
-        (3, 5),
-        (4, 5),
-        (1, 3),
-        (2, 3),
-        (1, 8),
-        (7, 25),
-        (19, 20),
-        (1, 20),
-        (99, 100),
-        (1, 100),
-        (17, 32),
-        (7, 18),
-        (31, 50),
-        (161, 200),
-    )
-)  # 2*(1 + 1/8) is a square, and so on
+FAVOURITES = tuple(map(exact, limits.FAVOURITES))
+FAVOURITE_PARAMETERS = tuple(map(exact, limits.FAVOURITE_PARAMETERS))
 
 
 def favourites(name: str, integral: bool, roles: Roles) -> tuple[fmpq, ...]:

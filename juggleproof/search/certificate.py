@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.closing import SQUARED, Hints, search_closing
 from juggleproof.search.points import search_values
 from juggleproof.search.psatz.basis import last_basis
@@ -29,33 +30,11 @@ from juggleproof.statements.work import Budget, Exhausted, unfolded
 # The certificate of one statement: a proof with a point, a counterexample, or the reason why
 # neither was found.
 
-MOST = 256
 _made: dict[
     tuple[tuple[str, str], ...], tuple[str, Certificate]
 ] = {}  # an assertion made twice under two names is settled once
-# (whether a refutation is sought, effort, share of the budget left in percent), in order: cheap
-# attempts of both kinds first
+# (whether a refutation is sought, effort, share of the budget left in percent), in order
 Attempts = tuple[tuple[bool, int, int], ...]
-ATTEMPTS: Attempts = (
-    (True, 0, 50),
-    (False, 1, 20),
-    (False, 2, 20),
-    (True, 1, 40),
-    (False, 2, 60),
-    (False, 3, 50),
-    (True, 2, 100),
-)
-SQUARES_FIRST: Attempts = (
-    (True, 0, 50),
-    (False, 1, 10),
-    (True, 1, 20),
-    (False, 3, 40),
-    (False, 2, 20),
-    (True, 1, 40),
-    (False, 3, 60),
-    (False, 2, 60),
-    (True, 2, 100),
-)
 
 RAN_OUT = "the budget of counted work ran out"
 
@@ -66,7 +45,7 @@ def search_certificate(
     budget: Budget,
     hints: Hints | None = None,
     confirm: bool = True,
-    attempts: Attempts = ATTEMPTS,
+    attempts: Attempts = limits.ATTEMPTS,
     roles: Roles = NO_ROLES,
 ) -> Certificate:
     """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the
@@ -94,7 +73,7 @@ def search_certificate(
         *(("", setting) for setting in settings),
     )
     if key not in _made:
-        while len(_made) >= MOST:
+        while len(_made) >= limits.MOST_CERTIFICATES:
             del _made[next(iter(_made))]
         _made[key] = (
             statement.name,

@@ -9,6 +9,7 @@ from math import prod
 
 from juggleproof.algebra.polynomials import Ring
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.boxes.over_box import close_over_box
 from juggleproof.search.boxes.squares import close_by_bounds
 from juggleproof.search.by_variables import close_by_variables
@@ -43,24 +44,8 @@ from juggleproof.statements.work import Budget, Exhausted
 # Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
 # cases by the sign of a polynomial.
 
-DEPTH = 2  # of cases by sign below one another
-CANDIDATES = 6
-BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
-MOST_FOR_BOTH = 9  # facts
-LARGE = 1000  # terms of all facts, beyond which reading them is counted too
-MANY_CASES = 100  # from which on they are led by conflicts
-MOST_SIGNS = 15  # of factors of equations below one another
-FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
-FEW_BOXES, MANY_BOXES = 40, 4000  # letters of a tree, before signs are sought and after
-MOST_BOXES = 4000  # of a tree that is sought beside sums of squares
-LONG = 12  # terms of a node, beyond which a shorter one is looked for
-BY_PARAMETER = 25_000  # units of work for that
-BY_MONOMIALS = 25_000  # the same, for products along monomials
-FORMS = 8000  # units of work for quadratic forms
-AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
-MOST_KEPT = 1000  # facts
 _no_forms: dict[tuple[object, ...], int] = {}  # facts without such a node -> the work that it takes
 
 
@@ -162,7 +147,7 @@ class Closing:
 
     def count(self, least: int, terms: Sequence[int]) -> None:
         """Spends what reading facts of so many terms takes, which is more where they are large."""
-        self.budget.spend(least + 2 * max(0, sum(terms) - LARGE))
+        self.budget.spend(least + 2 * max(0, sum(terms) - limits.MANY_TERMS))
 
     # -------------------------------------------------------- disjunctions
 
@@ -179,7 +164,7 @@ class Closing:
         if not sizes:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
-        if node is None and prod(sizes.values()) > MANY_CASES and self.effort:
+        if node is None and prod(sizes.values()) > limits.MANY_CASES and self.effort:
             return search_by_conflicts(state, lambda few: self.leaf(few, 0), self.budget)
         return node if node is not None else self.cases(state, sizes)
 
@@ -243,7 +228,7 @@ class Closing:
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
             node = close_by_variables(inside, problem.ring, self.budget)
-            node = node or close_by_bounds(inside, MOST_BOXES, self.budget)
+            node = node or close_by_bounds(inside, limits.MANY_LETTERS, self.budget)
             node = node or search_squares(programs, self.budget)
         elif (
             node is None
@@ -251,21 +236,21 @@ class Closing:
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
             node = (
-                close_over_box(inside, FEW_BOXES, self.budget)
+                close_over_box(inside, limits.FEW_LETTERS, self.budget)
                 or self.usual(problem, False)
                 or (None if depth else self.forms(inside))
                 or (None if depth or self.effort == 1 else self.by_monomials(problem))
                 or self.with_lemmas(inside, problem, depth)
-                or (None if depth else close_over_box(inside, MANY_BOXES, self.budget))
+                or (None if depth else close_over_box(inside, limits.MANY_LETTERS, self.budget))
             )
         return wrapped(rounded, node)
 
     def by_few(self, problem: LeafProblem, node: Node | None) -> Node | None:
         """The same, or in place of none or of a long one a node that a few facts make."""
-        if node is not None and (node[0] != "psatz" or len(node[1]) <= LONG):
+        if node is not None and (node[0] != "psatz" or len(node[1]) <= limits.LONG_NODE):
             return node
         try:
-            few = search_by_parameter(problem, self.budget.part(BY_PARAMETER))
+            few = search_by_parameter(problem, self.budget.part(limits.FEW_FACTS_WORK))
         except Exhausted:
             return node
         return few if node is None or few and len(str(few)) < len(str(node)) else node
@@ -273,13 +258,13 @@ class Closing:
     def by_monomials(self, problem: LeafProblem) -> Node | None:
         """Products of bounds along the monomials of the goal, with little work."""
         try:
-            return search_by_monomials(problem, self.budget.part(BY_MONOMIALS))
+            return search_by_monomials(problem, self.budget.part(limits.FEW_FACTS_WORK))
         except Exhausted:
             return None
 
     def forms(self, state: SearchState) -> Node | None:
         """Quadratic forms with parameters in a box, with little work."""
-        part = self.budget.part(FORMS)
+        part = self.budget.part(limits.FORMS_WORK)
         facts = ((frozenset(p.terms.items()), p.den, relation) for p, relation in state.facts)
         key = (*state.context.index, *facts, part.left)
         problem = self.problem(state)
@@ -292,7 +277,7 @@ class Closing:
         except Exhausted:
             pass
         if node is None:
-            if len(_no_forms) >= MOST_KEPT:
+            if len(_no_forms) >= limits.MOST_PROGRAMS:
                 _no_forms.clear()
             _no_forms[key] = before - part.left
         return node
@@ -303,7 +288,7 @@ class Closing:
         """Cases by the signs of the two factors of an equation, as of that of sqrt(term^2): in each
         of them one is 0, and the same for the next equation.
         """
-        if level > MOST_SIGNS:
+        if level > limits.MOST_SIGNS:
             return None
         first, *rest = factors
         nodes: list[Node | None] = []
@@ -341,12 +326,16 @@ class Closing:
         cases by sign.
         """
         lemmas: list[Lemma] = []
-        node = search_orthant(problem, FEW, self.budget) if self.effort > 1 else None
+        node = search_orthant(problem, limits.FEW_COLUMNS, self.budget) if self.effort > 1 else None
         if node is not None:
             return node
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
-            stages = BOTH if kind == "variables" and len(problem.facts) <= MOST_FOR_BOTH else FIRST
+            stages = (
+                BOTH
+                if kind == "variables" and len(problem.facts) <= limits.MOST_FACTS_FOR_BOTH
+                else FIRST
+            )
             if not kind:
                 node = search(problem, SQUARES, self.budget)
                 if node is not None:
@@ -366,10 +355,14 @@ class Closing:
                 node = close_by_equations(problem) or self.usual(problem, True)
                 if node is not None:
                     return under(lemmas, node)
-        node = search(problem, TRIPLES, self.budget) if self.effort > 1 and depth < DEPTH else None
-        if node is None and self.effort > 1 and self.budget.left > AMPLE:
-            node = search_orthant(problem, MANY, self.budget)
-        if node is None and self.effort > 1 and depth < DEPTH:
+        node = (
+            search(problem, TRIPLES, self.budget)
+            if self.effort > 1 and depth < limits.SIGN_DEPTH
+            else None
+        )
+        if node is None and self.effort > 1 and self.budget.left > limits.LARGE_PROGRAM_WORK:
+            node = search_orthant(problem, limits.MANY_COLUMNS, self.budget)
+        if node is None and self.effort > 1 and depth < limits.SIGN_DEPTH:
             node = self.split(state, problem, depth)
         return under(lemmas, node)
 
@@ -397,7 +390,7 @@ class Closing:
             for text in (problem.homogeneous_text(fact.poly), problem.homogeneous_text(-fact.poly))
         ]
         tried: list[tuple[int, str, list[Node | None]]] = []
-        most = BRANCHES - depth
+        most = limits.SIGN_BRANCHES - depth
         for kind in ("factors", "variables", "resultants"):
             for text in candidates(state, problem, kind):
                 if text in known:
@@ -475,11 +468,11 @@ def candidates(state: SearchState, problem: LeafProblem, kind: str) -> list[str]
         ]
         found = [*integers, *(a - b for a, b in combinations(integers, 2))]
     elif kind == "factors":
-        found = problem.unsigned_factors()[:CANDIDATES]
+        found = problem.unsigned_factors()[: limits.SIGN_CANDIDATES]
     elif kind == "variables":
-        found = problem.variables_and_differences()[: 2 * CANDIDATES]
+        found = problem.variables_and_differences()[: 2 * limits.SIGN_CANDIDATES]
     else:
-        found = problem.candidates("resultants", 3 * CANDIDATES)
+        found = problem.candidates("resultants", 3 * limits.SIGN_CANDIDATES)
     signs, equations = problem.signs(), [equation.poly for equation in problem.reduction.left]
     texts = []
     for poly in found:
@@ -490,7 +483,7 @@ def candidates(state: SearchState, problem: LeafProblem, kind: str) -> list[str]
                 not divmod(equation, rest)[1] for equation in equations
             ):
                 texts.append(problem.homogeneous_text(poly))
-    return texts[: 2 * CANDIDATES]
+    return texts[: 2 * limits.SIGN_CANDIDATES]
 
 
 FactKey = tuple[frozenset[tuple[int, int]], str]

@@ -19,10 +19,11 @@ from juggleproof.algebra.conditions import (
 from juggleproof.algebra.numbers import sign
 from juggleproof.algebra.polynomials import term_of
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.closing import search_closing
 from juggleproof.search.families_on_a_line import LineCover
 from juggleproof.search.hints.asking import ask
-from juggleproof.search.ranges import MIRRORED, QUICK
+from juggleproof.search.ranges import MIRRORED
 from juggleproof.search.samples import state_condition
 from juggleproof.search.scales import Normal
 from juggleproof.search.templates import TemplateSearch
@@ -42,9 +43,6 @@ from juggleproof.statements.work import Budget, Exhausted
 # -------------------------------------------------------------------------------------------------
 # Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
 # it does not.
-
-
-ROUNDS = 3  # of choices, each with the points at which those before do not serve
 
 
 def cover(
@@ -73,7 +71,7 @@ def cover(
         node = search_closing(state, task.known, task.budget, 1)
         if node is not None:
             return "empty", node
-    for _ in range(ROUNDS):
+    for _ in range(limits.FAMILY_ROUNDS):
         given = [normal.sample(sample) for sample in samples]
         tried: list[TermChoice] = list(former)
         if samples:
@@ -129,7 +127,7 @@ def _failing_point(
     polys = [poly.project_to_context(condition.ring) for poly in inside.polys]
     there = Condition(condition.ring, polys, inside.tree).conjoined(condition.negated())
     there, integers = there.substituted(normal.scales), state.context.integers
-    model = ask(there, task.budget, integers, QUICK, model=True).model
+    model = ask(there, task.budget, integers, limits.Z3_GUESS_WORK, model=True).model
     point = {name: model.get(name, fmpq(1)) for name in state.context.index}
     exact = {name: value for name, value in point.items() if isinstance(value, fmpq)}
     return exact if model and len(exact) == len(point) else None
@@ -190,8 +188,6 @@ def _shortest(choices: Sequence[TermChoice]) -> list[TermChoice]:
 # -------------------------------------------------------------------------------------------------
 # A condition in several parameters, solved for one of them; every step of it is decided by
 # certificates that the checker accepts.
-
-WORK = 200_000  # units for the sign of one slope
 
 
 def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -> str | None:
@@ -315,6 +311,6 @@ def _positive(poly: fmpq_mpoly, state: SearchState) -> bool | None:
 
 def _impossible(state: SearchState) -> bool:
     try:
-        return search_closing(state, {}, Budget(WORK)) is not None
+        return search_closing(state, {}, Budget(limits.SLOPE_WORK)) is not None
     except Exhausted:
         return False

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from itertools import chain, islice
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
@@ -17,6 +16,7 @@ from juggleproof.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.search import limits
 from juggleproof.search.candidates import separate
 from juggleproof.search.closing import search_closing
 from juggleproof.search.hints.asking import ask
@@ -91,12 +91,6 @@ def _rising_text(number: AlgebraicNumber, parameter: str) -> str:
 # -------------------------------------------------------------------------------------------------
 # Families over one parameter: where exactly each choice of terms serves, and a cover of the whole
 # range by a few of them.
-
-NEGLIGIBLE_WIDTH = Fraction(1, 2**200)
-PARTS = (
-    250_000,
-    1_500_000,
-)  # units of work for closing one piece: for each choice at first, then for the best
 
 
 @dataclass
@@ -306,7 +300,9 @@ class LineCover:
             if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)
         ]
         task = self.task
-        for part, choices in zip(PARTS, ([piece.choice, *others[:4]], [piece.choice, *others[:1]])):
+        for part, choices in zip(
+            limits.PIECE_WORK, ([piece.choice, *others[:4]], [piece.choice, *others[:1]])
+        ):
             for choice in choices:
                 try:
                     less = replace(task, budget=task.budget.part(part))
@@ -404,7 +400,7 @@ def _holds(
     if not choice or not choice.roots:
         return condition.univariate_truth(parameter, at, condition.in_one_variable(parameter))
     if isinstance(at, AlgebraicNumber):
-        at.narrow(NEGLIGIBLE_WIDTH)
+        at.narrow(limits.NEGLIGIBLE_WIDTH)
         at = (at._low + at._high) / 2
     sample = {parameter: at}
     values = {**sample, **root_values(choice.roots, sample)}

@@ -28,11 +28,10 @@ from juggleproof.algebra.numbers import (
 )
 from juggleproof.algebra.trees import HOLDS, leaves
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
-
-MOST = 60  # the degree of all factors together
 
 
 def dense_poly(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
@@ -69,7 +68,7 @@ def close_in_one_variable(state: SearchState, budget: Budget) -> Node | None:
         for factor, _ in integer_polynomial(dense_poly(state.context, poly, name)).factor()[1]:
             factors[tuple(int(c) for c in factor.coeffs())] = fmpq_poly(factor)
     degree = sum(int(factor.degree()) for factor in factors.values())
-    if degree > MOST:
+    if degree > limits.MOST_LINE_DEGREE:
         return None
     budget.spend(200 + degree**3)
     whole = fmpq_poly([1])

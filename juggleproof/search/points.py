@@ -13,6 +13,7 @@ from itertools import islice
 from juggleproof.algebra.conditions import Condition, ring_of
 from juggleproof.algebra.numbers import fraction
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.at_one_number import AdjoinedNumber, close_at_number
 from juggleproof.search.closing import search_closing
 from juggleproof.search.families import cover
@@ -25,22 +26,12 @@ from juggleproof.search.hints.models import (
 )
 from juggleproof.search.samples import Assignment, Sampler, base_samples
 from juggleproof.search.scales import with_scales
-from juggleproof.search.towers_of_roots import DIGITS, Towers, values_of_tower
+from juggleproof.search.towers_of_roots import Towers, values_of_tower
 from juggleproof.search.witness_terms import Known, TermTask, nodes_at
 from juggleproof.statements.language import NO_ROLES, Roles
 from juggleproof.statements.nodes import Node, Values, values_at
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted, unfolded
-
-# For each effort: rounds of (values tried for a variable, values kept for the last one,
-# substitutions in all, irrational ones too).
-ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
-    ((3, 1, 40, False),),
-    ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 1000, True)),
-    ((3, 1, 60, True), (6, 2, 400, True), (12, 3, 3000, True), (24, 6, 8000, True)),
-)
-MANY = 12  # variables, or disjunctions
-VOTE = 100_000  # of Z3
 
 
 def search_values(
@@ -129,7 +120,7 @@ def _by_towers(
     for guide in approximate_points(condition, names, task.budget):
         search = Towers(task.budget, names, guide, 60 * task.effort, 1, task.roles)
         for tower in islice(search.search(condition), 2 * task.effort):
-            for digits in DIGITS:
+            for digits in limits.TOWER_DIGITS:
                 values = values_of_tower(task, state, tower, digits)
                 if values is not None and _served(task, state, values):
                     return values
@@ -153,7 +144,7 @@ def _beyond(
         return False
     there = goal.substituted(exact)
     rest = sorted(there.variables())
-    sampler = Sampler(budget, integers, *ROUNDS[0][0], roles=roles)
+    sampler = Sampler(budget, integers, *limits.SAMPLER_ROUNDS[0][0], roles=roles)
     if next(sampler.search(there, rest), None) is not None:
         return False  # so simple values that meet the goals need not be asked for
     return ask(there, budget, integers, 200_000).verdict == "unsat"
@@ -178,16 +169,19 @@ def assignments(
     roles: Roles = NO_ROLES,
 ) -> Iterator[Assignment]:
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
-    if not many and (len(condition.variables()) >= MANY or disjunctions(condition) >= MANY):
+    if not many and (
+        len(condition.variables()) >= limits.MANY_VARIABLES
+        or disjunctions(condition) >= limits.MANY_VARIABLES
+    ):
         # Sampling would try few of so many values: models are asked for first.
-        yield from whole_models(condition, names, integers, budget, roles, VOTE)
-    for width, last, nodes, irrational in ROUNDS[effort]:
+        yield from whole_models(condition, names, integers, budget, roles, limits.Z3_GUESS_WORK)
+    for width, last, nodes, irrational in limits.SAMPLER_ROUNDS[effort]:
         yield from Sampler(
             budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
         ).search(condition, names)
         if effort and width == 6:
             # Where Z3 sees that there is nothing, wider samples would be in vain.
-            answer = ask(condition, budget, integers, VOTE).verdict
+            answer = ask(condition, budget, integers, limits.Z3_GUESS_WORK).verdict
             if answer == "unsat":
                 return
             if answer == "sat" and not many:
@@ -195,7 +189,7 @@ def assignments(
             if not (many or integers):
                 yield from isolated_points(condition, names, budget)
             if not many:
-                resources = VOTE if answer == "sat" else 0
+                resources = limits.Z3_GUESS_WORK if answer == "sat" else 0
                 yield from whole_models(condition, names, integers, budget, roles, resources)
 
 

@@ -27,8 +27,9 @@ from juggleproof.algebra.numbers import (
 from juggleproof.algebra.polynomials import relation_of, term_of
 from juggleproof.algebra.trees import HOLDS
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.candidates import FAVOURITE_PARAMETERS, cells_between, separate
-from juggleproof.search.hints.asking import RESOURCES, ask
+from juggleproof.search.hints.asking import ask
 from juggleproof.search.scales import with_scales
 from juggleproof.search.terms import ring_names
 from juggleproof.statements.language import (
@@ -383,7 +384,11 @@ class Violation:
         return Violation(statement.name, condition, goal, exists, tuple(sorted(unfolding.integers)))
 
     def absent(
-        self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES
+        self,
+        parameter: str,
+        at: fmpq | AlgebraicNumber,
+        budget: Budget,
+        resources: int = limits.Z3_WORK,
     ) -> bool | None:
         """Z3's verdict at one value of the parameter: True where there is no violation, None where
         it has none.
@@ -408,7 +413,7 @@ class Violation:
         return self.verdicts[at]
 
     def absent_at(
-        self, sample: Mapping[str, fmpq], budget: Budget, resources: int = RESOURCES
+        self, sample: Mapping[str, fmpq], budget: Budget, resources: int = limits.Z3_WORK
     ) -> bool | None:
         """Z3's verdict at values of some variables."""
         goal = self.goal.substituted(sample) if self.goal is not None else None
@@ -416,7 +421,7 @@ class Violation:
 
     def absent_everywhere(self, budget: Budget) -> bool | None:
         """Z3's verdict within little work, whatever the parameters are."""
-        return self._absent(self.condition, self.goal, budget, QUICK)
+        return self._absent(self.condition, self.goal, budget, limits.Z3_GUESS_WORK)
 
     def _absent(
         self, condition: Condition, goal: Condition | None, budget: Budget, resources: int
@@ -430,7 +435,6 @@ class Violation:
 # On which values of one parameter statements hold: candidate end points by elimination, verdicts
 # by Z3 between them and at them.
 
-QUICK = 100_000  # Z3's work where a guess will do
 Verdicts = dict[str, tuple[bool, ...]]
 
 
@@ -504,7 +508,7 @@ class VerdictLines:
         """
         if before == after and not number.is_rational:
             verdict = (
-                violation.absent(self.parameter, number, self.budget, QUICK)
+                violation.absent(self.parameter, number, self.budget, limits.Z3_GUESS_WORK)
                 if number.poly.degree() <= 2
                 else None
             )
@@ -536,7 +540,9 @@ class VerdictLines:
             self.inner, one.cells, one.cells[1:], one.numbers
         ):
             if before == after == verdict and number.poly.degree() > 2:
-                verdict = one.violation.absent(self.parameter, number, self.budget, QUICK)
+                verdict = one.violation.absent(
+                    self.parameter, number, self.budget, limits.Z3_GUESS_WORK
+                )
                 verdict = before if verdict is None else verdict
             found.append(verdict)
         return found

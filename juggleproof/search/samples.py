@@ -19,8 +19,9 @@ from juggleproof.algebra.conditions import (
     ring_of,
     univariate,
 )
-from juggleproof.algebra.numbers import AlgebraicNumber, real_roots, simplest_between
+from juggleproof.algebra.numbers import AlgebraicNumber, exact, real_roots, simplest_between
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.candidates import (
     Cells,
     Value,
@@ -119,7 +120,7 @@ class Sampler:
         if solved is not None:
             name, value = solved
             self._spend(condition)
-            if degree_after(condition, name, value) > MOST_DEGREE:
+            if degree_after(condition, name, value) > limits.MOST_DEGREE:
                 return
             changed = condition.replaced(name, value)
             yield from self._descend(self._settled(changed, theta), [*steps, (name, value)], theta)
@@ -281,9 +282,6 @@ class Sampler:
         return Assignment(dense, theta[1] if theta else None)
 
 
-MOST_DEGREE = 500  # of what values are put into
-
-
 def degree_after(condition: Condition, name: str, value: fmpq_mpoly) -> int:
     """A bound on the degree of a condition when a term is put in place of a variable."""
     place, degree = places(condition.ring)[name], max(1, value.total_degree())
@@ -312,10 +310,6 @@ def linear_remainder(p: fmpq_mpoly, q: fmpq_mpoly, name: str) -> fmpq_mpoly:
 # -------------------------------------------------------------------------------------------------
 # Exact sample points of a state: for one parameter over every cell and close to its ends,
 # otherwise by sampling all variables.
-
-CLOSENESS = tuple(
-    fmpq(p, q) for p, q in ((1, 2), (1, 4), (3, 4), (1, 20), (19, 20), (1, 1000), (999, 1000))
-)
 
 
 def state_condition(state: SearchState) -> Condition:
@@ -417,7 +411,7 @@ def _on_a_line(condition: Condition, name: str) -> list[Sample]:
     for low, high in cells.intervals():
         if low < high and evaluate(condition.tree, cells.signs(simplest_between(low, high))):
             length = high - low
-            for part in CLOSENESS:
+            for part in map(exact, limits.CLOSENESS):
                 slack = min(part, 1 - part) / 4
                 found.append(
                     {

@@ -18,11 +18,11 @@ from juggleproof.algebra.numbers import (
     with_one_change,
 )
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.certificate import search_point, search_proof
 from juggleproof.search.closing import search_closing
 from juggleproof.search.families import cover
 from juggleproof.search.ranges import (
-    QUICK,
     CutDomain,
     Undecided,
     VerdictLines,
@@ -53,8 +53,6 @@ from juggleproof.statements.work import Budget, Exhausted, unfolded
 # statement fails, then proofs inside.
 
 Known = Mapping[str, checker.Statement]
-FIRST = 600_000  # units of work for a proof with little effort
-OUTSIDE = 2_500_000  # units of work for the families; those that are found at all are found early
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,10 @@ class RangeSearch:
         inside: dict[str, Proof] = {}
         for each in self.statements:
             proof = None
-            for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
+            for effort, part in (
+                (1, min(limits.EASY_PROOF_WORK, budget.left // 3)),
+                (2, budget.left),
+            ):
                 try:
                     proof = proof or search_proof(
                         each,
@@ -169,7 +170,7 @@ class LineSearch(RangeSearch):
         (domain,) = statement.get("domain")
         try:
             points = self.points(statement, budget)
-            part = budget.part(OUTSIDE)
+            part = budget.part(limits.SHARP_WORK)
             outside = self.outside(self.outside_state(statement), line, verdicts, domain, part)
         except Exhausted:
             points = outside = None
@@ -278,12 +279,6 @@ def _derivative(number: AlgebraicNumber) -> fmpq_poly:
 # Sharp ranges: exactly for which values of one parameter statements hold; ends by elimination,
 # verdicts by Z3, then certificates.
 
-EVERYWHERE = 2_500_000  # units of work for proofs on the whole domain
-VERDICTS = 2_000_000  # units of work for the verdicts along the line
-NOWHERE = 300_000  # units of work for one family on the whole domain
-# Where a statement has to fail before a family on the whole domain is tried, in parts of its length
-PROBES = (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))
-
 
 @dataclass
 class Range:
@@ -322,7 +317,8 @@ def find_sharp_range(
         violations = [Violation.of(s, tree, roles) for s in statements]
         probes = probes_of(*ends_of(tree, parameter))
         probed = {
-            v.name: [v.absent(parameter, at, budget, QUICK) for at in probes] for v in violations
+            v.name: [v.absent(parameter, at, budget, limits.Z3_GUESS_WORK) for at in probes]
+            for v in violations
         }
         if certify:
             failing = [
@@ -341,7 +337,7 @@ def find_sharp_range(
             if simple is not None:
                 return simple
         for line, verdicts in VerdictLines(
-            violations, parameter, tree, budget.part(VERDICTS)
+            violations, parameter, tree, budget.part(limits.SHARP_WORK)
         ).guesses():
             stated = stated_range(name, statements, parameter, domain, line)
             result = Range(stated, list(line.simplified().numbers), line=line)
@@ -377,7 +373,7 @@ def probes_of(low: Fraction | None, high: Fraction | None) -> list[fmpq]:
     """
     start = low if low is not None else high - 1 if high is not None else Fraction(0)
     length = high - start if high is not None else Fraction(1)
-    return [exact(start) + exact(length) * part for part in PROBES]
+    return [exact(start) + exact(length * part) for part in limits.PROBES]
 
 
 def stated_range(
@@ -414,7 +410,7 @@ def find_everywhere(search: LineSearch, domain: Formula, name: str, budget: Budg
     stated = SharpRange(name, names, (search.parameter,), domain, domain)
     line = CutDomain((), (True,))
     verdicts: Verdicts = dict.fromkeys(names, (True,))
-    part = budget.part(EVERYWHERE)
+    part = budget.part(limits.SHARP_WORK)
     certificate, _ = search.certified(read(stated), line, verdicts, part)
     return None if certificate is None else Range(stated, [], certificate, line=line)
 
@@ -430,7 +426,7 @@ def find_nowhere(
     line = CutDomain((), (False,))
     for one in (each for each in names if each in failing):
         verdicts: Verdicts = {each: (each != one,) for each in names}
-        part = budget.part(NOWHERE)
+        part = budget.part(limits.FAMILY_WORK)
         certificate, _ = search.certified(read(stated), line, verdicts, part)
         if certificate is not None:
             return Range(stated, [], certificate, line=line)

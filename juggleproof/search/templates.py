@@ -14,7 +14,9 @@ from juggleproof.algebra.conditions import (
     replace,
     valued,
 )
+from juggleproof.algebra.numbers import exact
 from juggleproof.algebra.trees import leaves
+from juggleproof.search import limits
 from juggleproof.search.candidates import (
     favourites,
     solutions,
@@ -50,9 +52,6 @@ Candidate = tuple[
     TermQuotient, TermQuotient | None, AdjoinedRoot | None
 ]  # a quotient, what is added to it, and the root adjoined for it
 UNKNOWN = fmpq(0)  # itself stands for a value that was not asked for yet
-BESIDE = tuple(
-    fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1)
-)  # how far beside a border, in margins
 
 
 class TemplateSearch:
@@ -85,7 +84,9 @@ class TemplateSearch:
         self.points: dict[tuple[int, ...], tuple[list[AdjoinedRoot], list[RingPoint]]] = {}
         self.shifts: dict[tuple[int, int], fmpq | None] = {}
         self.slight = [
-            TermQuotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
+            TermQuotient(margin * exact(c), margin**0)
+            for margin in self.margins[:5]
+            for c in limits.BESIDE
         ]
         small = [
             (m, k) for m in self.margins if roles.parameter not in ring_names(m) for k in (4, 20)
@@ -451,8 +452,6 @@ class TemplateSearch:
 # States on borders: unknowns put where relations that include equality are equations, the others
 # in between, tried on samples of the base.
 
-STEPS = 120  # substitutions in one search
-MOST_FACTORS = 200  # a polynomial with more terms is not factored
 Move = tuple[str, TermQuotient, "AdjoinedRoot | None"]
 
 
@@ -466,14 +465,14 @@ class CornerSearch(TemplateSearch):
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[TermChoice]:
         """Choices of terms for the unknowns, those on the most borders first."""
-        self.steps, self.seen = STEPS, set[frozenset[int]]()
+        self.steps, self.seen = limits.TEMPLATE_STEPS, set[frozenset[int]]()
         if (
             self.borders is None
         ):  # factors now: what an adjoined root is put into may no longer be a product
             products = [
                 condition.polys[k].factor()[1]
                 for k in condition.used()
-                if len(condition.polys[k]) <= MOST_FACTORS
+                if len(condition.polys[k]) <= limits.MOST_FACTORED_TERMS
             ]
             self.borders = [
                 factor for factors in products if len(factors) > 1 for factor, _ in factors
@@ -549,7 +548,7 @@ class CornerSearch(TemplateSearch):
         of degree 2 in it alone.
         """
         found: list[Move] = []
-        for factor, _ in poly.factor()[1] if len(poly) <= MOST_FACTORS else ():
+        for factor, _ in poly.factor()[1] if len(poly) <= limits.MOST_FACTORED_TERMS else ():
             names = ring_names(factor)
             present = [n for n in unknowns if n in names and n not in self.integers]
             present.sort(key=lambda n: (self._degree(partial, n), -unknowns.index(n)))

@@ -21,8 +21,9 @@ from juggleproof.algebra.conditions import (
     univariate,
     valued,
 )
-from juggleproof.algebra.numbers import sign
+from juggleproof.algebra.numbers import exact, sign
 from juggleproof.algebra.trees import HOLDS
+from juggleproof.search import limits
 
 # -------------------------------------------------------------------------------------------------
 # Quotients of polynomials in base variables and adjoined roots: the terms that a search proposes
@@ -218,7 +219,7 @@ def insert(value: TermQuotient, name: str, known: TermQuotient) -> TermQuotient:
 # -------------------------------------------------------------------------------------------------
 # Values known up to the accuracy of roots, and quotients between others.
 
-NEGLIGIBLE = fmpq(1, 2**100)  # of values that come from rational approximations of roots
+NEGLIGIBLE = exact(limits.NEGLIGIBLE)
 OPEN = -1  # in place of the number of a polynomial that the variable does not decide
 
 

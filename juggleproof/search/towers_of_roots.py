@@ -29,6 +29,7 @@ from juggleproof.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.search import limits
 from juggleproof.search.candidates import trials
 from juggleproof.search.closing import search_closing
 from juggleproof.search.witness_terms import TermTask, adjoined_entry, nodes_at
@@ -36,9 +37,6 @@ from juggleproof.statements.language import Roles
 from juggleproof.statements.nodes import Adjoined, Values, values_at
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
-
-TINY = fmpq(1, 10**15)
-DIGITS = (2, 4, 8, 14)
 
 
 @dataclass(frozen=True)
@@ -192,7 +190,8 @@ class Towers:
         for k in condition.used():
             if changed[k].total_degree() > 0 and not self._free(changed[k], approximate):
                 value = constant_of(changed[k].subs(given)) or fmpq(0)
-                changed[k] = condition.ring.constant(0 if abs(value) < TINY else sign(value))
+                close = abs(value) < exact(limits.TOWER_ZERO)
+                changed[k] = condition.ring.constant(0 if close else sign(value))
         return Condition(condition.ring, changed, fold(condition.tree, changed.__getitem__))
 
     def _completed(

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.judging.conclusions import REFUTED
 from juggleproof.search.small_proofs.searches_in_turn import certificates_in_turn
 from juggleproof.smtlib.script import Problem, problems_of_file
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 # Answers.  A question and its answer are plain text and data, so that they pass between processes
 # and machines.
 
-BUDGET = 2_000_000
 WORDS = {"certified": "unsat", "refuted": "sat"}
 
 
@@ -48,7 +48,7 @@ class ScriptQuestion:
 
     name: str
     texts: tuple[str, ...]
-    budget: int = BUDGET
+    budget: int = limits.DEFAULT_BUDGET
     stored: Mapping[str, Certificate] = field(default_factory=dict)
 
 
@@ -85,7 +85,7 @@ class ScriptAnswer:
 
 
 def question(
-    problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
+    problem: Problem, name: str, budget: int = limits.DEFAULT_BUDGET, store: Store | None = None
 ) -> ScriptQuestion:
     """The question whether a problem has a solution, whose statements have this name."""
     whole = statement_of(problem, name)
@@ -260,7 +260,7 @@ def folder_of(path: Path, store: Path | None) -> Path:
 def answer_files(
     paths: Sequence[Path],
     *,
-    budget: int = BUDGET,
+    budget: int = limits.DEFAULT_BUDGET,
     store: Path | None = None,
     fresh: bool = False,
     executor: Executor | None = None,

@@ -14,6 +14,7 @@ from typing import TypeVar, cast
 
 from juggleproof.certificates import checker
 from juggleproof.search.small_proofs.searches_in_turn import search_proof
+from juggleproof.smtlib import limits
 from juggleproof.smtlib.script import Problem, our_name
 from juggleproof.statements.formulas import Expression
 from juggleproof.statements.language import (
@@ -30,7 +31,6 @@ from juggleproof.statements.language import (
 )
 from juggleproof.statements.work import Budget
 
-SIDE_BUDGET = 100_000
 Shape = TypeVar("Shape", bound=Expression)
 
 
@@ -185,7 +185,7 @@ def _licence(before: Statement, below: Term) -> list[Line] | None:
     for sign in (below > 0, below < 0, different(below, 0)):
         goal = Statement(before.name, before.forall, before.lines, sign)
         with suppress(checker.Rejected):  # the divisor itself has a divisor that may be 0
-            if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), 1) is not None:
+            if search_proof(_read(goal), {}, Budget(limits.SIDE_WORK), 1) is not None:
                 return [("have", sign)]
     return None
 

@@ -16,6 +16,7 @@ from functools import partial, reduce
 from operator import add, mul, sub
 from typing import TypeVar, Union
 
+from juggleproof.smtlib import limits
 from juggleproof.smtlib.sexpr import Expression, Script, SexprList, SexprWord
 from juggleproof.smtlib.values import (
     Parts,
@@ -41,7 +42,6 @@ from juggleproof.statements.language import (
 # -------------------------------------------------------------------------------------------------
 # Reading terms.
 
-LARGEST_POWER, LONGEST_NUMBER = 100, 1000
 NOT_POLYNOMIAL = frozenset({"sin", "cos", "tan", "arctan", "exp", "log", "ln", "sqrt", "pow"})
 Arities = Mapping[str, tuple[int, Union[int, None]]]  # least and greatest numbers of arguments
 SORTS = ("Real", "Bool")
@@ -103,7 +103,6 @@ class DefinedFunction:
 
 Compared = TypeVar("Compared", Formula, RealCases)
 Meaning = Union[Value, DefinedFunction]  # the meaning of a name
-MOST_STEPS = 2_000_000  # terms that are read; the body of a function counts at each application
 
 
 @dataclass
@@ -177,10 +176,11 @@ class TermReader:
 
     def _read(self, node: Expression, scope: NameScope) -> Reading:
         self.steps += 1
-        if self.steps > MOST_STEPS:
+        if self.steps > limits.MOST_STEPS:
             self.script.fail(
                 node,
-                f"more than {MOST_STEPS} terms, those of functions counted where they are applied",
+                f"more than {limits.MOST_STEPS} terms, those of functions counted where they are"
+                " applied",
                 "split the problem",
             )
         return (
@@ -189,10 +189,10 @@ class TermReader:
 
     def _word(self, word: SexprWord, scope: NameScope) -> Reading:
         if word.kind in ("numeral", "decimal"):
-            if len(word.text) > LONGEST_NUMBER:
+            if len(word.text) > limits.LONGEST_NUMBER:
                 self.script.fail(
                     word,
-                    f"a number of {len(word.text)} signs; at most {LONGEST_NUMBER} are read",
+                    f"a number of {len(word.text)} signs; at most {limits.LONGEST_NUMBER} are read",
                     "scale the variables",
                 )
             return plain(term(Fraction(word.text)))
@@ -382,11 +382,11 @@ class TermReader:
             exponent is None
             or exponent.op != "num"
             or exponent.value.denominator != 1
-            or not 0 <= exponent.value <= LARGEST_POWER
+            or not 0 <= exponent.value <= limits.LARGEST_POWER
         ):
             self.script.fail(
                 node,
-                f"{brief(node)}: the exponent is no numeral from 0 to {LARGEST_POWER}",
+                f"{brief(node)}: the exponent is no numeral from 0 to {limits.LARGEST_POWER}",
                 "write a polynomial, or a root as y*y = t",
             )
         power = int(exponent.value)

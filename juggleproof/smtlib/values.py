@@ -11,7 +11,6 @@ Source, for formulas: Tseitin, On the complexity of derivation in propositional 
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -19,6 +18,7 @@ from itertools import product
 from math import comb, prod
 from typing import TypeVar, Union
 
+from juggleproof.smtlib import limits
 from juggleproof.statements.formulas import (
     RELATIONS,
     Formula,
@@ -35,7 +35,6 @@ from juggleproof.statements.formulas import (
 # -------------------------------------------------------------------------------------------------
 # Real terms in cases.
 
-MOST_CASES = 64
 Guards = tuple[tuple[Formula, bool], ...]
 
 
@@ -115,9 +114,6 @@ def choice(condition: Formula, first: RealCases, second: RealCases) -> RealCases
 # -------------------------------------------------------------------------------------------------
 # Sizes of terms and formulas, and of the polynomials that terms are.
 
-MOST_DEGREE = 1000
-MANY = 10**9  # larger sizes are replaced by this
-
 
 @dataclass(frozen=True)
 class Size:
@@ -138,7 +134,7 @@ class Size:
     def fits(self) -> bool:
         """Whether the term or formula is small enough to stand without names, if its parts are."""
         return (
-            self.depth <= DEEPEST
+            self.depth <= limits.DEEPEST
             and self.degree <= 100
             and self.terms <= 20_000
             and self.bits <= 20_000
@@ -149,7 +145,7 @@ class Size:
         """Whether a term is large enough to get a name where a term around it does not fit."""
         return (
             self.symbols > 300
-            or self.depth > DEEPEST // 3
+            or self.depth > limits.DEEPEST // 3
             or self.degree > 10
             or self.terms > 50
             or self.bits > 500
@@ -159,12 +155,6 @@ class Size:
     def is_short(self) -> bool:
         """Whether the polynomial of a term is short when written out."""
         return not self.divides and self.terms <= 500 and self.degree <= 60 and self.bits <= 5000
-
-
-DEEPEST = 60  # Python's parser, by which the checker reads, takes 200 nested parentheses
-# by operation of a formula, "" for terms; a conjunction may be an assertion as a whole
-MOST_SYMBOLS = defaultdict(lambda: 1000, {"": 4000, "and": 20_000})
-LARGE_FORMULA, LONG = 250, 100
 
 
 class TooLarge(Exception):
@@ -204,7 +194,7 @@ class Sizes:
         # the checker writes an equivalence as two implications
         symbols = (1 + (one.op == "iff")) * sum(part.symbols for part in parts)
         depth = 0 if one.op in RELATIONS else max((part.depth for part in parts), default=0)
-        return Size(min(MANY, 1 + symbols), 1 + depth)
+        return Size(min(limits.MANY, 1 + symbols), 1 + depth)
 
     def _term(self, one: Term, parts: Sequence[Size]) -> Size:
         if one.op == "var":
@@ -212,7 +202,7 @@ class Sizes:
             return replace(size, symbols=1, depth=1)
         if one.op == "num":
             return Size(1, 1, bits=max(one.value.numerator.bit_length(), 1))
-        symbols = min(MANY, 1 + sum(part.symbols for part in parts))
+        symbols = min(limits.MANY, 1 + sum(part.symbols for part in parts))
         depth = 1 + max(part.depth for part in parts)
         divides = any(part.divides for part in parts)
         degrees, terms = [part.degree for part in parts], [part.terms for part in parts]
@@ -220,11 +210,11 @@ class Sizes:
         whole = max(wholes)
         if one.op in "^*":
             whole = wholes[0] * one.exponent if one.op == "^" else sum(wholes)
-        if whole > MOST_DEGREE:
-            raise TooLarge(f"a degree over {MOST_DEGREE} when definitions are put in")
+        if whole > limits.MOST_DEGREE:
+            raise TooLarge(f"a degree over {limits.MOST_DEGREE} when definitions are put in")
         if one.op == "^":
             most = one.exponent
-            found = degrees[0] * most, min(terms[0], MANY) ** min(most, 9), bits[0] * most
+            found = degrees[0] * most, min(terms[0], limits.MANY) ** min(most, 9), bits[0] * most
         elif one.op == "*":
             found = sum(degrees), prod(terms), sum(bits)
         elif one.op == "/":
@@ -232,15 +222,19 @@ class Sizes:
             found = sum(degrees), terms[0], sum(bits)
         else:
             found = max(degrees), sum(terms), max(bits) + 1
-        degree, count, length = (min(MANY, each) for each in found)
+        degree, count, length = (min(limits.MANY, each) for each in found)
         if count > 50:
             count = min(count, most_terms(len(self.variables(one)), degree))
         return Size(symbols, depth, degree, count, length, whole, divides)
 
 
 def most_terms(variables: int, degree: int) -> int:
-    """The greatest number of terms of a polynomial of this degree, at most MANY."""
-    return MANY if min(variables, degree) > 30 else min(MANY, comb(variables + degree, degree))
+    """The greatest number of terms of a polynomial of this degree, at most `limits.MANY`."""
+    return (
+        limits.MANY
+        if min(variables, degree) > 30
+        else min(limits.MANY, comb(variables + degree, degree))
+    )
 
 
 # -------------------------------------------------------------------------------------------------
@@ -291,7 +285,7 @@ class Parts:
         """
         whole = make(parts)
         size = self.sizes.of(whole)
-        most = MOST_SYMBOLS[whole.op if isinstance(whole, Formula) else ""]
+        most = limits.MOST_SYMBOLS[whole.op if isinstance(whole, Formula) else ""]
         if size.fits and size.symbols <= most:
             return whole
         return make([self._shorter(part) for part in parts])
@@ -303,15 +297,19 @@ class Parts:
                 return part
             named = self.named(plain(part))
             return named.cases[0][1] if isinstance(named, RealCases) else part
-        if size.depth > DEEPEST // 3 or size.symbols > LARGE_FORMULA and part.op not in RELATIONS:
+        if (
+            size.depth > limits.DEEPEST // 3
+            or size.symbols > limits.LARGE_FORMULA
+            and part.op not in RELATIONS
+        ):
             named = self.named(part)
             return named if isinstance(named, Formula) else part
         return part
 
     def few(self, values: Sequence[RealCases]) -> list[RealCases]:
-        """The values, some replaced by names so that they have at most `MOST_CASES` joint cases."""
+        """The values, some replaced by names: they have at most `MOST_CASES` joint cases."""
         few = list(values)
-        while prod(len(one.cases) for one in few) > MOST_CASES:
+        while prod(len(one.cases) for one in few) > limits.MOST_CASES:
             k = max(range(len(few)), key=lambda k: len(few[k].cases))
             named = self.named(few[k])
             few[k] = named if isinstance(named, RealCases) else few[k]
@@ -319,11 +317,14 @@ class Parts:
 
     def chosen(self, condition: Formula, first: RealCases, second: RealCases) -> Value:
         """The value that is the first where the condition holds, else the second."""
-        if len(first.cases) + len(second.cases) > 2 and self.sizes.of(condition).symbols > LONG:
+        if (
+            len(first.cases) + len(second.cases) > 2
+            and self.sizes.of(condition).symbols > limits.LARGE_CONDITION
+        ):
             named = self.named(condition)  # every case has the condition
             condition = named if isinstance(named, Formula) else condition
         cases = choice(condition, first, second)
-        return cases if len(cases.cases) <= MOST_CASES else self.named(cases)
+        return cases if len(cases.cases) <= limits.MOST_CASES else self.named(cases)
 
     def combined(
         self, values: Sequence[RealCases], make: Callable[[Sequence[Term]], Term]

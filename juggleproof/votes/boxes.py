@@ -11,16 +11,15 @@ from fractions import Fraction
 from juggleproof.algebra.intervals import working_precision
 from juggleproof.certificates import checker
 from juggleproof.statements.vote import Vote, VoteBudget
+from juggleproof.votes import limits
 from juggleproof.votes.box_search import GoalBound, enclose_goal, refute
-from juggleproof.votes.branches import MOST_BRANCHES, regions
+from juggleproof.votes.branches import regions
 from juggleproof.votes.questions import (
     VoteQuestion,
     questions,
     scale_variables,
     with_scales_one,
 )
-
-TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point there counts
 
 
 @dataclass
@@ -121,14 +120,14 @@ def _settle(question: VoteQuestion, allowance: int, tally: Tally) -> BoxFinding:
     matrix, finding = question.matrix(), BoxFinding()
     parts = regions(question.names, matrix)
     if parts is None:
-        return BoxFinding(reasons=[f"more than {MOST_BRANCHES} branches"])
+        return BoxFinding(reasons=[f"more than {limits.MOST_BRANCHES} branches"])
     leaves = 0
     for region in parts:
         unbounded = region.unbounded()
         outcome = refute(
             region.facts,
             region.box(),
-            TRIAL if unbounded else max(TRIAL, allowance // len(parts)),
+            limits.TRIAL if unbounded else max(limits.TRIAL, allowance // len(parts)),
             region.test(matrix),
         )
         tally.boxes += outcome.boxes

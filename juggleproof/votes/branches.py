@@ -23,6 +23,7 @@ from juggleproof.algebra.polynomials import (
     value_at,
 )
 from juggleproof.search.psatz.facts import EliminationStep, Reduction, Signed
+from juggleproof.votes import limits
 from juggleproof.votes.questions import Atom, Formula, atom, branches
 from juggleproof.votes.spans import (
     ZERO,
@@ -167,26 +168,6 @@ def _contradict(facts: Sequence[Atom]) -> bool:
 # -------------------------------------------------------------------------------------------------
 # The region of a branch: a box that holds it, and exact points of it.
 
-MOST_BRANCHES, MOST_SAMPLES, ENOUGH_SAMPLES = 64, 128, 8
-TRIAL_SIDE = Fraction(8)
-SAMPLES = [
-    Fraction(n, d)
-    for n, d in (
-        (1, 4),
-        (1, 1),
-        (1, 8),
-        (0, 1),
-        (2, 1),
-        (1, 2),
-        (3, 2),
-        (-1, 1),
-        (3, 1),
-        (7, 1),
-        (5, 4),
-        (-3, 1),
-    )
-]
-
 
 @dataclass(frozen=True)
 class BranchRegion:
@@ -216,11 +197,11 @@ class BranchRegion:
             a = (
                 low[1]
                 if not low[0]
-                else min(-TRIAL_SIDE, high[1] - 2 * TRIAL_SIDE)
+                else min(-limits.TRIAL_SIDE, high[1] - 2 * limits.TRIAL_SIDE)
                 if not high[0]
-                else -TRIAL_SIDE
+                else -limits.TRIAL_SIDE
             )
-            b = high[1] if not high[0] else max(TRIAL_SIDE, a + 2 * TRIAL_SIDE)
+            b = high[1] if not high[0] else max(limits.TRIAL_SIDE, a + 2 * limits.TRIAL_SIDE)
             sides.append(dyadic(a, b) if i in used else dyadic((a + b) / 2, (a + b) / 2))
         return tuple(sides)
 
@@ -255,10 +236,10 @@ class BranchRegion:
         used, count = self.used(), 0
         sides = [self.bounds[i] for i in used]
         choices = [
-            [v for v in SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)]
+            [v for v in limits.SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)]
             for side in sides
         ]
-        for values in islice(product(*choices), MOST_SAMPLES):
+        for values in islice(product(*choices), limits.MOST_SAMPLES):
             point = [Fraction(0)] * len(self.names)
             for i, value in zip(used, values):
                 point[i] = value
@@ -266,7 +247,7 @@ class BranchRegion:
             if holds_at(formula, point):
                 yield point
                 count += 1
-                if count == ENOUGH_SAMPLES:
+                if count == limits.ENOUGH_SAMPLES:
                     return
 
 
@@ -280,7 +261,7 @@ def regions(names: tuple[str, ...], formula: Formula) -> Sequence[BranchRegion] 
     """The branches of the formula that are not seen to be empty at once; None where there are too
     many.
     """
-    parts = branches(formula, MOST_BRANCHES)
+    parts = branches(formula, limits.MOST_BRANCHES)
     if parts is None:
         return None
     candidates = (_region(names, facts) for facts in parts)

@@ -14,6 +14,7 @@ from flint import fmpq, fmpq_poly, fmpz_mpoly
 
 from juggleproof.algebra.numbers import bernstein, exact, fraction, sign
 from juggleproof.algebra.polynomials import used_in
+from juggleproof.votes import limits
 from juggleproof.votes.questions import Atom
 
 # -------------------------------------------------------------------------------------------------
@@ -145,7 +146,6 @@ def _product(a: End, b: End) -> End:
 # first, rounded outwards.
 
 Bounds = tuple[tuple[int, Fraction], tuple[int, Fraction]]  # as Interval, in Python's rationals
-ROUNDS, SHIFTS, SLICES, GRID, SHORT = 4, 6, 12, 16, 48
 
 
 def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
@@ -198,7 +198,7 @@ def _shave(sides: Sequence[tuple[Atom, Expanded]], box: list[Interval], i: int) 
     mine = [(fact, p) for fact, p in sides if i in p.used]
     for at_low in (True, False):
         pieces = 2
-        for _ in range(SLICES):  # a solution at the far end could be neared for ever
+        for _ in range(limits.SLICES):  # a solution at the far end could be neared for ever
             (_, low), (_, high) = box[i]
             step = (high - low) / pieces
             cut = rounded(low + step, up=False) if at_low else rounded(high - step, up=True)
@@ -229,7 +229,7 @@ def _propagate(sides: Sequence[tuple[Atom, Expanded]], box: list[Interval]) -> b
     interval becomes empty.
     """
     known: dict[tuple[int, int], tuple[tuple[Interval, ...], tuple[fmpq | None, fmpq | None]]] = {}
-    for _ in range(ROUNDS):
+    for _ in range(limits.ROUNDS):
         changed = False
         for number, (_, p) in enumerate(sides):
             for i in p.used:
@@ -297,7 +297,7 @@ def _end(
     end = 1 + max(max(c, none) for c in tops[:-1]) / -tops[-1]
     low = none
     # Cauchy's bound, then the least shift that is seen to be beyond all roots
-    for _ in range(SHIFTS):
+    for _ in range(limits.SHIFTS):
         middle = rounded((low + end) / 2, up=True)
         if low < middle < end and all(
             c <= 0 for c in fmpq_poly(tops)(fmpq_poly([middle, 1])).coeffs()
@@ -317,9 +317,9 @@ def rounded(value: fmpq, up: bool) -> fmpq:
     (Fraction(1, 3), Fraction(11184811, 33554432))
     """
     p, q = int(value.p), int(value.q)
-    if p.bit_length() + q.bit_length() <= SHORT:
+    if p.bit_length() + q.bit_length() <= limits.SHORT:
         return value
-    unit = Fraction(2) ** (p.bit_length() - q.bit_length() - SHORT // 2)
+    unit = Fraction(2) ** (p.bit_length() - q.bit_length() - limits.SHORT // 2)
     scaled = Fraction(p, q) / unit
     down = scaled.numerator // scaled.denominator
     return exact(unit * (-(-scaled.numerator // scaled.denominator) if up else down))
@@ -331,8 +331,8 @@ def dyadic(low: Fraction, high: Fraction) -> tuple[int, int, int]:
     >>> dyadic(Fraction(0), Fraction(1, 3))
     (21846, 21846, -17)
     """
-    e = -GRID
-    while (high - low) > (1 << GRID) * Fraction(2) ** e:
+    e = -limits.GRID
+    while (high - low) > (1 << limits.GRID) * Fraction(2) ** e:
         e += 1
     unit = Fraction(2) ** e
     a, b = low / unit, high / unit

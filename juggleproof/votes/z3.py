@@ -18,6 +18,7 @@ from juggleproof.algebra.polynomials import with_value
 from juggleproof.algebra.trees import OPPOSITE
 from juggleproof.certificates import checker
 from juggleproof.statements.vote import Vote, VoteBudget
+from juggleproof.votes import limits
 from juggleproof.votes.questions import (
     Atom,
     Denial,
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
     from z3 import Context, ExprRef, ModelRef, Solver
 
 Exact = Fraction | AlgebraicNumber
-MOST_BRANCHES, MOST_TRIES = 64, 16
-BITS = 12  # after the point, of the ends between which a root is written
 TACTICS = {
     "nlsat": ("simplify", "propagate-values", "qfnra-nlsat"),
     "nlqsat": ("simplify", "nnf", "nlqsat"),
@@ -240,7 +239,7 @@ def _any_value(
     for name, value in point.items():
         x = generators[name]
         if isinstance(value, AlgebraicNumber):
-            low, high = value.enclosure(BITS)
+            low, high = value.enclosure(limits.ROOT_BITS)
             facts += [
                 atom(sum(c * x**k for k, c in enumerate(value.coefficients)), "="),
                 atom(x * low.denominator - low.numerator, ">"),
@@ -255,7 +254,7 @@ def _any_value(
 def _text(value: Exact) -> str:
     if isinstance(value, Fraction):
         return str(value)
-    low, high = value.enclosure(BITS)
+    low, high = value.enclosure(limits.ROOT_BITS)
     return f"the root of {value.polynomial_text('z')} in [{low}, {high}]"
 
 
@@ -327,7 +326,7 @@ def _with_integers(session: VoteSession, question: VoteQuestion) -> Reply:
         return Reply("unsat", how=reply.how + " even for reals")
     if reply.point is not None and all(_is_integer(reply.point[name]) for name in names):
         return reply
-    for values in islice(product(range(4), repeat=len(names)), MOST_TRIES):
+    for values in islice(product(range(4), repeat=len(names)), limits.MOST_TRIES):
         tried = relaxed
         for name, value in zip(names, values):
             tried = at_integer(tried, name, value)
@@ -372,7 +371,7 @@ def at_integer(question: VoteQuestion, name: str, value: int) -> VoteQuestion:
 
 
 def _by_branches(session: VoteSession, question: VoteQuestion, engine: str) -> Reply:
-    parts = branches(question.matrix(), MOST_BRANCHES)
+    parts = branches(question.matrix(), limits.MOST_BRANCHES)
     if parts is None or len(parts) < 2:
         return Reply("unknown", how="undecided within the budget")
     share = max(1, (session.purse - session.spent) // len(parts))

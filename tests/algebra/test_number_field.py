@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from flint import fmpq, fmpq_poly
 
-from juggleproof.algebra.number_field import MOST, common_field, degree
+from juggleproof.algebra import limits
+from juggleproof.algebra.number_field import common_field, degree
 from juggleproof.algebra.numbers import AlgebraicNumber, real_roots
 from juggleproof.statements.work import Budget
 
@@ -51,5 +52,5 @@ def test_rational_values_need_no_number_holds() -> None:
 
 def test_rejects_a_field_of_too_high_a_degree() -> None:
     high = {"x": root(*[-2, *[0] * 8, 1]), "y": root(*[-3, *[0] * 8, 1])}
-    assert 9 * 9 > MOST
+    assert 9 * 9 > limits.MOST_FIELD_DEGREE
     assert common_field(high, Budget(10**6)) is None

@@ -63,7 +63,7 @@ FLOORS = (
     ("symbolic", "certificates", "folders", "lazy", "scenes.errors"),
     ("statements", "drawing"),
     ("algebra", "sine", "scenes"),
-    ("search.psatz",),
+    ("search.psatz", "search.limits"),
     ("search", "votes", "coq_store"),
     ("reading", "encoding"),
     ("judging", "coq_orbits"),

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cache
 
 from juggleproof.certificates import checker
-from juggleproof.judging.judgement import DEFAULT_BUDGET
+from juggleproof.judging import limits
 from juggleproof.proofs.restitution.below_a_half import EXCEPTIONS, TO_ONE_OR_TWO
 from juggleproof.proofs.restitution.impacts import BOX, THERE, WEIGHTS, before
 from juggleproof.proofs.restitution.settling import RANGES, Restitutions
@@ -112,7 +112,7 @@ def test_claims_on_restitution_fail_without_a_hypothesis(name: str) -> None:
     statement, old, new = FALSE[name]
     assert old in TEXTS[statement]
     changed = read(TEXTS[statement].replace(old, new), statement)
-    found = search_certificate(changed, {}, Budget(DEFAULT_BUDGET))
+    found = search_certificate(changed, {}, Budget(limits.DEFAULT_BUDGET))
     assert checker.check_one(changed, found, {}, {})[0] == "refuted"
 
 

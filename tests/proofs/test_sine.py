@@ -14,9 +14,10 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.judging.claims import CheckedApart, claims_in
 from juggleproof.judging.judge import judge
-from juggleproof.judging.judgement import DEFAULT_BUDGET, Judgement, Resources
+from juggleproof.judging.judgement import Judgement, Resources
 from juggleproof.proofs.sine import everywhere
 from juggleproof.reports.results import results_of_run
 from juggleproof.search.certificate import search_certificate
@@ -115,7 +116,7 @@ def test_claims_on_bounces_fail_without_a_hypothesis(name: str) -> None:
     text = Store(DEFAULT).texts[statement]
     assert text.count(old) == 1
     changed = read(text.replace(old, new), statement)
-    found = search_certificate(changed, {}, Budget(DEFAULT_BUDGET))
+    found = search_certificate(changed, {}, Budget(limits.DEFAULT_BUDGET))
     assert checker.check_one(changed, found, {}, {})[0] == "refuted"
 
 

@@ -21,8 +21,9 @@ from juggleproof.algebra.polynomials import (
     pseudo_divide,
 )
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.closing import search_closing
-from juggleproof.search.psatz.candidates import MOST_DIGITS, digits, resultants
+from juggleproof.search.psatz.candidates import digits, resultants
 from juggleproof.search.psatz.facts import Scaling
 from juggleproof.search.psatz.lifting import (
     LiftedTerm,
@@ -261,7 +262,7 @@ def test_rejects_resultants_whose_work_no_count_bounds() -> None:
 
     def pair(power: int) -> list[fmpz_mpoly]:
         one, other = (sum((k + m) ** power * y**k for k in range(20)) for m in (1, 2))
-        assert digits(one) < MOST_DIGITS  # which the resultant exceeds, if any
+        assert digits(one) < limits.MOST_DIGITS  # which the resultant exceeds, if any
         return [x * one - other, x * other + one]
 
     assert resultants(ring, pair(3), -1) and not resultants(ring, pair(20), -1)

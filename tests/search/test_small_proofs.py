@@ -8,8 +8,9 @@ from collections.abc import Callable
 from typing import Union
 
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.small_proofs.products_of_two import search_by_pairs
-from juggleproof.search.small_proofs.searches_in_turn import MOST_VARIABLES, certificates_in_turn
+from juggleproof.search.small_proofs.searches_in_turn import certificates_in_turn
 from juggleproof.search.small_proofs.simple_counterexamples import search_at_hand
 from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.work import Budget
@@ -69,7 +70,7 @@ def test_contrary_givens_are_left_to_the_whole_search_holds() -> None:
 
 
 def test_too_many_variables_are_told_where_it_is_not_linear_holds() -> None:
-    names = [f"x{k}" for k in range(MOST_VARIABLES + 1)]
+    names = [f"x{k}" for k in range(limits.MOST_VARIABLES + 1)]
     whole = " and ".join(f"{a}*{b} > 5" for a, b in zip(names, names[1:]))
     *_, last = certificates_in_turn(statement_of(" ".join(names), whole), Budget(10**6))
     assert last == {"unknown": "it is not linear, in 121 variables; at most 120 are tried"}

@@ -19,7 +19,8 @@ from juggleproof.algebra.semidefinite import (
     rational_image,
 )
 from juggleproof.certificates import checker
-from juggleproof.search.certificate import SQUARES_FIRST, search_certificate
+from juggleproof.search import limits
+from juggleproof.search.certificate import search_certificate
 from juggleproof.search.closing import SQUARED, search_closing
 from juggleproof.search.points import search_values
 from juggleproof.statements.states import SearchState, state_of
@@ -134,7 +135,7 @@ def test_few_entries_make_up_for_what_is_missing_in_every_equation_holds() -> No
 
 def test_a_sum_of_squares_in_many_squares_keeps_its_numbers_short_holds() -> None:
     text = "forall x y z\nshow x^4 + y^4 + z^4 + x^2 + y^2 + z^2 + 1 > 2*x*y*z + x*y/3 - z/5"
-    found = search_certificate(statement(text), {}, Budget(10**6), attempts=SQUARES_FIRST)
+    found = search_certificate(statement(text), {}, Budget(10**6), attempts=limits.SQUARES_FIRST)
     _, _, (_, products, _) = found["certified"]
     assert max(len(c) for c, _, _ in products) < 60
 
@@ -233,8 +234,8 @@ def test_a_condition_without_points_has_none_holds() -> None:
 
 def test_a_search_is_the_same_every_time_holds() -> None:
     one = statement(TRUE["choi-lam"])
-    first = search_certificate(one, {}, Budget(2_000_000), attempts=SQUARES_FIRST)
+    first = search_certificate(one, {}, Budget(2_000_000), attempts=limits.SQUARES_FIRST)
     again = search_certificate(
-        one, {}, Budget(2_000_001), attempts=SQUARES_FIRST
+        one, {}, Budget(2_000_001), attempts=limits.SQUARES_FIRST
     )  # another budget, so that it is sought anew
     assert first == again and "certified" in first

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from juggleproof.smtlib import limits
 from juggleproof.smtlib.answering import answer, answer_files, question
 from juggleproof.smtlib.script import Problem, read_problems
 from juggleproof.smtlib.statements import statement_of
-from juggleproof.smtlib.values import DEEPEST
 from juggleproof.statements.formulas import Formula, Term
 from juggleproof.statements.language import Statement
 from tests.rows import each_row
@@ -89,7 +89,7 @@ def test_what_is_large_is_answered_holds(kind: str) -> None:
 
 
 def test_small_scripts_have_no_named_parts_holds() -> None:
-    body = f"(assert (> {nested(DEEPEST - 3, '(+ x ', '1')} 2))"
+    body = f"(assert (> {nested(limits.DEEPEST - 3, '(+ x ', '1')} 2))"
     assert " let " not in statement_of(problem_of(body), "f/check").text().replace("\n", " ")
 
 

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.judging.evaluating import at_simple_values, is_simple
 from juggleproof.judging.orbit_rules import premises_of
 from juggleproof.judging.searches.unproved_premises import why
@@ -31,9 +32,6 @@ from juggleproof.statements.vote import VoteBudget as Asking
 from juggleproof.statements.work import Budget, Exhausted, read, unfolded
 from juggleproof.votes.casting import cast_votes
 from juggleproof.votes.z3 import Model, vote_and_model
-
-QUICK_BUDGET = 150_000
-TRIAL = 10  # a look for a contradiction or for simple values gets this part of the budget
 
 
 @dataclass
@@ -85,7 +83,9 @@ class ClaimSearch:
         if "certified" not in certificate and isinstance(statement, Statement):
             if not self.is_trial:
                 outcome = "refuted" if "refuted" in certificate else "unknown"
-                refuse_vacuous(statement, outcome, self.known, budget // TRIAL, self.roles)
+                refuse_vacuous(
+                    statement, outcome, self.known, budget // limits.TRIAL_SHARE, self.roles
+                )
         return certificate
 
     def _in_simple_values(self, statement: Statement, certificate: Certificate) -> Certificate:
@@ -98,7 +98,7 @@ class ClaimSearch:
         if parameter not in found.terms:
             return certificate
         for one in at_simple_values(statement, parameter, self.roots):
-            budget = Budget(self.budget // TRIAL)
+            budget = Budget(self.budget // limits.TRIAL_SHARE)
             try:
                 there = search_certificate(
                     read(one.text(), one.name), self.known, budget, roles=self.roles
@@ -172,7 +172,7 @@ class ClaimSearch:
             "counterexample",
             {},
             self.known,
-            Budget(QUICK_BUDGET),
+            Budget(limits.QUICK_WORK),
             effort=0,
             roles=self.roles,
         )
@@ -181,7 +181,7 @@ class ClaimSearch:
     def certificate_of_inclusion(self, parsed: checker.Statement) -> Certificate:
         """The certificate that a quick search finds; `unknown` where it finds none."""
         try:
-            return search_certificate(parsed, {}, Budget(QUICK_BUDGET))
+            return search_certificate(parsed, {}, Budget(limits.QUICK_WORK))
         except Exhausted:
             return {"unknown": "a quick search found none"}
 

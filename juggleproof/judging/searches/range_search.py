@@ -9,6 +9,7 @@ from fractions import Fraction
 
 from juggleproof.algebra.numbers import AlgebraicNumber, exact, simplest_between
 from juggleproof.certificates import checker
+from juggleproof.judging import limits
 from juggleproof.search.families import implies_domain, solved
 from juggleproof.search.ranges import CutDomain, line_on, pinned, polynomial_term
 from juggleproof.search.sharp import Range, find_sharp_range, whole_parameters
@@ -270,9 +271,6 @@ def polynomial(coefficients: Sequence[int], name: str) -> str:
 # -------------------------------------------------------------------------------------------------
 # A domain of one parameter as an interval.
 
-# bits of the enclosure of an irrational end, and its distance from the rational that replaces it
-BITS, NEAR = 32, Fraction(1, 10**6)
-
 
 def ends_inside(domain: str, parameter: str) -> tuple[End | None, End | None] | None:
     """The ends of a domain of one parameter, if it is an interval, with rational numbers just
@@ -283,8 +281,8 @@ def ends_inside(domain: str, parameter: str) -> tuple[End | None, End | None] | 
     if len(intervals) != 1:
         return None
     (found,) = intervals
-    low = _inside(found.low, found.low_closed, NEAR) if found.low else None
-    high = _inside(found.high, found.high_closed, -NEAR) if found.high else None
+    low = _inside(found.low, found.low_closed, limits.END_DISTANCE) if found.low else None
+    high = _inside(found.high, found.high_closed, -limits.END_DISTANCE) if found.high else None
     if low and high and Fraction(low[0]) >= Fraction(high[0]):
         return None
     return low, high
@@ -294,6 +292,6 @@ def _inside(end: AlgebraicNumber, closed: bool, near: Fraction) -> End:
     """The end; for an irrational one, the simplest rational within `near` of it, further inside."""
     if end.is_rational:
         return str(end.as_fraction()), "<=" if closed else "<"
-    low, high = end.enclosure(BITS)
+    low, high = end.enclosure(limits.END_BITS)
     beyond = (high, high + near) if near > 0 else (low + near, low)
     return str(simplest_between(*map(exact, beyond))), "<="

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.algebra.box_trees import LETTERS, Box, Terms
+from juggleproof.search import limits
 
 # -------------------------------------------------------------------------------------------------
 # Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact
@@ -102,11 +103,6 @@ def along_first(matrix: Tensor, tensor: Tensor, axis: int) -> Tensor:
 # Branch and bound with Bernstein coefficients, the box of least bound first: a box tree for the
 # checker, and the bound that it shows.
 
-ROUNDING = (
-    2.0**-46
-)  # of the largest coefficient: what floating point may lose on the way down a tree
-MOST_BITS = 1500  # of the common denominator on a box
-WORK = 10**8  # products of Python's integers in one search
 Places = list[tuple[int, float, float]]
 Improve = Callable[[tuple[float, ...]], None]
 
@@ -155,7 +151,7 @@ class BernsteinArithmetic:
         most = abs(whole).max()
         self.root = whole if exact else whole.astype(float)
         self.bits = int(most).bit_length()
-        self.slack = 0.0 if exact else float(most) * ROUNDING
+        self.slack = 0.0 if exact else float(most) * limits.TREE_ROUNDING
 
     def slack_of(self, unit: int) -> float:
         """What a difference of two coefficients of a node may be off by."""
@@ -239,7 +235,11 @@ class Branching:
     def affordable(self) -> int:
         """How many boxes are worth their products, of which floats are cheaper by far."""
         shape: tuple[int, ...] = self.numbers.root.shape
-        return max(1, (WORK if self.numbers.exact else 100 * WORK) // (prod(shape) * max(shape)))
+        return max(
+            1,
+            (limits.TREE_PRODUCTS if self.numbers.exact else 100 * limits.TREE_PRODUCTS)
+            // (prod(shape) * max(shape)),
+        )
 
     def run(self, budget: int) -> BoxTree:
         """Goes on until the target is reached, there are `budget` boxes, or halving leads
@@ -252,7 +252,7 @@ class Branching:
             goal = self.numbers.goal(self.target())
             axis = _axis_to_halve(node.tensor)
             self.stuck = (
-                axis is None or node.unit.bit_length() > MOST_BITS
+                axis is None or node.unit.bit_length() > limits.TREE_BITS
             )  # None: every coefficient is a value at a corner
             if node.bound < goal and axis is not None and not self.stuck:
                 heapq.heappop(self.heap)

@@ -19,13 +19,13 @@ from juggleproof.algebra.box_trees import (
     simple_points,
     value_at,
 )
+from juggleproof.search import limits
 
 # -------------------------------------------------------------------------------------------------
 # Points where a polynomial is small on a box, found in floating point: nothing here is believed,
 # every value is computed again exactly.
 
 Array = NDArray[np.float64]
-STEPS = 200
 NOISE = 2.0**-52
 
 
@@ -76,7 +76,7 @@ class FloatPolynomial:
         """
         x = np.clip(x, low, high)
         value, damping = self(x), 1e-3
-        for _ in range(STEPS):
+        for _ in range(limits.DESCENT_STEPS):
             data = self.values(x)
             slope, bend = data[1 : 1 + self.size], np.zeros((self.size, self.size))
             for (i, j), second in zip(self.pairs, data[1 + self.size :]):
@@ -143,9 +143,6 @@ def polished(
 # A polynomial on a box, and the best point so far.
 
 Point = tuple[Fraction, ...]
-SIMPLE = 10**6  # the denominator of a value that may be the minimum itself
-FINE = Fraction(1, 10**13)  # a width for which floating point has no point good enough
-SHARE = 8  # of the width, which the value at the point and its rounding may each take
 
 
 @dataclass(frozen=True)
@@ -169,7 +166,7 @@ class Best:
         self.polynomial = FloatPolynomial(terms, len(box))
         self.low, self.high = (np.array([float(pair[k]) for pair in box]) for k in (0, 1))
         self.value = float("inf")
-        self.unit = _decimal_below(width / SHARE) if width else Fraction(0)
+        self.unit = _decimal_below(width / limits.WIDTH_SHARE) if width else Fraction(0)
         self.point: Point = tuple(low for low, _ in box)
         self.exact = value_at(terms, self.point)
         self.bounds = self._bounds()
@@ -184,7 +181,7 @@ class Best:
         value = self.polynomial(x)
         if (
             value >= self.value - 1e-12 * (1 + abs(self.value))
-            and value >= self.value - float(self.width) / SHARE
+            and value >= self.value - float(self.width) / limits.WIDTH_SHARE
         ):
             return
         value, x = self.polynomial.descend(x, self.low, self.high)
@@ -192,12 +189,14 @@ class Best:
             return
         self.value = value
         enough = Fraction(value) + (
-            self.width / SHARE if self.width else Fraction(1, 10**11) * (1 + abs(int(value)))
+            self.width / limits.WIDTH_SHARE
+            if self.width
+            else Fraction(1, 10**11) * (1 + abs(int(value)))
         )
         for point in simple_points(x, self.box):
             if self._take(point) <= enough:
                 break
-        if 0 < self.width < FINE:
+        if 0 < self.width < limits.LEAST_WIDTH:
             bits = 2 * (1 / self.width).numerator.bit_length()
             for some in (bits // 4, bits // 2, bits):
                 self._take(polished(self.terms, self.polynomial, x, self.box, some))
@@ -212,7 +211,7 @@ class Best:
     def _bounds(self) -> tuple[Fraction, Fraction]:
         high = (
             rounded_up(self.exact, self.unit)
-            if self.unit and self.exact.denominator > SIMPLE
+            if self.unit and self.exact.denominator > limits.SIMPLE
             else self.exact
         )
         return high - self.width, high

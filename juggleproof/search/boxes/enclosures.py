@@ -9,15 +9,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from juggleproof.algebra.box_trees import rounded_down, value_at
-from juggleproof.search.boxes.branching import ROUNDING, BoxTree, Branching
-from juggleproof.search.boxes.descent import (
-    SHARE,
-    SIMPLE,
-    Best,
-    BoxProblem,
-    Point,
-    shorter,
-)
+from juggleproof.search import limits
+from juggleproof.search.boxes.branching import BoxTree, Branching
+from juggleproof.search.boxes.descent import Best, BoxProblem, Point, shorter
 from juggleproof.search.boxes.squares import program_around
 from juggleproof.search.psatz.sums_of_squares import search_squares
 from juggleproof.statements.language import ClaimError
@@ -34,11 +28,6 @@ BySquares = Callable[
 Prove = Callable[
     [Fraction, Node], bool
 ]  # whether the checker accepts that the polynomial is at least so much, by this node
-QUICK = 300  # boxes before squares are tried
-SQUARES = 100_000_000  # units of work for squares
-LADDER = [Fraction(10) ** -k for k in range(-3, 17)]  # of widths
-NEAR, FAR = Fraction(1, 10**9), Fraction(1, 10**4)  # how far below it a simple value may be
-SIMPLEST = (1, 60, 1000, SIMPLE)  # its denominator
 
 
 @dataclass(frozen=True)
@@ -67,7 +56,7 @@ def search_enclosure(
     Raises ClaimError where the polynomial is too large for the checker.
     """
     found = _search_width(problem, width, budget, prove, by_squares)
-    for other in () if found.reached else LADDER:
+    for other in () if found.reached else limits.WIDTHS:
         if found.high - found.low <= width or found.boxes > 2 * budget:
             break
         if width <= other < found.high - found.low:
@@ -75,11 +64,13 @@ def search_enclosure(
             found = _both(found, more, width)
             if not more.reached:
                 break
-    for other in (*LADDER, Fraction(0)):
+    for other in (*limits.WIDTHS, Fraction(0)):
         if found.high - found.low <= width or found.boxes > 2 * budget:
             break
         if other < width:
-            more = _search_width(problem, other, min(budget, 4 * QUICK), prove, by_squares)
+            more = _search_width(
+                problem, other, min(budget, 4 * limits.BOXES_BEFORE_SQUARES), prove, by_squares
+            )
             found = _both(found, more, width)
     return found
 
@@ -100,16 +91,20 @@ def _search_width(
     Trees first, in floating point unless the width is too small for it, then in integers; squares
     around the best point where boxes are slow.
     """
-    best, done, squares_left = Best(problem.terms, problem.box, width), 0, budget >= QUICK
+    best, done, squares_left = (
+        Best(problem.terms, problem.box, width),
+        0,
+        budget >= limits.BOXES_BEFORE_SQUARES,
+    )
     kept: Bounds | None = None
-    floats = width >= 64 * ROUNDING * max(map(abs, problem.terms.values()))
+    floats = width >= 64 * limits.TREE_ROUNDING * max(map(abs, problem.terms.values()))
     while budget:
         for exact in (False, True) if floats else (True,):
             branching = Branching(
                 problem.terms, problem.box, lambda: best.bounds[0], best.offer, exact
             )
             most = min(budget, branching.affordable())
-            tree = branching.run(min(QUICK, most))
+            tree = branching.run(min(limits.BOXES_BEFORE_SQUARES, most))
             if not tree.reached and squares_left:
                 squares_left = False
                 kept = _squares(problem, best, done + tree.boxes, prove, by_squares)
@@ -139,7 +134,7 @@ def _squares(
     simple = _simple_below(best)
     centres = [
         (best.exact, best.exact, best.point),
-        *([(low, high, shorter(best, best.width / SHARE))] if best.width else []),
+        *([(low, high, shorter(best, best.width / limits.WIDTH_SHARE))] if best.width else []),
     ]
     for bound, top, point in centres:
         program = program_around(
@@ -151,7 +146,7 @@ def _squares(
             problem.goal,
             value_at(problem.terms, point) - bound,
         )
-        node = search_squares([program], Budget(SQUARES)) if program else None
+        node = search_squares([program], Budget(limits.BOUND_SQUARES_WORK)) if program else None
         if node and prove(bound, node):
             return Bounds(bound, top, best.point, node, done, True)
         node = by_squares(simple) if bound == best.exact and simple is not None else None
@@ -163,8 +158,8 @@ def _squares(
 
 def _simple_below(best: Best) -> Fraction | None:
     """A number of small denominator at the value at the best point, or just below it."""
-    near = (1 + abs(best.exact)) * min(max(NEAR, best.width), FAR)
-    for most in SIMPLEST:
+    near = (1 + abs(best.exact)) * min(max(limits.NEAR, best.width), limits.FAR)
+    for most in limits.SIMPLEST:
         simple = best.exact.limit_denominator(most)
         if simple <= best.exact <= simple + near:
             return simple
@@ -176,7 +171,7 @@ def _reached(best: Best, tree: BoxTree, done: int, node: Node, prove: Prove) -> 
     the point, else a bound within the width.
     """
     low, high = best.bounds
-    if low < high and best.exact.denominator <= SIMPLE and prove(best.exact, node):
+    if low < high and best.exact.denominator <= limits.SIMPLE and prove(best.exact, node):
         return Bounds(best.exact, best.exact, best.point, node, done, True)
     return Bounds(low, high, best.point, node, done, True) if prove(low, node) else None
 

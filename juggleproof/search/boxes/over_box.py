@@ -10,12 +10,10 @@ from typing import NamedTuple
 
 from juggleproof.algebra.box_trees import Box, Exponents, search_tree, value_at
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import SearchState, variables_in
 from juggleproof.statements.work import Budget
-
-MOST_COEFFICIENTS = 1 << 16  # of the Bernstein form of a fact
-MARGINS = (Fraction(1, 100), Fraction(1, 10**5))  # parts of the value at the middle of the box
 
 
 class FactBound(NamedTuple):
@@ -69,7 +67,7 @@ def facts_over_box(state: SearchState) -> Iterator[FactOverBox]:
             own = [bounds[name] for name in names]
             opposite = {e: -c for e, c in terms_of(state, poly, names).items()}
             fact = FactOverBox(index, relation == ">", names, own, opposite)
-            if fact.size <= MOST_COEFFICIENTS:
+            if fact.size <= limits.MOST_COEFFICIENTS:
                 yield fact
 
 
@@ -117,7 +115,7 @@ def close_over_box(state: SearchState, most: int, budget: Budget) -> Node | None
     """
     for fact in facts_over_box(state):
         middle, size, constant = fact.middle(), fact.size, (0,) * len(fact.names)
-        for margin in (Fraction(0),) if fact.strict else MARGINS:
+        for margin in (Fraction(0),) if fact.strict else limits.BOX_MARGINS:
             # faces, of which each is a part of the box before, cost no more than two boxes
             letters = min(most, max(budget.left // size, 2 * len(fact.names)))
             budget.spend(10)

@@ -21,12 +21,12 @@ from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpo
 from juggleproof.algebra.box_trees import Box, Terms, value_at
 from juggleproof.algebra.numbers import exact
 from juggleproof.algebra.polynomials import Ring
+from juggleproof.search import limits
 from juggleproof.search.boxes.branching import Branching
-from juggleproof.search.boxes.descent import SHARE, Best, BoxProblem, shorter
+from juggleproof.search.boxes.descent import Best, BoxProblem, shorter
 from juggleproof.search.boxes.over_box import FactOverBox, facts_over_box
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.sums_of_squares import (
-    GOALS,
     FactBlock,
     Square,
     SquaresProgram,
@@ -35,10 +35,6 @@ from juggleproof.search.psatz.sums_of_squares import (
 from juggleproof.statements.nodes import Node, Product
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget
-
-MOST_VARIABLES, MOST_BASIS = 6, 28
-QUICK = 300  # boxes before squares are tried
-FINE = (1 << 4, 1 << 7, 1 << 10, 1 << 14, 1 << 20, 1 << 28, 1 << 36)
 
 
 def program_around(
@@ -55,10 +51,10 @@ def program_around(
 
     `facts` holds for each variable the numbers of low <= x and x <= high.
     """
-    if len(box) > MOST_VARIABLES:
+    if len(box) > limits.SQUARES_VARIABLES:
         return None
     around = BlocksAroundPoint(terms, box, point, facts, goal, gap)
-    if not around.is_stationary() or len(around.blocks[1].basis) > MOST_BASIS:
+    if not around.is_stationary() or len(around.blocks[1].basis) > limits.SQUARES_BASIS:
         return None
 
     def lifted(squares: list[Square], _: object, roots: list[fmpz_mpoly]) -> Node:
@@ -70,7 +66,14 @@ def program_around(
         return "psatz", products, []
 
     return SquaresProgram(
-        around.ring, around.blocks, [], lifted, around.total(), GOALS[-1:], FINE, kernels=()
+        around.ring,
+        around.blocks,
+        [],
+        lifted,
+        around.total(),
+        limits.SQUARES_GOALS[-1:],
+        limits.AROUND_DENOMINATORS,
+        kernels=(),
     )
 
 
@@ -270,7 +273,10 @@ def search_positive(problem: BoxProblem, weakly: bool, most: int, budget: Budget
         branching = Branching(problem.terms, problem.box, target, best.offer, exactly)
         boxes, size = 1, branching.numbers.root.size
         cost = 40 + size // 2 if exactly else 10 + size // 50
-        for most_here in (min(QUICK, most), min(most, branching.affordable())):
+        for most_here in (
+            min(limits.BOXES_BEFORE_SQUARES, most),
+            min(most, branching.affordable()),
+        ):
             tree = branching.run(most_here) if is_open() else None
             if tree is None or not is_open():
                 return None
@@ -289,7 +295,11 @@ def _squares_above(problem: BoxProblem, best: Best, bound: Fraction, budget: Bud
     """Squares that show that p is at least the bound, by the fact -p > 0, or -p >= 0 where the
     bound is positive.
     """
-    point = best.point if best.exact == bound else shorter(best, (best.exact - bound) / SHARE)
+    point = (
+        best.point
+        if best.exact == bound
+        else shorter(best, (best.exact - bound) / limits.WIDTH_SHARE)
+    )
     gap = value_at(problem.terms, point) - bound
     program = program_around(
         problem.terms, problem.box, point, problem.names, problem.facts, problem.goal, gap

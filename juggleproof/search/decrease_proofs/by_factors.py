@@ -20,6 +20,7 @@ from juggleproof.algebra.polynomials import (
     used_in,
 )
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.closing import sign_node
 from juggleproof.search.decrease_proofs.by_products import (
     Combinations,
@@ -41,12 +42,7 @@ from juggleproof.statements.work import Budget, Exhausted
 
 Points = Mapping[str, NDArray[np.float64]]
 
-MORE = (0, 1, 2)  # degrees than those of a factor
-MOST_COLUMNS, MOST_TERMS = 1500, 100_000  # of a program: products, and terms in them
-MOST_FACTOR = 60  # terms of a factor
-BUDGET, SQUARES = 1_000_000, 20_000  # of counted work for a premise, and a sum of squares
 VALUE = "value"
-CLOSE = 1e-9  # to 0, in floats
 
 
 def proof_by_factors(
@@ -59,7 +55,7 @@ def proof_by_factors(
     """A proof of a premise `falls` by the cases of this sign; `points`: samples of all variables,
     by which signs are proposed.
     """
-    budget = Budget(BUDGET)
+    budget = Budget(limits.DECREASE_WORK)
 
     def closed(state: SearchState) -> Node | None:
         if state.choices or state.closed:
@@ -134,7 +130,10 @@ class FactorCase:
                 if k != goal and fact.degrees[value] == 1:
                     one = self.identity(problem, goal, k, value)
                     parts = (one.below, one.times, one.rest)
-                    if all((self.at_points(problem, part) >= -CLOSE).all() for part in parts):
+                    if all(
+                        (self.at_points(problem, part) >= -limits.FACTOR_ZERO).all()
+                        for part in parts
+                    ):
                         found.append(one)
         return sorted(found, key=lambda one: len(one.rest) + len(one.times))
 
@@ -199,9 +198,13 @@ class FactorCase:
     ) -> Node | None:
         """A node by the sign of this factor, which is that at the samples."""
         at = self.at_points(problem, factor)
-        if len(factor) > MOST_FACTOR or not len(at) or (at > CLOSE).any() == (at < -CLOSE).any():
+        if (
+            len(factor) > limits.FACTOR_TERMS
+            or not len(at)
+            or (at > limits.FACTOR_ZERO).any() == (at < -limits.FACTOR_ZERO).any()
+        ):
             return None
-        positive = bool((at > CLOSE).any())
+        positive = bool((at > limits.FACTOR_ZERO).any())
         text = problem.homogeneous_text(factor)
         cases, more = state.by_sign(text), [*kept, len(state.facts)]
         opposite = cases[0 if positive else 2]
@@ -263,7 +266,7 @@ class FactorCase:
         few = [k for k in kept if inside.issuperset(used_in(ring.read(state.facts[k][0])))]
         problem = LeafProblem(with_facts(state, few), self.ring, True)
         try:
-            part = self.budget.part(SQUARES)
+            part = self.budget.part(limits.FACTOR_SQUARES_WORK)
             node = search_squares(programs_of_facts(problem, part), part)
         except Exhausted:
             return None
@@ -288,8 +291,10 @@ class FactorCase:
             Multiplied(self.ring.one, (), -1),
             Multiplied(poly, (last,), -1, alone=True),
         ]
-        every = Combinations(problem, parts, packing, MOST_COLUMNS, MOST_TERMS)
-        node = every.node(multiplied, total_degree(poly), MORE, [], self.budget)
+        every = Combinations(
+            problem, parts, packing, limits.FACTOR_COLUMNS, limits.FACTOR_PRODUCT_TERMS
+        )
+        node = every.node(multiplied, total_degree(poly), limits.FACTOR_DEGREES, [], self.budget)
         return renumbered(node, kept)
 
     def written(

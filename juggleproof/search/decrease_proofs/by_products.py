@@ -19,25 +19,17 @@ from juggleproof.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.closing import search_closing, sign_node
 from juggleproof.search.psatz.lifting import lift, powers_of
 from juggleproof.search.psatz.linear import Products
-from juggleproof.search.psatz.linear_program import (
-    MOST_ITERATIONS,
-    Program,
-    solve,
-)
+from juggleproof.search.psatz.linear_program import Program, solve
 from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node, Proof
 from juggleproof.statements.states import SearchState, proves, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
 MOVING = ("value", "level", "distance")
-MORE = (0, 1, 2, 3)  # degrees than those of the goal
-MOST_COLUMNS = 6000
-MOST_TERMS = 2_000_000  # of all products of so many facts
-ITERATED = 5_000_000  # columns in all iterations of a linear program
-BUDGET = 1_000_000  # of counted work for a premise
 
 
 def proof_by_products(
@@ -47,13 +39,13 @@ def proof_by_products(
     unknowns: Collection[str],
     squares: Sequence[str],
     signs: Sequence[str],
-    most: int = MOST_COLUMNS,
+    most: int = limits.PRODUCT_COLUMNS,
 ) -> Proof | None:
     """A proof of a premise `falls` or `least` from these terms of V, by their numbers, and from
     what is known of the parameters but the unknowns; products times these squares are used too,
     then cases of these signs.
     """
-    budget = Budget(BUDGET)
+    budget = Budget(limits.DECREASE_WORK)
 
     def closed(state: SearchState) -> Node | None:
         ring = Ring(tuple(state.context.index))
@@ -278,7 +270,9 @@ def leaf(
     ]
     multiplied = [Multiplied(*one) for one in polys]
     top = max(total_degree(one.poly) for one in multiplied if one.root < 0)
-    node = Combinations(problem, parts, packing, most).node(multiplied, top, MORE, roots, budget)
+    node = Combinations(problem, parts, packing, most).node(
+        multiplied, top, limits.PRODUCT_DEGREES, roots, budget
+    )
     return renumbered(node, kept)
 
 
@@ -301,7 +295,7 @@ class Combinations:
     parts: list[Products]
     packing: Packing
     most: int  # products
-    most_terms: int = MOST_TERMS
+    most_terms: int = limits.PRODUCT_TERMS
 
     def node(
         self,
@@ -331,7 +325,9 @@ class Combinations:
             if len(columns) > self.most:
                 return None
             budget.spend(3 * program.count)
-            iterations = min(MOST_ITERATIONS, ITERATED // max(1, program.count))
+            iterations = min(
+                limits.MOST_ITERATIONS, limits.PRODUCT_ITERATED // max(1, program.count)
+            )
             found = solve(program, budget, iterations)
             if found is not None:
                 used = [((powers_of(columns[k][0]), columns[k][1]), c) for k, c in found[0].items()]

@@ -17,10 +17,9 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 from juggleproof.algebra import trees
 from juggleproof.algebra.conditions import Condition
 from juggleproof.algebra.numbers import AlgebraicNumber, exact
+from juggleproof.search import limits
 from juggleproof.search.candidates import Value
 from juggleproof.statements.work import Budget
-
-RESOURCES = 200_000  # Z3's own unit of work; about a tenth of a second where numbers are rational
 
 
 @dataclass
@@ -37,7 +36,7 @@ def ask(
     condition: Condition,
     budget: Budget,
     integers: Iterable[str] = (),
-    resources: int = RESOURCES,
+    resources: int = limits.Z3_WORK,
     model: bool = False,
     unreachable: tuple[Condition, Sequence[str]] | None = None,
 ) -> SolverAnswer:

@@ -18,6 +18,7 @@ import z3
 
 from juggleproof.algebra.conditions import ring_of, to_flint
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.hints.asking import conflict, session_of
 from juggleproof.search.small_proofs.linear_system import Fact, FactKey, key_of
 from juggleproof.statements.nodes import Node
@@ -26,10 +27,6 @@ from juggleproof.statements.work import Budget
 
 Alternative = Union[checker.Atom, checker.Join]
 Choice = Sequence[Alternative]
-
-RESOURCES = 60_000  # of Z3, for one choice of alternatives
-MOST_CONFLICTS, MOST_CASES = 400, 20_000
-SMALL = 8  # facts: what smaller conflicts miss weighs more
 
 
 @dataclass(frozen=True)
@@ -106,7 +103,7 @@ class Search:
             for choice in self.state.choices:
                 facts.update((key_of(fact), fact) for fact in taken(choice, true))
             found = self.conflict(list(facts.values()))
-            if found is None or len(self.conflicts) >= MOST_CONFLICTS:
+            if found is None or len(self.conflicts) >= limits.MOST_CONFLICTS:
                 return False
             self.conflicts.append(found)
             news = sorted(str(numbers[key]) for key in found.keys - given)
@@ -122,7 +119,7 @@ class Search:
         core = conflict(
             [(to_flint(poly, ring, len(names)), relation) for poly, relation in facts],
             self.budget,
-            RESOURCES,
+            limits.Z3_CLAUSES_WORK,
         )
         if core is None and not self.state.context.integers:
             return None
@@ -146,7 +143,7 @@ class Search:
 
     def below(self, given: frozenset[FactKey], choices: list[list[Alternative]]) -> Tree | None:
         self.cases += 1
-        if self.cases > MOST_CASES:
+        if self.cases > limits.MOST_CLAUSE_CASES:
             return None
         self.budget.spend(20 + len(self.conflicts) // 10)
         live = []
@@ -159,7 +156,7 @@ class Search:
         weight: dict[FactKey, int] = {}
         for missing in live:
             for key in missing:
-                weight[key] = weight.get(key, 0) + 4 ** max(0, SMALL - len(missing))
+                weight[key] = weight.get(key, 0) + 4 ** max(0, limits.SMALL_CONFLICT - len(missing))
         best, least = None, (0, 0)
         for choice in choices:
             parts = [direct_keys(part) for part in choice]

@@ -15,14 +15,11 @@ import z3
 from flint import fmpq, fmpq_mpoly
 
 from juggleproof.algebra.conditions import Condition, places
+from juggleproof.search import limits
 from juggleproof.search.candidates import trials
 from juggleproof.search.hints.asking import formula_text, session_of
 from juggleproof.statements.language import Roles
 from juggleproof.statements.work import Budget
-
-FIRST, MOST = 3, 24  # values of a variable; twice as many from round to round
-RESOURCES = 4_000_000  # of Z3, for one round; linear steps are quicker than others
-STEPS = 20  # of them cost one unit
 
 
 def point_by_few_values(
@@ -36,7 +33,7 @@ def point_by_few_values(
     terms = sum(len(condition.polys[k]) for k in condition.used())
     size = terms * len(places(condition.ring))
     budget.spend(size)
-    counts = dict.fromkeys(covering(condition), FIRST)
+    counts = dict.fromkeys(covering(condition), limits.FIRST_VALUES)
     while True:
         budget.spend(size)
         question = LinearQuestion(
@@ -44,7 +41,7 @@ def point_by_few_values(
             {name: trials(condition, name, False, n, roles) for name, n in counts.items()},
         )
         found, guilty = question.asked(budget)
-        more = [name for name in guilty if counts[name] < MOST]
+        more = [name for name in guilty if counts[name] < limits.MOST_VALUES]
         if found is not None or not more:
             return found
         for name in more:
@@ -114,11 +111,15 @@ class LinearQuestion:
         """A point, or the variables whose values are to blame; neither where Z3 gives up."""
         session = session_of(budget)
         solver = z3.SolverFor("QF_LRA", ctx=session.context)
-        solver.set("rlimit", RESOURCES)
+        solver.set("rlimit", limits.Z3_VALUES_WORK)
         solver.from_string("\n".join(self.rows))
         held = {self.guard(name): name for name in self.values}
         result = str(solver.check(*[z3.Bool(one, session.context) for one in held]))
-        budget.charge(5000 + len(self.rows) + session.work(solver, RESOURCES) // STEPS)
+        budget.charge(
+            5000
+            + len(self.rows)
+            + session.work(solver, limits.Z3_VALUES_WORK) // limits.Z3_LINEAR_STEPS
+        )
         if result == "unsat":
             return None, sorted(held[str(one)] for one in solver.unsat_core())
         if result != "sat":

@@ -15,17 +15,11 @@ from flint import arb_mat as BallMatrix
 
 from juggleproof.algebra.conditions import Condition, places, valued
 from juggleproof.algebra.number_field import at_elements
-from juggleproof.algebra.numbers import determinant, real_roots
+from juggleproof.algebra.numbers import determinant, exact, real_roots
+from juggleproof.search import limits
 from juggleproof.search.hints.models import approximate_points
 from juggleproof.search.samples import Assignment
 from juggleproof.statements.work import Budget
-
-BITS, STEPS = 1200, 9
-DEGREES = (2, 4, 8, 12, 16)
-MOST_VARIABLES = 4
-ATTAINED = fmpq(1, 10**4)
-SHORT = 40  # bits of a coefficient that is no chance
-COMBINATIONS = ((1, 0, 0, 0), (0, 1, 0, 0), (1, 1, 0, 0), (1, 2, 3, 5), (3, -1, 2, 7))
 
 
 def isolated_points(
@@ -35,14 +29,16 @@ def isolated_points(
     be attained, hold exactly; the others are left to whoever uses them.
     """
     variables = [name for name in names if name in condition.variables()]
-    if not 1 < len(variables) <= MOST_VARIABLES:
+    if not 1 < len(variables) <= limits.ISOLATED_VARIABLES:
         return
     seen: list[dict[str, fmpq_poly]] = []
     for guide in approximate_points(condition, names, budget):
         tight = [
             poly
             for poly, relation in condition.facts()
-            if relation == "=" or relation == ">=" and abs(valued(poly, guide) or 0) < ATTAINED
+            if relation == "="
+            or relation == ">="
+            and abs(valued(poly, guide) or 0) < exact(limits.ATTAINED)
         ]
         for equations in (tight, tight + minors(tight, variables)):
             if len(equations) < len(variables):
@@ -84,8 +80,8 @@ def refined(
     size, count = len(variables), len(equations)
     slopes = [[poly.derivative(place[name]) for name in variables] for poly in equations]
     point = [guide[name] for name in variables]
-    with ctx.workprec(BITS):
-        for _ in range(STEPS):
+    with ctx.workprec(limits.ISOLATED_BITS):
+        for _ in range(limits.ISOLATED_STEPS):
             at = dict(zip(variables, point))
             jacobian = BallMatrix(count, size, [arb(valued(p, at)) for row in slopes for p in row])
             missed = BallMatrix(count, 1, [arb(valued(poly, at)) for poly in equations])
@@ -96,7 +92,7 @@ def refined(
                 return None
             point = [value - rounded(step[k, 0]) for k, value in enumerate(point)]
         at = dict(zip(variables, point))
-        near = fmpq(1, 1 << (BITS // 2))
+        near = fmpq(1, 1 << (limits.ISOLATED_BITS // 2))
         return point if all(abs(valued(poly, at) or fmpq(0)) < near for poly in equations) else None
 
 
@@ -104,14 +100,14 @@ def rounded(value: arb) -> fmpq:
     """A rational close to the middle of a ball."""
     man, exp = value.mid().man_exp()
     number = fmpq(int(man)) * fmpq(2) ** int(exp)
-    return fmpq((number * (1 << BITS)).floor(), 1 << BITS)
+    return fmpq((number * (1 << limits.ISOLATED_BITS)).floor(), 1 << limits.ISOLATED_BITS)
 
 
 def recognised(
     equations: Sequence[fmpq_mpoly], variables: Sequence[str], point: Sequence[fmpq]
 ) -> Assignment | None:
     """The point in one number field, with the equations exactly true; None where none was seen."""
-    for combination in COMBINATIONS:
+    for combination in limits.COMBINATIONS:
         theta = sum((c * value for c, value in zip(combination, point)), fmpq(0))
         modulus = minimal_polynomial(theta)
         if modulus is None:
@@ -138,7 +134,7 @@ def recognised(
 
 def minimal_polynomial(value: fmpq) -> fmpq_poly | None:
     """A polynomial of low degree and short coefficients with a root close to a number."""
-    for degree in DEGREES:
+    for degree in limits.ISOLATED_DEGREES:
         relation = short_relation([value**k for k in range(degree + 1)])
         if relation is not None:
             return fmpq_poly(relation)
@@ -153,11 +149,11 @@ def short_relation(values: Sequence[fmpq]) -> list[int] | None:
     >>> short_relation([fmpq(1), 1 + fmpq(1, 10**30)]) is None
     True
     """
-    size, scale = len(values), 1 << (BITS // 2)
+    size, scale = len(values), 1 << (limits.ISOLATED_BITS // 2)
     rows = [
         [*(int(j == k) for j in range(size)), int((value * scale).floor())]
         for k, value in enumerate(values)
     ]
     reduced = fmpz_mat(rows).lll()
     first = [int(reduced[0, k]) for k in range(size + 1)]
-    return first[:-1] if max(map(abs, first)) < 1 << SHORT else None
+    return first[:-1] if max(map(abs, first)) < 1 << limits.SHORT else None

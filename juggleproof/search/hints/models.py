@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from juggleproof.algebra.conditions import Condition, Tree, places
 from juggleproof.algebra.number_field import common_field
-from juggleproof.algebra.numbers import AlgebraicNumber, simplest_between
+from juggleproof.algebra.numbers import AlgebraicNumber, exact, simplest_between
+from juggleproof.search import limits
 from juggleproof.search.candidates import Value, trials
 from juggleproof.search.hints.asking import ask
 from juggleproof.search.hints.few_values import point_by_few_values
@@ -21,8 +22,6 @@ from juggleproof.statements.work import Budget
 # -------------------------------------------------------------------------------------------------
 # Points where sampling fails: a model of Z3, its values pinned one after another to the simplest
 # that leave the rest possible.
-
-WINDOWS = tuple(fmpq(1, 4**k) for k in range(6))
 
 
 def model_assignments(
@@ -95,7 +94,7 @@ def _simple_values(
         centre = value
     if integral:
         return [*found, centre] if centre.q == 1 else found
-    for window in WINDOWS:
+    for window in map(exact, limits.WINDOWS):
         simple = simplest_between(centre - window, centre + window)
         if simple not in found:
             found.append(simple)
@@ -113,8 +112,6 @@ def _constant(value: fmpq) -> fmpq_poly:
 # a guide to exact ones, and no more.
 
 Array = NDArray[np.float64]
-STARTS, STEPS = 12, 40
-MARGINS = (0.2, 0.02, 0.001, 0.0)  # by how much inequalities are to be met, ever less
 
 
 class Residuals:
@@ -164,11 +161,11 @@ def approximate_points(
     variables = [name for name in names if name in condition.variables()]
     at = [places(condition.ring)[name] for name in variables]
     random = np.random.default_rng(11)
-    for _ in range(STARTS if variables else 0):
+    for _ in range(limits.STARTS if variables else 0):
         atoms = list(_alternative(condition.tree, random))
         residuals = Residuals([(condition.polys[k], relation) for k, relation in atoms], at)
         start = random.normal(0.0, 1.5, len(variables))
-        for margin in MARGINS:
+        for margin in limits.START_MARGINS:
             point = _descended(residuals, start, margin, budget)
             if point is not None:
                 yield {
@@ -195,7 +192,7 @@ def _descended(residuals: Residuals, point: Array, margin: float, budget: Budget
     damping = 1e-2
     with np.errstate(all="ignore"):
         value, jacobian = residuals.at(point, margin)
-        for _ in range(STEPS):
+        for _ in range(limits.STEPS):
             budget.spend(10 + 6 * len(residuals.starts) * (1 + len(point) // 3))
             size = float(value @ value)
             if not np.isfinite(size):

@@ -16,6 +16,7 @@ from math import prod
 import numpy as np
 
 from juggleproof.algebra.polynomials import Packing, total_degree
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.lifting import lift, powers_of
 from juggleproof.search.psatz.linear_program import Program, solve
@@ -23,19 +24,16 @@ from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
-LEAST_DEGREE = 3  # of the last fact: pairs of facts are sought elsewhere
-MOST_PRODUCTS = 3000
-
 
 def search_by_monomials(problem: LeafProblem, budget: Budget) -> Node | None:
     """The node of such a contradiction; None where there is none, or where there are many products.
 
     Raises Exhausted where the budget ends.
     """
-    if not problem.facts or total_degree(problem.facts[-1].poly) < LEAST_DEGREE:
+    if not problem.facts or total_degree(problem.facts[-1].poly) < limits.MONOMIALS_DEGREE:
         return None
     found = [*dict.fromkeys(products_along(problem))]
-    if not 0 < len(found) <= MOST_PRODUCTS:
+    if not 0 < len(found) <= limits.MONOMIALS_PRODUCTS:
         return None
     program, packing = Program(), Packing(problem.ring, problem.polys())
     for factors in found:
@@ -68,7 +66,7 @@ def products_along(problem: LeafProblem) -> Iterator[Factors]:
             [(), *((k,) for k in linear if problem.facts[k].poly.degrees()[v])] for v in variables
         ]
         count += prod(map(len, choices))
-        if count > MOST_PRODUCTS:
+        if count > limits.MONOMIALS_PRODUCTS:
             return
         for chosen in product(*choices):
             yield powers_of(tuple(k for one in chosen for k in one))

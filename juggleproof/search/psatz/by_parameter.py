@@ -20,6 +20,7 @@ import numpy as np
 from flint import fmpq, fmpq_poly, fmpz_mpoly
 
 from juggleproof.algebra.numbers import determinant, exact, fraction
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import BoundedVariable, Factors, merge
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.parameters import bounds
@@ -28,12 +29,6 @@ from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
 
 Coefficients = Sequence[fmpq_poly]  # of a fact: of each variable but the parameter, then of 1
-MOST_OTHERS = 4  # variables beside the parameter
-MOST_SETS = 20_000  # of facts that are tried
-TO_FIND_A_FORM = 20  # units of work
-HIGHER = 12  # degrees beyond that of a polynomial, in which its form may have no negative numbers
-SMALLEST, ROUNDING = 1e-12, 1e-7  # minor, and sum of them, of numbers that are 1 at most
-INSIDE = tuple(Fraction(k, 8) for k in (1, 4, 7))  # where signs are looked at first
 
 
 @dataclass(frozen=True)
@@ -72,7 +67,7 @@ def linear_rows(problem: LeafProblem, parameter: int) -> dict[int, Coefficients]
         for v in range(len(problem.ring.names))
         if v != parameter and any(poly.degrees()[v] for poly in polys)
     ]
-    if not 0 < len(others) <= MOST_OTHERS:
+    if not 0 < len(others) <= limits.MOST_OTHERS:
         return None
     rows: dict[int, Coefficients] = {}
     for k, fact in enumerate(problem.facts):
@@ -106,8 +101,8 @@ def contradiction(
 ) -> tuple[Used, list[fmpz_mpoly]] | None:
     """A sum of products that vanishes, by as few facts as there are."""
     low, high = (problem.facts[k].end(between.variable) for k in (between.low, between.high))
-    inside = [exact(low + (high - low) * part) for part in INSIDE]
-    left = MOST_SETS
+    inside = [exact(low + (high - low) * part) for part in limits.MINORS_AT]
+    left = limits.MOST_SETS
     sets: list[tuple[tuple[int, ...], bool]] = []
     for size in range(2, len(next(iter(rows.values()), ())) + 1):
         some = [*islice(combinations(rows, size), left)]
@@ -123,7 +118,7 @@ def contradiction(
         total = sum((m * rows[k][-1] for m, k in zip(multiples, chosen)), fmpq_poly([]))
         if any(total(at) > 0 for at in inside):
             continue
-        budget.spend(TO_FIND_A_FORM)
+        budget.spend(limits.FORM_WORK)
         parts = identity(problem, between, [*zip(multiples, chosen)], total)
         if parts is not None:
             powers = sorted({part.power for _, part in parts if part.power})
@@ -157,10 +152,10 @@ def seen_to_contradict(
         minors = np.stack([np.linalg.det(part[:, rest]) for rest in others], axis=1)
         minors *= (-1.0) ** np.arange(size)
         sums = np.einsum("ck,ckv->cv", minors, matrices)
-        alone = (np.abs(sums[:, :-1]) < ROUNDING).all(axis=1)
+        alone = (np.abs(sums[:, :-1]) < limits.MINOR_ROUNDING).all(axis=1)
         for sign in (1, -1):
-            positive = (sign * minors > SMALLEST).all(axis=1)
-            seen |= positive & alone & (sign * sums[:, -1] < ROUNDING)
+            positive = (sign * minors > limits.MINOR).all(axis=1)
+            seen |= positive & alone & (sign * sums[:, -1] < limits.MINOR_ROUNDING)
     return [bool(one) for one in seen]
 
 
@@ -228,7 +223,7 @@ def nonnegative(
     coefficients = poly.coeffs()
     power = next(k for k, c in enumerate(coefficients) if c) // 2 if apart else 0
     rest = fmpq_poly(coefficients[2 * power :])
-    for degree in range(rest.degree(), rest.degree() + HIGHER):
+    for degree in range(rest.degree(), rest.degree() + limits.HIGHER):
         values = between.coefficients(problem.facts, rest, degree)
         if min(values) >= 0:
             for k, value in enumerate(values):

@@ -9,12 +9,7 @@ from math import comb
 from flint import fmpz_mpoly
 
 from juggleproof.algebra.polynomials import Ring, total_degree
-
-MOST = 6  # of the candidates of one kind
-MOST_PAIRS = 500  # of facts with a resultant
-# Of a resultant that is factored, and of the products that it is made of: 5,324 and 57,354 at most
-# in searches for the paper's claims.
-MOST_DIGITS, MOST_PRODUCTS = 50_000, 1_000_000
+from juggleproof.search import limits
 
 
 class Pool:
@@ -34,7 +29,7 @@ class Pool:
 
 
 def squares(
-    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
+    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = limits.MOST_PER_KIND
 ) -> list[fmpz_mpoly]:
     """Candidates for squares, cheapest first: repeated factors, critical lines, variables,
     differences of variables.
@@ -95,7 +90,7 @@ def products(linear: fmpz_mpoly, other: fmpz_mpoly, v: int) -> int:
 
 
 def resultants(
-    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
+    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = limits.MOST_PER_KIND
 ) -> list[fmpz_mpoly]:
     """Factors of resultants of two facts in a variable that is linear in one of them, smallest
     first; none where there are too many pairs, and none of those that are too large, as the time
@@ -109,11 +104,13 @@ def resultants(
         for p, q in combinations([p for p in facts if p.degrees()[v]], 2)
         if min(p.degrees()[v], q.degrees()[v]) == 1
     ]
-    for p, q, v in pairs if len(pairs) <= MOST_PAIRS else ():
+    for p, q, v in pairs if len(pairs) <= limits.MOST_PAIRS else ():
         linear, other = sorted((p, q), key=lambda poly: poly.degrees()[v])
-        if products(linear, other, v) <= MOST_PRODUCTS:
+        if products(linear, other, v) <= limits.MOST_PRODUCTS:
             resultant = p.resultant(q, v)
-            for factor, _ in ring.factors(resultant) if digits(resultant) <= MOST_DIGITS else ():
+            for factor, _ in (
+                ring.factors(resultant) if digits(resultant) <= limits.MOST_DIGITS else ()
+            ):
                 pool.add(factor)
     found = [
         p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)

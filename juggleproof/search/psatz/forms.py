@@ -29,6 +29,7 @@ from juggleproof.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.algebra.semidefinite import Floats, LinearEquations, as_squares
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Axis, merge
 from juggleproof.search.psatz.lifting import lift
 from juggleproof.search.psatz.parameters import (
@@ -45,14 +46,6 @@ from juggleproof.search.psatz.sums_of_squares import (
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.states import SearchState
 from juggleproof.statements.work import Budget, Exhausted
-
-MOST_PARTS = 100  # Bernstein polynomials of one box
-MOST_GUARDS = 6  # facts of degree 1 or 2 in z
-RAISED = 3  # by how much a degree is raised
-EACH = 1500  # units of work for one coefficient
-SAMPLES, MARGIN = 1000, 1e-3
-DENOMINATORS = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
-MIDDLES = ((1e-4, 1e-5), (1e-6, 1e-6))  # as `sums_of_squares.GOALS`, but in the middle of the cone
 
 Form = dict[Monomial, Fraction]  # exponents of all variables: coefficient
 Found = tuple[list[Square], list[fmpz_mpoly]]  # with the roots
@@ -155,7 +148,7 @@ class QuadraticForm:
                     ]
                     for height in (1, 2)
                 )
-                if len(linear) + len(quadratic) <= MOST_GUARDS:
+                if len(linear) + len(quadratic) <= limits.FORM_GUARDS:
                     yield linear, quadratic
                     break
 
@@ -183,10 +176,10 @@ class QuadraticForm:
         axes = self._axes([self.form.poly])
         basis = self._basis([g.poly for g in whole], not all(g.homogeneous for g in whole))
         blocks = list(self._products(linear, quadratic))
-        for more in range(RAISED + 1):
+        for more in range(limits.FORM_RAISED + 1):
             degrees = [degree_in(self.form.poly, axis.variable) + more for axis in axes]
             count = prod(n + 1 for n in degrees)
-            if more and not axes or count > MOST_PARTS:
+            if more and not axes or count > limits.FORM_PARTS:
                 break
             budget.spend(count * len(basis))
             found, at_vertex = self._each(
@@ -313,7 +306,7 @@ class QuadraticForm:
 
         inside = InnerProgram(self.ring, [goal, squares, *blocks], [], kept, total)
         inside.completed = completed
-        part = budget.part(EACH)
+        part = budget.part(limits.COEFFICIENT_WORK)
         try:
             if inside.node(part) is None and inside.solved:
                 SquaresProgram(self.ring, inside.blocks, [], kept, total).node(part)
@@ -337,18 +330,18 @@ def is_negative(form: Form, basis: Sequence[fmpz_mpoly], blocks: Sequence[FactBl
         for i in range(len(basis))
         for j in range(i + 1)
     }
-    random, size = np.random.default_rng(11), (SAMPLES, len(basis))
+    random, size = np.random.default_rng(11), (limits.FORM_POINTS, len(basis))
     points = random.normal(size=size) * np.exp(random.normal(size=size))
     points /= np.abs(points).max(axis=1, keepdims=True)
     if basis[0] == 1:
         points[:, 0] = np.abs(points[:, 0])
-    kept = np.ones(SAMPLES, dtype=bool)
+    kept = np.ones(limits.FORM_POINTS, dtype=bool)
     for terms in (*(terms_of(block.poly, Fraction(1)) for block in blocks), form):
-        top, values = max(map(abs, terms.values())), np.zeros(SAMPLES)
+        top, values = max(map(abs, terms.values())), np.zeros(limits.FORM_POINTS)
         for m, c in terms.items():
             i, j = place[m]
             values += float(c / top) * points[:, i] * points[:, j]
-        kept &= values >= 0 if terms is not form else values < -MARGIN
+        kept &= values >= 0 if terms is not form else values < -limits.FORM_MARGIN
     return bool(kept.any())
 
 
@@ -358,8 +351,8 @@ class InnerProgram(SquaresProgram):
     are rounded; the squares, its second block, are `completed` from what these leave.
     """
 
-    goals: Sequence[tuple[float, float]] = MIDDLES
-    denominators: Sequence[int] = DENOMINATORS
+    goals: Sequence[tuple[float, float]] = limits.FORM_GOALS
+    denominators: Sequence[int] = limits.FORM_DENOMINATORS
     kernels: Sequence[float] = ()
     completed: Callable[[list[Square], Form], Node | None] = lambda *_: None
     solved: bool = False  # whether there are floating matrices

@@ -12,6 +12,7 @@ from math import gcd, lcm, prod
 from flint import fmpz_mpoly
 
 from juggleproof.algebra.polynomials import degree_in, pseudo_divide, total_degree
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import (
     Fact,
     Factors,
@@ -25,8 +26,6 @@ from juggleproof.search.psatz.problem import LeafProblem, Source
 from juggleproof.statements.nodes import Cofactor, Node, Product, Psatz
 
 MonomialCofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
-SWEEPS = 8
-LONG = 200  # bits of a number of an identity, from which on a shorter form is sought
 
 
 def powers_of(chosen: tuple[int, ...]) -> Factors:
@@ -185,7 +184,7 @@ def finish(
             owed[k] = owed.get(k, ring.zero) - quotient * more * c
         extra = merge(extra, factors)
         total = rest * multiple
-    for _ in range(SWEEPS if total else 0):
+    for _ in range(limits.SIMPLIFICATIONS if total else 0):
         for equation in reduction.basis():
             # total * scale = quotient * poly + rest, with a scale that makes every division of
             # coefficients exact
@@ -290,7 +289,7 @@ def shortest_divisor(weights: Sequence[int], cofactors: Sequence[fmpz_mpoly]) ->
     2
     """
     shared = gcd(*weights, *(int(c.content()) for c in cofactors))
-    if max(weights, default=0).bit_length() - shared.bit_length() < LONG:
+    if max(weights, default=0).bit_length() - shared.bit_length() < limits.LONG_NUMBER:
         return shared
     every = [*weights, *(int(c) for poly in cofactors for c in poly.coeffs())]
 

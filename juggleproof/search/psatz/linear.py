@@ -26,6 +26,7 @@ from juggleproof.algebra.polynomials import (
     multiply,
     total_degree,
 )
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Factors, merge, power
 from juggleproof.search.psatz.lifting import (
     LiftedTerm,
@@ -34,14 +35,7 @@ from juggleproof.search.psatz.lifting import (
     lift,
     powers_of,
 )
-from juggleproof.search.psatz.linear_program import (
-    MOST_COLUMNS,
-    Floats,
-    Mask,
-    Program,
-    counted,
-    solve,
-)
+from juggleproof.search.psatz.linear_program import Floats, Mask, Program, counted, solve
 from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget
@@ -56,9 +50,6 @@ from juggleproof.statements.work import Budget
 Solution = tuple[
     list[tuple[tuple[Factors, int], Fraction]], list[tuple[MonomialCofactor, Fraction]]
 ]
-
-
-MOST_TERMS = 3_000_000  # of the columns together: some 300 MB
 
 
 class ProgramTooLarge(Exception):
@@ -131,7 +122,7 @@ class ProductCombination:
         )
 
     def _count(self, columns: int, terms: int) -> None:
-        if columns > MOST_COLUMNS or terms > MOST_TERMS:
+        if columns > limits.MOST_COLUMNS or terms > limits.MOST_PRODUCT_TERMS:
             raise ProgramTooLarge
 
     def _height(self, poly: fmpz_mpoly) -> int:
@@ -192,7 +183,7 @@ class ProductCombination:
                 max(0, min(room, b * degree + bernstein - o)) if b else 0
                 for b, o in zip(bounds, own)
             ]
-            most = MOST_COLUMNS - self.columns
+            most = limits.MOST_COLUMNS - self.columns
             monomials = list(islice(exponents_up_to(tops, room), most + 1))
             keys, values = self.packing.row(equation.poly)
             self.columns += len(monomials)
@@ -382,9 +373,6 @@ class BernsteinLevel:
 # One leaf of a proof: facts that contradict one another, shown by a positive combination that
 # vanishes identically.
 
-MOST_FOR_TRIPLES = 10
-MOST_SOLVED = 5000
-TOO_LARGE = 1000  # units of work, for a program that is given up while it is made
 # (facts, stage) -> the solution, and the work that it takes: the same facts come back, in other
 # cases and at greater effort
 _solved: dict[tuple[Hashable, int, int, str], tuple[Solution | None, int]] = {}
@@ -477,7 +465,7 @@ def search(problem: LeafProblem, stages: Sequence[Stage], budget: Budget) -> Nod
             )
             if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
                 continue  # nothing that a smaller stage did not have
-            if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
+            if degree > 2 and len(problem.facts) > limits.MOST_FACTS_FOR_TRIPLES:
                 continue
             left = budget.left
             try:
@@ -491,8 +479,8 @@ def search(problem: LeafProblem, stages: Sequence[Stage], budget: Budget) -> Nod
                 OverflowError,
                 FloatingPointError,
             ):  # of terms, or of coefficients
-                budget.spend(TOO_LARGE)
-            if len(_solved) >= MOST_SOLVED:
+                budget.spend(limits.GIVEN_UP_WORK)
+            if len(_solved) >= limits.MOST_PROGRAMS:
                 _solved.clear()
             _solved[stage] = solution, left - budget.left
         node = None if solution is None else lift(problem, *solution, roots[kind])

@@ -17,14 +17,12 @@ from flint import fmpz_mat
 from numpy.typing import NDArray
 
 from juggleproof.algebra.polynomials import Keys
+from juggleproof.search import limits
 from juggleproof.statements.work import Budget
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 EXACT = float(1 << 53)
-MOST_ENTRIES = 6_000_000
-MOST_ITERATIONS = 5000
-TINY = 1e-9
 
 
 def _no_exponents(keys: Keys) -> Keys:
@@ -84,7 +82,9 @@ class Program:
 Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 
 
-def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -> Solution | None:
+def solve(
+    program: Program, budget: Budget, iterations: int = limits.MOST_ITERATIONS
+) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used,
     exactly; None where none were found.
 
@@ -116,7 +116,7 @@ def solve(program: Program, budget: Budget, iterations: int = MOST_ITERATIONS) -
     size = work.sizes()
     inequality, strict, costs = alive < count, strict[alive], costs[alive]
     budget.spend(100 + work.rows * work.columns // 8)
-    for jitter in JITTER:
+    for jitter in limits.JITTER:
         values = optimum(
             replace(work, values=work.values / size[work.at_column]),
             inequality,
@@ -191,10 +191,7 @@ class SparseMatrix:
         return array
 
 
-JITTER = (0.0, 0.7)
-DEEPEST = 60  # equations used one after another on one monomial
-MOST_COLUMNS = 20_000
-NOISE = np.random.default_rng(7).random(MOST_COLUMNS)
+NOISE = np.random.default_rng(7).random(limits.MOST_COLUMNS)
 
 
 def assemble(program: Program, budget: Budget) -> SparseMatrix | None:
@@ -204,7 +201,7 @@ def assemble(program: Program, budget: Budget) -> SparseMatrix | None:
     columns, values = program.columns, np.concatenate(program.values)
     keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
     budget.spend(20 + len(values) // 4)
-    if len(keys) * columns > MOST_ENTRIES or columns > MOST_COLUMNS:
+    if len(keys) * columns > limits.MOST_ENTRIES or columns > limits.MOST_COLUMNS:
         return None
     budget.spend(len(keys) * columns // 50)
     places = np.concatenate(program.places)
@@ -225,7 +222,7 @@ def assemble(program: Program, budget: Budget) -> SparseMatrix | None:
             return None
         values, places = values[entry] * coefficients[part], places[entry]
         inverse = inverse[part]
-        if len(keys) * columns > MOST_ENTRIES:
+        if len(keys) * columns > limits.MOST_ENTRIES:
             return None
     turned = np.bincount(places * len(keys) + inverse, values, columns * len(keys))
     return SparseMatrix.of(turned.astype(np.float64, copy=False).reshape(columns, len(keys)))
@@ -266,7 +263,7 @@ def normal_forms(keys: Keys, program: Program, budget: Budget) -> list[Form]:
         done[key] = 1, {key: 1}
         for leading, lead, tail in rules:
             if all(map(ge, exponents, leading)):
-                if tail and depth == DEEPEST:
+                if tail and depth == limits.MOST_EQUATIONS_ON_A_MONOMIAL:
                     raise RecursionError
                 parts = []
                 for move, moves, c in tail:
@@ -347,7 +344,7 @@ def optimum(
     solver.setOptionValue("simplex_iteration_limit", iterations)
     solver.passModel(model)
     solver.run()
-    solver.setOptionValue("simplex_iteration_limit", MOST_ITERATIONS)
+    solver.setOptionValue("simplex_iteration_limit", limits.MOST_ITERATIONS)
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
         return None
     return np.array(solver.getSolution().col_value)
@@ -355,7 +352,7 @@ def optimum(
 
 def supports(values: Floats) -> Iterator[Keys]:
     """The columns that are used at the vertex that was found last, then its basic columns."""
-    yield np.flatnonzero(np.abs(values) > TINY)
+    yield np.flatnonzero(np.abs(values) > limits.NONZERO)
     basic = highspy.HighsBasisStatus.kBasic
     statuses = SOLVER.highs.getBasis().col_status
     yield np.array([k for k, status in enumerate(statuses) if status == basic], dtype=np.int64)
@@ -368,7 +365,7 @@ OPTIONS = (
     ("threads", 1),
     ("random_seed", 1),
     ("solver", "simplex"),
-    ("simplex_iteration_limit", MOST_ITERATIONS),
+    ("simplex_iteration_limit", limits.MOST_ITERATIONS),
     ("primal_feasibility_tolerance", 1e-10),
 )
 

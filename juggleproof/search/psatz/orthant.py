@@ -25,19 +25,13 @@ from juggleproof.algebra.polynomials import (
     constant_of,
     total_degree,
 )
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Factors, merge, power
 from juggleproof.search.psatz.lifting import MonomialCofactor, lift
 from juggleproof.search.psatz.linear_program import EXACT, Program, solve
 from juggleproof.search.psatz.problem import LeafProblem
 from juggleproof.statements.nodes import Node
 from juggleproof.statements.work import Budget, Exhausted
-
-MOST_FOR_PAIRS = 8  # facts beside the coordinates
-ROUNDS = 2  # of multipliers, each for the monomials of those before
-MORE = 2  # degrees beyond that of the facts
-SMALL = 8  # terms of a fact that coordinates are chosen by
-MOST_ROOTS = 12
-
 
 Multiple = tuple[Fraction, Factors]  # a positive number times strict facts
 
@@ -113,7 +107,7 @@ class Orthant:
         self.budget.spend(len(self.only) * self.ring.size)
         best: tuple[tuple[int, ...], OrthantStep] | None = None
         facts = [(k, self.facts[k]) for k in self.only]
-        small = [(p, not_negative(p)) for _, p in facts if len(p) <= SMALL]
+        small = [(p, not_negative(p)) for _, p in facts if len(p) <= limits.ORTHANT_TERMS]
         for k, poly in facts:
             for v in () if k in self.own.values() else range(self.ring.size):
                 step = self._step(k, v) if v not in self.own and poly.degrees()[v] == 1 else None
@@ -229,7 +223,7 @@ class OrthantLeaf:
         ]
         self.alone = rest  # of which the first bases are
         groups: list[tuple[int, ...]] = [(k,) for k in rest]
-        if len(rest) <= MOST_FOR_PAIRS:
+        if len(rest) <= limits.MOST_FACTS_IN_ORTHANT:
             groups += combinations_with_replacement(rest, 2)
         self.bases = []
         for group in groups:
@@ -238,11 +232,11 @@ class OrthantLeaf:
             for k in group:
                 multiple = both(multiple, orthant.multiples[k])
             self.bases.append(Base(poly, multiple, all(facts[k].strict for k in group)))
-        top = max((b.degree for b in self.bases[: len(rest)]), default=0) + MORE
+        top = max((b.degree for b in self.bases[: len(rest)]), default=0) + limits.ORTHANT_MORE
         self.bases = [base for base in self.bases if base.degree <= top]
-        for root in self.problem.candidates("squares", 4 * MOST_ROOTS):
+        for root in self.problem.candidates("squares", 4 * limits.ORTHANT_ROOTS):
             poly, multiple = orthant.changed(root)
-            if len(poly) > 1 and len(self.bases) < len(rest) + len(groups) + MOST_ROOTS:
+            if len(poly) > 1 and len(self.bases) < len(rest) + len(groups) + limits.ORTHANT_ROOTS:
                 self.bases.append(Base(poly * poly, both(multiple, multiple), root=root))
         self.equations = [Base(*orthant.changed(e.poly)) for e in self.problem.reduction.left]
         self.top = top
@@ -257,7 +251,7 @@ class OrthantLeaf:
         reached: dict[Monomial, None] = {}
         for k in start:
             reached.update((m, None) for m, c in every[k].terms if c > 0)
-        for _ in range(ROUNDS):
+        for _ in range(limits.ORTHANT_ROUNDS):
             new: dict[Monomial, None] = {}
             for k, base in enumerate(every):
                 free = k >= len(self.bases)

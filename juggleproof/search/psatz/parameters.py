@@ -8,10 +8,9 @@ from itertools import combinations
 from flint import fmpz_mpoly
 
 from juggleproof.algebra.polynomials import degree_in
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Axis, BoundedVariable, sides_of
 from juggleproof.search.psatz.problem import LeafProblem
-
-MOST_BOUNDED = 10  # variables with bounds, of which some are the parameters
 
 
 def bounds(problem: LeafProblem) -> dict[int, Axis]:
@@ -44,7 +43,7 @@ def split_variables(
     both = {v for v, axis in axes.items() if isinstance(axis, BoundedVariable)}
     fixed = [v for v in sorted(used) if not degrees[v] and v in both]
     open_ = [v for v in axes if degrees[v]]
-    if len(open_) > MOST_BOUNDED:
+    if len(open_) > limits.MOST_BOUNDED:
         return None
     monomials = [[int(e) for e in m] for m in goal.monoms()]
     best: tuple[tuple[int, bool, int], tuple[int, ...]] | None = None

@@ -22,7 +22,8 @@ from juggleproof.algebra.polynomials import (
     total_degree,
     used_in,
 )
-from juggleproof.search.psatz.candidates import MOST, Pool, resultants, squares
+from juggleproof.search import limits
+from juggleproof.search.psatz.candidates import Pool, resultants, squares
 from juggleproof.search.psatz.facts import (
     BoundedVariable,
     Fact,
@@ -62,8 +63,6 @@ class Source:
 # -------------------------------------------------------------------------------------------------
 # The facts of a state made ready for a search: scales set to 1, equations used up, each fact once
 # and primitive.
-
-MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 
 class LeafProblem:
@@ -219,7 +218,7 @@ class LeafProblem:
         """The facts in the variables of the last one alone; None where that is all of them, or few
         are.
         """
-        if len(self.facts) < MANY:
+        if len(self.facts) < limits.FACTS_IN_TURN:
             return None
         own = [bool(d) for d in self.facts[-1].poly.degrees()]
         found = [
@@ -255,7 +254,7 @@ class LeafProblem:
 
     # -------------------------------------------------------- candidates and divided facts
 
-    def candidates(self, kind: str, most: int = MOST) -> list[fmpz_mpoly]:
+    def candidates(self, kind: str, most: int = limits.MOST_PER_KIND) -> list[fmpz_mpoly]:
         """Polynomials worth squaring: read off the facts before and after the eliminations, and
         reduced.
         """
@@ -378,9 +377,6 @@ def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int
         idle |= found
 
 
-HIGH = 12  # degrees
-
-
 def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
     """The facts of one variable whose degree is high, and twice that of all facts of several: their
     products with these would be most of a program, and few proofs need one.
@@ -389,7 +385,11 @@ def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
     >>> high_facts([a**20 - 2, a**3 - 1, x - a**9]), high_facts([a**20 - 2, x - a**10])
     ({0}, set())
     """
-    high = {k: p for k, p in enumerate(polys) if total_degree(p) > HIGH and len(used_in(p)) == 1}
+    high = {
+        k: p
+        for k, p in enumerate(polys)
+        if total_degree(p) > limits.HIGH_DEGREE and len(used_in(p)) == 1
+    }
     if not high:  # as for nearly all states
         return set()
     most = max((total_degree(p) for p in polys if len(used_in(p)) > 1), default=0)
@@ -402,8 +402,6 @@ def high_facts(polys: Sequence[fmpz_mpoly]) -> set[int]:
 #
 # A point found here proves nothing; it only ends the search for a proof that cannot exist.
 
-SAMPLES, ROUNDS, KEPT, MARGIN = 160, 5, 8, 1e-6
-FLOAT_BITS = 900  # of the coefficients of a fact, which are divided by a power of two beyond
 Array = NDArray[np.float64]
 
 
@@ -419,7 +417,7 @@ class FactValues:
         entries: list[tuple[int, int, float]] = []
         for row, fact in enumerate(problem.facts):
             coefficients = [int(coefficient) for coefficient in fact.poly.coeffs()]
-            longer = max(0, max(map(int.bit_length, coefficients), default=0) - FLOAT_BITS)
+            longer = max(0, max(map(int.bit_length, coefficients), default=0) - limits.FLOAT_BITS)
             for monomial, coefficient in zip(fact.poly.monoms(), coefficients):
                 column = monomials.setdefault(
                     tuple(int(monomial[v]) for v in self.used), len(monomials)
@@ -462,22 +460,22 @@ def has_interior_point(problem: LeafProblem, budget: Budget) -> bool:
     if problem.reduction.left or not problem.facts or len(problem.facts) > 40:
         return False
     values = FactValues(problem)
-    budget.spend(200 + SAMPLES * ROUNDS * len(values.powers) // 20)
+    budget.spend(200 + limits.POINTS * limits.POINT_ROUNDS * len(values.powers) // 20)
     random = np.random.default_rng(11)
-    shape = SAMPLES, len(values.used)
+    shape = limits.POINTS, len(values.used)
     points = random.normal(size=shape) * np.exp(random.normal(size=shape))
     if values.range is not None:
         column, low, high = values.range
-        points[:, column] = low + (high - low) * random.random(SAMPLES)
+        points[:, column] = low + (high - low) * random.random(limits.POINTS)
     width = 0.5
-    for _ in range(ROUNDS):
+    for _ in range(limits.POINT_ROUNDS):
         score = values.least(points)
-        best = np.argsort(-score, kind="stable")[:KEPT]
-        if score[best[0]] > MARGIN:
+        best = np.argsort(-score, kind="stable")[: limits.POINTS_KEPT]
+        if score[best[0]] > limits.POINT_MARGIN:
             return True
-        parents = np.repeat(points[best], SAMPLES // KEPT, axis=0)
+        parents = np.repeat(points[best], limits.POINTS // limits.POINTS_KEPT, axis=0)
         moves = random.normal(size=parents.shape) * (random.random(parents.shape) < 0.5) * width
         points = parents * (1 + moves) + moves * random.random((len(parents), 1)) * 0.3
-        points[:KEPT] = parents[:: SAMPLES // KEPT]
+        points[: limits.POINTS_KEPT] = parents[:: limits.POINTS // limits.POINTS_KEPT]
         width *= 0.6
     return False

@@ -29,6 +29,7 @@ from juggleproof.algebra.semidefinite import (
     as_squares,
     rational_image,
 )
+from juggleproof.search import limits
 from juggleproof.search.psatz.facts import Factors
 from juggleproof.search.psatz.lifting import MonomialCofactor, lift, powers_of
 from juggleproof.search.psatz.problem import LeafProblem
@@ -48,17 +49,6 @@ Square = tuple[tuple[Factors, int], Fraction]  # (factors, number of a root or -
 Lift = Callable[
     [list[Square], list[tuple[MonomialCofactor, Fraction]], list[fmpz_mpoly]], Node | None
 ]
-MOST_ENTRIES = 2_000_000
-MOST_BITS = 6000  # of a coefficient
-MOST_MONOMIALS = 70  # in one block
-DENOMINATORS = (1, 2, 12, 60, 1 << 8, 1 << 14, 1 << 20, 1 << 28)
-ROUNDS = 6
-GOALS = (
-    (1e-4, 1e-9),
-    (1e-5, 1e-8),
-    (1e-6, 1e-7),
-)  # what the trace costs, and where to stop: from simple solutions to the middle of all
-KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
 
 
 @dataclass
@@ -82,9 +72,9 @@ class SquaresProgram:
     cofactors: list[tuple[MonomialCofactor, fmpz_mpoly]]
     lift: Lift
     total: Fraction = Fraction(1)
-    goals: Sequence[tuple[float, float]] = GOALS
-    denominators: Sequence[int] = DENOMINATORS[:4]
-    kernels: Sequence[float] = KERNELS
+    goals: Sequence[tuple[float, float]] = limits.SQUARES_GOALS
+    denominators: Sequence[int] = limits.SQUARES_DENOMINATORS[:4]
+    kernels: Sequence[float] = limits.KERNELS
 
     def node(self, budget: Budget) -> Node | None:
         """The node of an identity that the program leads to."""
@@ -114,13 +104,13 @@ class SquaresProgram:
         long as there are any.
         """
         self.blocks = blocks
-        for _ in range(ROUNDS):
+        for _ in range(limits.SQUARES_ROUNDS):
             confined = self._confined(solved[1], threshold) if solved else []
             sizes = tuple(len(block.basis) for block in confined)
             if not solved or not any(block.strict for block in confined):
                 return None
             if sizes == tuple(len(block.basis) for block in self.blocks):
-                return self._rounded(*solved, DENOMINATORS, budget)
+                return self._rounded(*solved, limits.SQUARES_DENOMINATORS, budget)
             if sizes in tried:
                 return None
             tried.add(sizes)
@@ -139,11 +129,11 @@ class SquaresProgram:
         """The equations, where there are any that could be met, and they are not too many."""
         if (
             not any(block.strict for block in self.blocks)
-            or max(len(block.basis) for block in self.blocks) > MOST_MONOMIALS
+            or max(len(block.basis) for block in self.blocks) > limits.SQUARES_MONOMIALS
         ):
             return None
         linear = LinearEquations(self.blocks, [poly for _, poly in self.cofactors], self.total)
-        return linear if linear.size <= MOST_ENTRIES else None
+        return linear if linear.size <= limits.SQUARES_ENTRIES else None
 
     def _confined(self, grams: list[Floats], threshold: float) -> list[FactBlock]:
         """The blocks, each confined to the complement of its matrix's kernel, where that is a
@@ -190,7 +180,7 @@ class SquaresProgram:
             gram = [[entries[(k, max(i, j), min(i, j))] for j in range(size)] for i in range(size)]
             squares = as_squares(gram)
             if squares is None or any(
-                c.bit_length() > MOST_BITS
+                c.bit_length() > limits.SQUARES_BITS
                 for weight, row in squares
                 for c in (*weight.as_integer_ratio(), *row)
             ):
@@ -224,23 +214,11 @@ def search_squares(programs: Iterable[SquaresProgram], budget: Budget) -> Node |
 # -------------------------------------------------------------------------------------------------
 # Programs of products of a problem's facts.
 
-MOST_FOR_PAIRS = 12  # facts
-# (facts in a product at most, degree beyond that of the facts, whether bounds and signs of single
-# variables are left out)
-STAGES = (
-    (1, 0, True),
-    (1, 0, False),
-    (2, 0, False),
-    (1, 2, True),
-    (1, 2, False),
-    (2, 2, False),
-    (1, 4, True),
-    (1, 4, False),
-)
-
 
 def programs_of_facts(
-    problem: LeafProblem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
+    problem: LeafProblem,
+    budget: Budget,
+    stages: Sequence[tuple[int, int, bool]] = limits.SQUARES_STAGES,
 ) -> Iterator[SquaresProgram]:
     """The programs of the stages, smaller ones first.
 
@@ -262,7 +240,7 @@ def programs_of_facts(
             or without
             and len(bare) == len(everything)
             or count > 1
-            and len(only) > MOST_FOR_PAIRS
+            and len(only) > limits.MOST_FACTS_IN_SQUARES
         ):
             continue
         found = ProductsOfFacts(problem, count, top + top % 2 + more, only, budget)
@@ -294,7 +272,7 @@ class ProductsOfFacts:
             if self._class(monomial) == self._class(poly.monoms()[0])
         ]
         products = sum(len(block.basis) ** 2 * len(block.poly) for block in self.blocks) // 2
-        if products > MOST_ENTRIES:
+        if products > limits.SQUARES_ENTRIES:
             self.blocks = []
         budget.spend(products // 4)
         self.blocks = pruned(self.blocks, [poly for _, poly in self.cofactors])
@@ -304,7 +282,7 @@ class ProductsOfFacts:
         where no equation leaves some out.
         """
         monomials = comb(len(self.used) + self.degree // 2, self.degree // 2)
-        return not self.leading and monomials**2 > 2 * MOST_ENTRIES << len(self.flips)
+        return not self.leading and monomials**2 > 2 * limits.SQUARES_ENTRIES << len(self.flips)
 
     def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
         """The sets of variables whose signs can be changed without changing any fact or equation,

@@ -23,6 +23,7 @@ from flint import fmpq, fmpz_mat
 from juggleproof.algebra.numbers import fraction
 from juggleproof.algebra.trees import HOLDS, leaves, truth
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.statements.nodes import Certificate, Counterexample, Node, Point
 from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.work import Budget, Exhausted, unfolded
@@ -313,7 +314,7 @@ def decide(
     found = solve([(row_of(poly) or {}, relation) for poly, relation in facts], budget, find_basis)
     if isinstance(found, Farkas):
         return leaf(facts, found)
-    if found is None or depth > MOST_SPLITS:
+    if found is None or depth > limits.MOST_SPLITS:
         return None
     open_choices = [
         one for one in state.choices if not any(holds_at(part, found.values) for part in one)
@@ -343,9 +344,6 @@ def decide(
             parts.append(part)
             uses |= part.uses & assumed
     return None if undecided else CaseSplit(on, parts, frozenset(uses))
-
-
-MOST_SPLITS = 150  # below one another: the checker goes down as many
 
 
 def cases_of(state: SearchState, on: Choice | Fact) -> list[SearchState]:

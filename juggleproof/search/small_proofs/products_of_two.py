@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.small_proofs.linear_system import (
     ONE,
     Farkas,
@@ -22,9 +23,6 @@ from juggleproof.statements.nodes import Certificate, Node, Point, Power
 from juggleproof.statements.states import SearchState, state_of, variables_in
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
-MOST_FACTS, MOST_VARIABLES, MOST_CASES = 10, 4, 16
-LINEAR, PAIRS = 3000, 8000  # units of work
-
 
 def search_by_pairs(statement: checker.Statement, budget: Budget) -> Certificate | None:
     """The certificate of a statement for all reals without givens, or of a linear one; None where
@@ -34,7 +32,7 @@ def search_by_pairs(statement: checker.Statement, budget: Budget) -> Certificate
     >>> search_by_pairs(checker.read_statements(text)["a/b"], Budget(10**5))["certified"][2]
     ('psatz', [('2', ((0, 1),), '1'), ('1', ((1, 1),), '1'), ('1', (), 'x - 1')], [])
     """
-    found = search_linear(statement, budget.part(LINEAR))
+    found = search_linear(statement, budget.part(limits.LINEAR_WORK))
     if found is not None or any(map(statement.get, ("exists", "integer", "root"))):
         return found
     unfolding = unfolded(statement)
@@ -42,7 +40,7 @@ def search_by_pairs(statement: checker.Statement, budget: Budget) -> Certificate
         return None
     try:
         state = state_of(unfolding).branch(unfolding.goal(False))
-        node = close_by_pairs(state, budget.part(PAIRS))
+        node = close_by_pairs(state, budget.part(limits.PAIRS_WORK))
     except Exhausted:
         return None
     if node is None:
@@ -60,7 +58,7 @@ def close_by_pairs(state: SearchState, budget: Budget, cases: int = 1) -> Node |
         return node
     alternatives = state.choices[0]
     cases *= len(alternatives)
-    if cases > MOST_CASES:
+    if cases > limits.PAIRS_CASES:
         return None
     rest, nodes = state.branch(), list[Node]()
     del rest.choices[0]
@@ -81,7 +79,7 @@ def leaf_by_pairs(state: SearchState, budget: Budget) -> Node | None:
     """A node by the facts of a state alone, of single facts or of pairs and squares."""
     used = {name for poly, _ in state.facts for name in variables_in(state.context, poly)}
     names = [name for name in state.context.index if name in used]
-    if len(state.facts) > MOST_FACTS or len(names) > MOST_VARIABLES:
+    if len(state.facts) > limits.PAIRS_FACTS or len(names) > limits.PAIRS_VARIABLES:
         return None
     for summands in (singles(state), [*singles(state), *pairs(state, names)]):
         found = solve([(row_of(poly), relation) for poly, relation, _ in summands], budget)

@@ -11,12 +11,11 @@ from importlib import import_module
 from types import ModuleType
 
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.search.small_proofs.simple_counterexamples import search_at_hand
 from juggleproof.statements.nodes import Certificate, Proof
 from juggleproof.statements.work import Budget
 
-MOST_VARIABLES = 120  # of what is not linear: beyond, one leaf takes more work than is counted
-CHEAP = 20_000  # units of work of each cheap search
 HERE = "juggleproof.search"
 
 
@@ -27,23 +26,24 @@ def certificates_in_turn(statement: checker.Statement, budget: Budget) -> Iterat
     >>> [*certificates_in_turn(checker.read_statements(text)["a/b"], Budget(10**5))][0].keys()
     dict_keys(['certified', 'point'])
     """
-    at_hand = search_at_hand(statement, budget.part(CHEAP))
+    at_hand = search_at_hand(statement, budget.part(limits.CHEAP_WORK))
     if at_hand is not None:
         yield at_hand
     by_pairs: Certificate | None = _loaded("small_proofs.products_of_two").search_by_pairs(
-        statement, budget.part(CHEAP)
+        statement, budget.part(limits.CHEAP_WORK)
     )
     if by_pairs is not None:
         yield by_pairs
     names = [name for line in statement.get("forall") for name in line]
-    many = len(names) > MOST_VARIABLES
+    many = len(names) > limits.MOST_VARIABLES
     if many and _loaded("small_proofs.linear_system").linear(statement) is None:
-        tried = f"it is not linear, in {len(names)} variables; at most {MOST_VARIABLES} are tried"
+        most = limits.MOST_VARIABLES
+        tried = f"it is not linear, in {len(names)} variables; at most {most} are tried"
         yield {"unknown": tried}
         return
     whole = _loaded("certificate")
     found: Certificate = whole.search_certificate(
-        statement, {}, budget, attempts=whole.SQUARES_FIRST
+        statement, {}, budget, attempts=limits.SQUARES_FIRST
     )
     yield found
 

@@ -11,19 +11,10 @@ from itertools import product
 
 from juggleproof.algebra.trees import HOLDS, truth
 from juggleproof.certificates import checker
+from juggleproof.search import limits
 from juggleproof.statements.nodes import Certificate, Counterexample, Node
 from juggleproof.statements.work import Budget, Exhausted, unfolded
 
-# the values of each variable, by the number of variables
-VALUES: Sequence[Sequence[int | Fraction]] = (
-    (),
-    (0, 1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2), 3, -3, Fraction(1, 3), Fraction(3, 2), 10),
-    (0, 1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2), 3),
-    (0, 1, -1, 2, Fraction(1, 2)),
-    (0, 1, -1, 2),
-)
-FEW: Sequence[int | Fraction] = (0, 1)
-MOST = 8  # variables, of which each combination of few values is tried
 Term = tuple[int, Sequence[tuple[int, int]]]  # a coefficient, and powers of variables
 
 
@@ -38,10 +29,10 @@ def search_at_hand(statement: checker.Statement, budget: Budget) -> Certificate 
         return None
     unfolding = unfolded(statement)
     names = unfolding.universal
-    if unfolding.obligations or len(names) > MOST:
+    if unfolding.obligations or len(names) > limits.MOST_SIMPLE:
         return None
     assumed = checker.join("and", [*unfolding.premises, unfolding.goal(False)])
-    values = VALUES[len(names)] if len(names) < len(VALUES) else FEW
+    values = limits.SIMPLE_VALUES[min(len(names), len(limits.SIMPLE_VALUES) - 1)]
     known: dict[int, Sequence[Term]] = {}
     try:
         for point in product(values, repeat=len(names)):
