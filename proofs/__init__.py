@@ -59,6 +59,7 @@ at its lowest; """,
     main_parts=("4", "A"),
     appendices=APPENDICES,
     headings=HEADINGS,
+    pages=("README.md", "docs/results.md", "docs/errata.md", "docs/remarks.md"),
     templates=Path(__file__).parent / "templates",
     hooks={
         "explain-bounds": f"{__name__}.theorem.explaining:explain_bounds",

@@ -44,8 +44,8 @@ def folder() -> Path | None:
 
 
 def key(*settings: object, files: str = "*.py") -> str:
-    """A digest of the files of the packages and of the paper that match `files`, the versions of Python and of the
-    libraries, and the settings.
+    """A digest of the files of the packages and of the paper that match `files`, the versions of
+    Python and of the libraries, and the settings.
     """
     digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()

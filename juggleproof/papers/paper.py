@@ -80,6 +80,7 @@ class Paper:
     main_parts     the beginnings of the sections whose wrong statements concern the theorem
     appendices     the titles of the parts that the LaTeX report has claim by claim, by their letter
     headings       the headings of the sections of these parts, in order
+    pages          the pages of this project that have a part which is generated
     templates      the folder of its own templates for reports
     hooks          the places, as "module:name", of what this paper alone has, by name
     """
@@ -97,6 +98,7 @@ class Paper:
     main_parts: tuple[str, ...] = ()
     appendices: Mapping[str, str] = field(default_factory=dict)
     headings: Mapping[str, str] = field(default_factory=dict)
+    pages: tuple[str, ...] = ()
     templates: Path | None = None
     hooks: Mapping[str, str] = field(default_factory=dict)
 

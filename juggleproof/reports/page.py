@@ -492,6 +492,16 @@ def packed(parts: Mapping[str, str]) -> str:
     return signs.replace("z", "!!!!!").replace("<", "v")
 
 
+OWN_STYLE = "/* here stands the paper's own style */\n"
+
+
+def _style(own: Path | None) -> str:
+    """The style of the page, with that of the paper's own templates in its place."""
+    places = [TEMPLATES / "style.css", *([own / "style.css"] if own else [])]
+    whole, *more = [path.read_text(encoding="utf-8") for path in places if path.is_file()]
+    return whole.replace(OWN_STYLE, "".join(more))
+
+
 def _shown(
     contents: Contents,
     drawn: Sequence[Picture],
@@ -560,6 +570,6 @@ def _shown(
         ],
         "linked": linked,
         "parts": packed(parts),
-        "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        "style": raw(_style(paper.templates)),
         "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),
     }

@@ -187,6 +187,6 @@ def regenerated(page: str) -> str:
 
 
 def update() -> None:
-    """Writes the generated part of every page."""
-    for page in PAGES:
+    """Writes the generated part of every page of the paper."""
+    for page in opened().pages:
         write_file(ROOT / page, regenerated(page).encode())
