@@ -16,8 +16,8 @@ from juggleproof.folders import LEDGER
 # -------------------------------------------------------------------------------------------------
 # The reasons for which an item of the paper needs no claim: a closed list.
 
-# An item that asserts something about the paper's system has claims; one that asserts nothing has one of
-# these reasons.
+# An item that asserts something about the paper's system has claims; one that asserts nothing has
+# one of these reasons.
 REASONS = {
     "heading": "names a section, a proof or a part of a table",
     "names": "gives or recalls a name or notation, or is a formula that only names a thing",
