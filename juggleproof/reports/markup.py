@@ -429,8 +429,8 @@ def picture(nodes: Sequence[MarkedStatement], title: str) -> str:
 def depths(nodes: Sequence[MarkedStatement]) -> Mapping[str, int]:
     """The length of the longest path to each node from above; raises ValueError for a cycle.
 
-    >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
-    >>> depths([a, b, Node("c", "", "", "", "")])
+    >>> below = {"a": ("b", "c"), "b": ("c",), "c": ()}
+    >>> depths([MarkedStatement(name, "", "", "", "", below=one) for name, one in below.items()])
     {'a': 0, 'b': 1, 'c': 2}
     """
     known = {node.name: node for node in nodes}
