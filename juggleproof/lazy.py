@@ -29,3 +29,13 @@ def lazy_names(
         return getattr(import_module(file_of[name], package), name)
 
     return sorted(file_of), load, lambda: sorted({*vars(sys.modules[package]), *file_of})
+
+
+def loaded(place: str) -> Any:
+    """The object at a place "module:name"; its module is imported.
+
+    >>> loaded("fractions:Fraction")
+    <class 'fractions.Fraction'>
+    """
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)

@@ -120,6 +120,7 @@ def _y(height: Fraction) -> str:
 # The map and the theorem, as the stored statements have them, and the lines of the written proof.
 
 RULES, PROOF = "theorem", "theorem-by-hand"  # the claims whose statements are shown
+TRAP = "fig-trap"  # the figure that the written proof shows
 IN_UNITS, SCALING = "theorem-in-units", "region-scaling"
 
 

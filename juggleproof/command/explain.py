@@ -26,12 +26,7 @@ from juggleproof.statements.store import DEFAULT, Store
 from juggleproof.statements.work import read
 
 WIDTH = 96  # characters in a line of a rule's conclusion
-OF_THEOREM = (
-    "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
-    " prints them"
-)
 OF_RULES = "docs/theorem.md says why each rule concludes so; for any map, proofs/coq/orbits"
-NO_RANGE = "none: the claim has no range of alpha to settle"
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -61,10 +56,13 @@ def command(parsed: argparse.Namespace) -> int:
 
 
 def _of_theorem(hook: str, *values: object) -> int:
-    """Runs an explanation that only this paper has; returns its exit code.  This loads SymPy, which
-    few explanations need.
+    """Runs an explanation that only some papers have; returns its exit code.  This loads SymPy,
+    which few explanations need.  Raises ClaimError where the paper has none.
     """
-    explained: object = opened().hook(hook, FunctionType)(*values)
+    explain_it = opened().hook(hook, FunctionType)
+    if explain_it is None:
+        raise ClaimError("this paper explains no theorem by values; leave out the options for it")
+    explained: object = explain_it(*values)
     return explained if isinstance(explained, int) else 1
 
 
@@ -112,14 +110,17 @@ def explain(
         for premise in judgement.unproved.get(name, ()):
             print("\n" + textwrap.indent(premise, " " * 8))
     sharp = sharp_range(judgement, claim)
-    if judgement.sharp or not files:
-        print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
+    if judgement.sharp:
+        print(f"sharp range {sharp}")
+    elif not files and opened().parameter:
+        print(f"sharp range none: the claim has no range of {opened().parameter} to settle")
     if judgement.correction:
         print(f"correction  {judgement.correction['text']}")
     print(f"verdict     {verdict.word}" + (f"; {verdict.detail}" if verdict.detail else ""))
     print_tree(claim.id, judgement.rests_on, held, with_premises)
     if any(read(text, name).kind in RULES for name, text in judgement.statements):
-        print(f"proof       {OF_RULES if files else OF_THEOREM}")
+        theorem = None if files else opened().theorem
+        print(f"proof       {theorem.explained if theorem and theorem.explained else OF_RULES}")
     return 0
 
 

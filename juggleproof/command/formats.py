@@ -10,7 +10,7 @@ from pathlib import Path
 from juggleproof.command.outputs import Files, write_all
 from juggleproof.reports.ci import badge, markdown
 from juggleproof.reports.contents import Contents, as_json, gather
-from juggleproof.reports.figures import of_paper, saved
+from juggleproof.reports.figures import labels, of_paper, saved
 from juggleproof.reports.page import FILE, build, pictures
 from juggleproof.reports.part import kept_results
 from juggleproof.reports.tex import compiled, files
@@ -23,20 +23,7 @@ def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    return (
-        files(
-            contents,
-            [
-                (
-                    one.slug,
-                    f"Figure {one.number}. {one.title}" if one.number else one.title,
-                    one.caption,
-                )
-                for one in of_paper()
-            ],
-        ),
-        [],
-    )
+    return files(contents, [labels(one)[:3] for one in of_paper()]), []
 
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:

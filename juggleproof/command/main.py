@@ -85,10 +85,7 @@ def build_parser() -> argparse.ArgumentParser:
     """The parser of all commands and their options."""
     parser: argparse.ArgumentParser = _Parser(
         prog="juggleproof",
-        description=(
-            "Derives, proves or refutes, and independently checks what one paper on juggling"
-            " prints."
-        ),
+        description=("Derives, proves or refutes, and independently checks what one paper prints."),
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")

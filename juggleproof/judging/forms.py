@@ -31,7 +31,7 @@ from juggleproof.statements.language import (
 # plain statements.
 #
 # A vocabulary has what the prints leave unsaid: the standing assumption on a parameter
-# (0 < alpha < 1), the term of an abbreviation (T = 2 r/g), the radicand of a name for a square
+# (such as 0 < a < 1), the term of an abbreviation (T = 2 r/g), the radicand of a name for a square
 # root.  It adds them as lines to the statement, where an auditor reads them.
 
 

@@ -15,6 +15,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from juggleproof.folders import FOLDER
 from juggleproof.judging import limits
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import canonical, plain_file, write_file
@@ -22,7 +23,7 @@ from juggleproof.statements.store import canonical, plain_file, write_file
 Record = dict[str, Any]  # plain data, as JSON has it
 VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("juggleproof", "symbolic", "proofs", "certificates")  # in a wheel the first has the rest
+SOURCES = ("juggleproof", "symbolic", "certificates")  # in a wheel the first has the rest
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
 
 
@@ -41,16 +42,16 @@ def folder() -> Path | None:
         return None
 
 
-def key(*settings: object, root: Path = ROOT, files: str = "*.py") -> str:
-    """A digest of the packages' files that match `files`, the versions of Python and of the
-    libraries, and the settings.
+def key(*settings: object, files: str = "*.py") -> str:
+    """A digest of the files of the packages and of the paper that match `files`, the versions of
+    Python and of the libraries, and the settings.
     """
     digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
-    for path in _sources(root, files):
+    for name, path in sources(files):
         content = path.read_bytes()
-        digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
+        digest.update(f"\n{name} {len(content)}\n".encode())
         digest.update(content)
     return digest.hexdigest()
 
@@ -63,11 +64,12 @@ def version_of(tool: str) -> str:
         return "absent"
 
 
-def _sources(root: Path, files: str = "*.py") -> Iterator[Path]:
-    for package in SOURCES:
-        for path in sorted((root / package).rglob(files)):
+def sources(files: str = "*.py") -> Iterator[tuple[str, Path]]:
+    """The files that match, each with its name, which begins with that of its package."""
+    for folder in (*(ROOT / package for package in SOURCES), FOLDER):
+        for path in sorted(folder.rglob(files)):
             if path.parent.name != "__pycache__" and path.is_file():
-                yield path
+                yield f"{folder.name}/{path.relative_to(folder).as_posix()}", path
 
 
 def load(key: str) -> list[Record]:

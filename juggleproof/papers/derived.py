@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TypeVar, Union
 
 from juggleproof.folders import LEDGER, folder_of
+from juggleproof.papers.paper import opened
 from juggleproof.reading.values import Matrix, Vector
 from juggleproof.statements.formulas import Argument, Expression
 from juggleproof.statements.language import ClaimError, Formula, Term, real, term
@@ -23,7 +24,6 @@ from juggleproof.statements.store import canonical, write_file
 
 PATH = LEDGER / "derived.json"
 ENCODER = "juggleproof.encoding"
-SYMBOLIC = "juggleproof.symbolic"
 RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
 JOINED = ("and", "or", "not", "implies", "iff")
 Value = Union[Term, Formula, Vector, Matrix, str, tuple["Value", ...]]
@@ -109,21 +109,18 @@ def derived_by(kind: type[Kind], function: str, *arguments: Hashable) -> Kind:
 
 
 def digest_of(names: Iterable[str]) -> str:
-    """A digest of the sources that derive values: all of `symbolic`, the encoder, and the modules
-    of the named functions.
+    """A digest of the sources that derive values: the encoder, the modules of the named
+    functions, and all of the package that derives the paper's expressions.
     """
     modules = {name.partition("(")[0].rpartition(".")[0] for name in names} | {ENCODER}
-    paths = {
-        f"{package}/{path.name}": path
-        for package, pattern in [
-            (SYMBOLIC, "*.py"),
-            *(
-                (package, f"{name}.py")
-                for package, _, name in (one.rpartition(".") for one in modules)
-            ),
-        ]
-        for path in folder_of(package).glob(pattern)
-    }
+    patterns = [
+        (package, f"{name}.py") for package, _, name in (m.rpartition(".") for m in modules)
+    ]
+    if opened().derivations:
+        patterns.append((opened().derivations, "*.py"))
+    paths = dict[str, Path]()
+    for package, pattern in patterns:
+        paths |= {f"{package}/{path.name}": path for path in folder_of(package).glob(pattern)}
     digest = hashlib.sha256()
     for name in sorted(paths):
         content = paths[name].read_bytes()

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+from juggleproof.lazy import loaded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,11 +30,6 @@ class PaperFigure(NamedTuple):
 
     def draw(self, entries: object = ()) -> Figure:
         """The figure, for the entries of a report."""
-        given = _function(self.data)(entries) if self.data else ()
-        figure: Figure = _function(self.place)(*given)
+        given = loaded(self.data)(entries) if self.data else ()
+        figure: Figure = loaded(self.place)(*given)
         return figure
-
-
-def _function(place: str) -> Any:
-    module, _, name = place.partition(":")
-    return getattr(import_module(module), name)

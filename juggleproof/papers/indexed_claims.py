@@ -29,8 +29,10 @@ def stored_index(modules: Sequence[str], path: Path = PATH) -> list[dict[str, st
 
 
 def digest_of(modules: Sequence[str]) -> str:
-    """A digest of the ledger and of the sources of modules; does not import them."""
-    digest = hashlib.sha256(ROWS.read_bytes())
+    """A digest of the ledger, if there is one, and of the sources of modules, which are not
+    imported.
+    """
+    digest = hashlib.sha256(ROWS.read_bytes() if ROWS.is_file() else b"")
     for name in modules:
         spec = find_spec(name)
         if spec is not None and spec.origin:

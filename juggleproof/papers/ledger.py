@@ -16,12 +16,12 @@ from juggleproof.folders import LEDGER
 # -------------------------------------------------------------------------------------------------
 # The reasons for which an item of the paper needs no claim: a closed list.
 
-# An item that asserts something about the juggler has claims; one that asserts nothing has one of
-# these reasons.
+# An item that asserts something about the paper's system has claims; one that asserts nothing has
+# one of these reasons.
 REASONS = {
     "heading": "names a section, a proof or a part of a table",
     "names": "gives or recalls a name or notation, or is a formula that only names a thing",
-    "background": "tells of factories, machines or the work of others, and nothing of this juggler",
+    "background": "tells of uses or the work of others, and nothing of the paper's own system",
     "narrative": "says what the text does or hopes, or judges without stating anything exact",
     "modelling-assumption": "sets up the model and cannot follow from anything",
     "figure-or-table": "says what a figure or table shows",

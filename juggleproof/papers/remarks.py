@@ -44,7 +44,9 @@ class Citation(NamedTuple):
 
 
 def meanings(path: Path = NAMES) -> list[Meant]:
-    """The meanings of the names, in the order of the file."""
+    """The meanings of the names, in the order of the file; none where the paper has no file."""
+    if not path.is_file():
+        return []
     return [Meant(name, tuple(at.split()), text) for name, at, text in _rows(path, Meant._fields)]
 
 

@@ -8,15 +8,16 @@ from collections.abc import Iterable, Mapping
 from pathlib import PurePath
 from xml.etree import ElementTree
 
+from juggleproof.folders import FOLDER, REGISTER
 from juggleproof.judging.conclusions import PROVED, REFUTED
 from juggleproof.judging.register import FIELDS, Change
+from juggleproof.papers.paper import opened
 from juggleproof.reports.contents import Contents, results_of
 from juggleproof.reports.errata import GROUPS, WRONG
 from juggleproof.reports.results import (
-    COLUMNS,
-    OWN_COLUMNS,
     ClaimResult,
     RunResults,
+    columns,
     writable,
 )
 
@@ -48,13 +49,16 @@ def message_of(results: RunResults) -> tuple[str, str]:
             f"{holds} of {count} {'holds' if holds == 1 else 'hold'}, {unknown} unknown",
             BAD if results.exit else GOOD,
         )
-    words = [f"theorem {'' if results.is_proved else 'NOT '}{PROVED}", claims]
+    has_theorem = opened().theorem is not None
+    words = [f"theorem {'' if results.is_proved else 'NOT '}{PROVED}"] if has_theorem else []
+    words.append(claims)
     if results.changes and not results.accepted:
         words.append(f"{len(results.changes)} changed")
     if results.rejected:
         words.append(f"{len(results.rejected)} rejected")
     is_open = any(one.is_open for one in results.claims)
-    return ", ".join(words), BAD if results.exit or is_open or not results.is_proved else GOOD
+    lacks = has_theorem and not results.is_proved
+    return ", ".join(words), BAD if results.exit or is_open or lacks else GOOD
 
 
 # -------------------------------------------------------------------------------------------------
@@ -87,7 +91,7 @@ def as_junit(contents: Contents | RunResults, seconds: Mapping[str, float] | Non
     for gone in (change for change in results.changes if change.claim not in judged):
         _case(
             suite,
-            "judging.register",
+            class_name(f"{FOLDER.name}/{REGISTER.name}"),
             gone.claim,
             "" if results.accepted else "failure",
             f"the claim is gone from the sources; {gone}",
@@ -212,7 +216,7 @@ def markdown(contents: Contents | RunResults) -> str:
     page.add(
         _table(
             [
-                OWN_COLUMNS if results.own else COLUMNS,
+                columns(not results.own),
                 *(
                     (
                         one.id,
@@ -297,7 +301,7 @@ def _table(rows: Iterable[tuple[str, ...]]) -> Iterable[str]:
 
 def _head(results: RunResults) -> list[str]:
     theorem = [" ".join(line.split()) for line in results.theorem.splitlines()]
-    if not (results.own or theorem):
+    if not (results.own or theorem or opened().theorem is None):
         theorem = ["theorem: the store does not hold it"]
     counts, outcomes = (
         results.verdicts(),
@@ -318,7 +322,7 @@ def _head(results: RunResults) -> list[str]:
 
 
 def _title(results: RunResults) -> str:
-    if not results.own:
+    if not results.own and opened().theorem is not None:
         return f"The theorem is {'' if results.is_proved else 'NOT '}{PROVED}"
     holds = results.verdicts()["holds"]
     return f"{holds} of {_many(len(results.claims), 'claim')} {'holds' if holds == 1 else 'hold'}"

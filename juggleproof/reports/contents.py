@@ -254,7 +254,8 @@ def errata_text() -> str:
     ids = by_id(claims)
     rests_on = (*lemmas(ids, doubted), *(name for one in doubted for name in awaited(one.body())))
     shown = [name for claim in doubted for name in names.get(claim.id, ())]
-    checked = outcomes_of(DEFAULT, [*shown, *with_below((*rests_on, opened().theorem.name), ids)])
+    below = with_below((*rests_on, *tree.name_of_theorem()), ids)
+    checked = outcomes_of(DEFAULT, [*shown, *below])
     judged = {one.id: one for one in judge_some(doubted, ids, DEFAULT, checked)}
     register = {claim.id: registered("holds", "", "", "") for claim in claims}
     for name, one in judged.items():
@@ -266,7 +267,8 @@ def errata_text() -> str:
     }
     groups = {claim.id: errata.group_of(claim, register, findings) for claim in claims}
     theorem = tree.theorem_line(store, checked)
-    lines = [errata.HEAD, *errata.first_page(claims, register, groups, findings, settled, theorem)]
+    head = f"{errata.HEAD}{opened().letters}{errata.NOTES}"
+    lines = [head, *errata.first_page(claims, register, groups, findings, settled, theorem)]
     for group, title in errata.GROUPS.items():
         members = [claim for claim in claims if groups[claim.id] == group]
         lines.append(f"{title} ({len(members)})\n")
@@ -358,10 +360,11 @@ def _shown(
 def _rules(
     store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Vote]]
 ) -> tuple[TheoremRule, ...]:
-    if opened().theorem.name not in store.texts:
+    theorem = opened().theorem
+    if theorem is None or theorem.name not in store.texts:
         return ()
-    rules, nodes = tree.rules_of(store, [opened().theorem.name]), list[TheoremRule]()
-    for name in tree.with_all_below(opened().theorem.name, rules):
+    rules, nodes = tree.rules_of(store, [theorem.name]), list[TheoremRule]()
+    for name in tree.with_all_below(theorem.name, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
             checked.get(name, "rejected"),
@@ -420,7 +423,7 @@ def results_of(contents: Contents | RunResults, register: Register | None = None
             one.detail,
             one.verdict_text,
             one.settled_by,
-            one.sharp or table.NO_RANGE,
+            one.sharp or table.no_range(),
             one.correction,
             one.remark,
             tuple(one.wrong),

@@ -148,7 +148,7 @@ def in_words(text: str, point: Point, of_paper: bool = True) -> str:
         tuple(formula_of(checker.parse(one)) for word, one in lines if word == keyword)
         for keyword in ("given", "show")
     )
-    kind: type[Failure] = opened().hook("words", type) if of_paper else Failure
+    kind: type[Failure] = (opened().hook("words", type) if of_paper else None) or Failure
     failure = kind(lines[0][1], point, premises, goals)
     chosen = failure.state_named(next((one for word, one in lines if word == "exists"), ""))
     try:

@@ -34,9 +34,9 @@ What the paper prints wrongly: the print, what is wrong with it, the correction,
 values at which it fails,
 with what is so there in words.
 {LEGEND}
-alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
-ball's height and velocity when the table is
-at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
+"""
+NOTES = """\
+iff(a, b) means that a is true exactly if b is. What is said is told in our \
 words.
 `juggleproof explain ID` shows the other names, the derivation, the statements and their \
 certificates, and with --lines
@@ -263,8 +263,11 @@ def first_page(
     theorem: str,
 ) -> list[str]:
     """The first page, for those who cite the theorem: whether it stands, by its line `theorem`, and
-    the heaviest errors of section 4 and appendix A, each with its three lines.
+    the heaviest errors of the main parts, each with its three lines; nothing where the paper has no
+    theorem.
     """
+    if opened().theorem is None:
+        return []
     lines = [f"{FIRST}\n", theorem_stands(claims, theorem), ""]
     for claim in what_matters(claims, groups):
         lines.append(f"{claim.id}, {place_of(claim)}")
@@ -285,22 +288,26 @@ def three_lines_of(
 
 
 def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
-    """The sentence on whether the theorem survives, by its line `theorem`."""
-    says = [claim.says for claim in claims if claim.id == opened().theorem.claim]
+    """The sentence on whether the theorem survives, by its line `theorem`; empty where the paper
+    has no theorem.
+    """
+    of_paper = opened().theorem
+    if of_paper is None:
+        return ""
+    says = [claim.says for claim in claims if claim.id == of_paper.claim]
     if not theorem.startswith(STANDS) or not says:
-        return f"The theorem is not certified ({opened().theorem.claim})."
-    return (
-        f"The theorem survives all of these, by another proof ({opened().theorem.claim}). {says[0]}"
-    )
+        return f"The theorem is not certified ({of_paper.claim})."
+    return f"The theorem survives all of these, by another proof ({of_paper.claim}). {says[0]}"
 
 
 def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Claim]:
     """The errors that concern the theorem, by the group of each claim: those that break its proof,
-    then the wrong statements of section 4 and appendix A.
+    then the wrong statements of the paper's main parts.
     """
+    parts = opened().main_parts
     wrong = [claim for claim in claims if group[claim.id] == "statement"]
     return [claim for claim in claims if group[claim.id] == "proof"] + [
-        claim for claim in wrong if claim.section[:1] in ("4", "A")
+        claim for claim in wrong if claim.section.startswith(parts)
     ]
 
 
@@ -353,14 +360,14 @@ def what_is_wrong(
     entry: Mapping[str, str], sharp: Mapping[str, str], passages: Mapping[str, str] | None = None
 ) -> list[str]:
     """The fault of a claim: a line for each reading, if there are several, with the passage that
-    prints it so, else one line; with the alpha for which it holds, where that is known.
+    prints it so, else one line; with the parameters for which it holds, where that is known.
     """
     detail, verdict = entry.get("detail", ""), entry["verdict"]
     readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
     if readings:
         words = {"holds": "true", "false": "false", "unknown": "open"}
         return [
-            f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
+            f"read as {name}: {words[word]}{_for_which(sharp.get(name + '.', ''), word)}"
             + (f"; {passages[name]}" if passages else "")
             for name, word in readings.items()
         ]
@@ -377,16 +384,20 @@ def what_is_wrong(
         return [detail]
     return [
         ("false as printed" if verdict == "misprint" else "false")
-        + _for_alpha(sharp.get("", ""), "false")
+        + _for_which(sharp.get("", ""), "false")
     ]
 
 
-def _for_alpha(sharp: str, word: str) -> str:
+def _for_which(sharp: str, word: str) -> str:
+    """The words on the values of the parameter for which an assertion holds."""
     if sharp in ("", "not found"):
         return ""
+    paper = opened()
     if word == "holds":
-        return "" if sharp == "0 < alpha < 1" else f", exactly for {sharp}"
-    return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
+        return "" if sharp == paper.domain else f", exactly for {sharp}"
+    if sharp == "nowhere":
+        return f", for every {paper.parameter}"
+    return f"; it would be true exactly for {sharp}"
 
 
 def counterexample(refutation: object) -> str:

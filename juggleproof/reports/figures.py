@@ -12,7 +12,7 @@ from juggleproof.papers.figures import PaperFigure
 from juggleproof.papers.paper import opened
 from juggleproof.reports.contents import Contents, gather
 from juggleproof.reports.contents import Entry as Judged
-from juggleproof.reports.results import NO_RANGE
+from juggleproof.reports.results import has_range
 from juggleproof.reports.words import Interval, read
 from juggleproof.statements.language import ClaimError
 
@@ -37,8 +37,8 @@ class Saved(NamedTuple):
 
 def of_paper() -> tuple[PaperFigure, ...]:
     """The figures of the paper, in order."""
-    found: tuple[PaperFigure, ...] = opened().hook("figures", tuple)
-    return found
+    found: tuple[PaperFigure, ...] | None = opened().hook("figures", tuple)
+    return found or ()
 
 
 def figures(
@@ -54,23 +54,23 @@ def figures(
 
 
 def rows(entries: Iterable[Judged]) -> list[Row]:
-    """A row for each range of each claim in which alpha occurs."""
+    """A row for each range of each claim in which the parameter occurs."""
     return [
         (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
         for entry in entries
-        if entry.sharp != NO_RANGE
+        if has_range(entry.sharp)
         for label, intervals in read(entry.sharp)
     ]
 
 
-def without_alpha(entries: Iterable[Judged]) -> int:
-    """The number of claims in which alpha does not occur."""
-    return sum(entry.sharp == NO_RANGE for entry in entries)
+def without_range(entries: Iterable[Judged]) -> int:
+    """The number of claims in which the parameter does not occur."""
+    return sum(not has_range(entry.sharp) for entry in entries)
 
 
 def what_ranges_show(entries: Sequence[Judged]) -> tuple[list[Row], int]:
     """A row for each range, and the number of claims without a range."""
-    return rows(entries), without_alpha(entries)
+    return rows(entries), without_range(entries)
 
 
 def labels(one: PaperFigure) -> tuple[str, str, str, str]:

@@ -11,80 +11,13 @@ from fractions import Fraction
 from functools import cache, partial
 
 from juggleproof.certificates import checker
+from juggleproof.papers.paper import opened
 
 # -------------------------------------------------------------------------------------------------
 # The names of statements in the notation of the paper; names that it lacks are made from their
 # letters.
 #
 # The notation table of a report is this table with its explanations.
-
-# name in statements, LaTeX, explanation for the notation table (empty: not listed)
-NOTATION = (
-    ("alpha", r"\alpha", "coefficient of restitution, 0 < alpha < 1"),
-    ("r", r"\dot\rho_0", "launch velocity of the table"),
-    ("g", r"\gamma", "gravity"),
-    ("T", "T", "period of the table, T = 2*r/g"),
-    ("beta", r"\bar\beta", "height of the ball when the table is at its lowest"),
-    ("v", r"\dot{\bar\beta}", "velocity of the ball at that time"),
-    ("tau", r"\tau", "time since the table was at its lowest"),
-    ("tau_c", r"\tau_c", "time to collision"),
-    ("tau_w", r"\tau_w", "longest time of flight at an energy"),
-    ("t", "t", "time"),
-    ("K", "K", "number of periods from one impact to the next"),
-    ("s", "s", "the square root of 2*(1 + alpha)"),
-    ("x", "x", "height in units of r*T: x = beta/(r*T)"),
-    ("w", "w", "closing speed in units of r: w = 1 - v/r"),
-    ("u", "u", "speed that the energy alone would give, in units of r: u^2 = 4*x + (w - 1)^2"),
-    ("E_max", r"E_{\max}", "greatest energy that an impact does not lower"),
-    ("dE_max", r"\Delta E_{\max}", "greatest energy change of an impact"),
-    ("dE_sup", r"\Delta E_{\sup}", "supremum of the energy change of impacts outside R"),
-    ("dE_2", r"\Delta_2 E", ""),
-    ("dE_dbeta", r"\frac{\partial\Delta_1 E}{\partial\bar\beta}", ""),
-    ("dE_dv", r"\frac{\partial\Delta_1 E}{\partial\dot{\bar\beta}}", ""),
-    ("dR_dbeta", r"\frac{\partial R}{\partial\bar\beta}", ""),
-    ("dR_dv", r"\frac{\partial R}{\partial\dot{\bar\beta}}", ""),
-    ("eps", r"\epsilon", ""),
-    ("lam", r"\lambda", ""),
-    ("theta", r"\theta", ""),
-    ("pi", r"\pi", ""),
-    ("Gamma", r"\Gamma", ""),
-    ("rho", r"\rho", ""),
-    ("mu", r"\mu", ""),
-    ("sigma", r"\sigma", ""),
-    ("omega", r"\omega", ""),
-    ("delta", r"\delta", ""),
-    ("chi", r"\chi", ""),
-    ("chi_dot", r"\dot\chi", ""),
-    ("chi_dot_after", r"\dot\chi_{\mathrm{after}}", ""),
-    ("change_1", r"\Delta_1 E", ""),
-    ("change_2", r"\Delta_2 E", ""),
-)
-GLYPHS = {name: latex for name, latex, _ in NOTATION}
-# The order in which the paper writes factors, and addends by their factors: numbers, alpha, and
-# then these.
-ORDER = (
-    "alpha",
-    "eps",
-    "K",
-    "n",
-    "k",
-    "g",
-    "T",
-    "t",
-    "tau",
-    "tau_c",
-    "r",
-    "x",
-    "beta",
-    "beta0",
-    "z1",
-    "v",
-    "v0",
-    "z2",
-    "w",
-    "u",
-    "s",
-)
 
 
 def glyph(name: str) -> str:
@@ -95,17 +28,18 @@ def glyph(name: str) -> str:
     >>> glyph("v_next"), glyph("lift")
     ('\\dot{\\bar\\beta}_{\\mathrm{next}}', '\\mathit{lift}')
     """
-    if name in GLYPHS:
-        return GLYPHS[name]
+    glyphs = opened().notation.glyphs
+    if name in glyphs:
+        return glyphs[name]
     base, _, below = name.partition("_")
     digits = re.fullmatch(r"([A-Za-z]+)(\d+)", base)
     if digits and not below:
         base, below = digits.group(1), digits.group(2)
-    shown = GLYPHS.get(base, base if len(base) == 1 else rf"\mathit{{{base}}}")
+    shown = glyphs.get(base, base if len(base) == 1 else rf"\mathit{{{base}}}")
     if not below:
         return shown
-    if below in GLYPHS or len(below) == 1:
-        return f"{shown}_{GLYPHS.get(below, below)}"
+    if below in glyphs or len(below) == 1:
+        return f"{shown}_{glyphs.get(below, below)}"
     return (
         f"{shown}_{{{below}}}"
         if below.isdecimal()
@@ -134,7 +68,6 @@ JOINED: Mapping[str, tuple[int, str]] = {
     "or": (3, r"\lor"),
     "and": (4, r"\land"),
 }
-ALPHA = frozenset({"alpha"})
 
 
 def latex_of(text: str, like: str = "") -> str:
@@ -182,8 +115,10 @@ def _names(node: ast.AST) -> frozenset[str]:
 
 class _Printer:
     def __init__(self, leads: Sequence[str]) -> None:
-        self.leads = leads
-        self.rank = {name: place for place, name in enumerate(dict.fromkeys([*leads, *ORDER]))}
+        paper = opened()
+        self.leads, self.first = leads, frozenset({paper.parameter})
+        names = dict.fromkeys([*leads, *paper.notation.order])
+        self.rank = {name: place for place, name in enumerate(names)}
 
     # ------------------------------------------------------------ formulas
 
@@ -228,7 +163,7 @@ class _Printer:
             if text != "0":
                 found.append((addend, negative != (sign < 0), text))
         if (
-            len(found) == 2 and not _names(node) - ALPHA
+            len(found) == 2 and not _names(node) - self.first
         ):  # the paper writes 1 + alpha, 1 - alpha and alpha - 1
             found.sort(
                 key=lambda one: bool(_names(one[0])) if not one[1] else 1 + (not _names(one[0]))
@@ -243,7 +178,8 @@ class _Printer:
     def place(self, node: ast.AST) -> tuple[int, ...]:
         return tuple(
             sorted(
-                (self.rank.get(name, len(self.rank)) for name in _names(node) - ALPHA), reverse=True
+                (self.rank.get(name, len(self.rank)) for name in _names(node) - self.first),
+                reverse=True,
             )
         )
 
@@ -279,16 +215,16 @@ class _Printer:
             if not above or len(above) == 1 and _is_sum(above[0]):
                 return _fraction(self.row(whole, above), str(part))
             return _side_by_side([_fraction(str(whole), str(part)), *map(self.factor, above)])
-        of_alpha = [factor for factor in above if _names(factor) <= ALPHA]
+        of_first = [factor for factor in above if _names(factor) <= self.first]
         if (
-            not any(_names(factor) - ALPHA for factor in below)
-            and of_alpha
-            and (part != 1 or any(map(_is_sum, map(_base, of_alpha))))
+            not any(_names(factor) - self.first for factor in below)
+            and of_first
+            and (part != 1 or any(map(_is_sum, map(_base, of_first))))
         ):
-            rest = [factor for factor in above if factor not in of_alpha]
-            if len(rest) != 1 or not _is_sum(rest[0]) or of_alpha:
+            rest = [factor for factor in above if factor not in of_first]
+            if len(rest) != 1 or not _is_sum(rest[0]) or of_first:
                 numeral = [_fraction(str(whole), str(part))] if part != 1 else []
-                inner = _fraction(self.row(1 if numeral else whole, of_alpha), self.row(1, below))
+                inner = _fraction(self.row(1 if numeral else whole, of_first), self.row(1, below))
                 return _side_by_side([*numeral, inner, *map(self.factor, rest)])
         return _fraction(self.row(whole, above), self.row(part, below))
 
@@ -302,7 +238,7 @@ class _Printer:
 
     def factor_place(self, node: ast.AST) -> tuple[int, int]:
         names = _names(node)
-        if names <= ALPHA:
+        if names <= self.first:
             return (0, int(_is_sum(_base(node))))
         return (
             1 + max(self.rank.get(name, len(self.rank)) for name in names),
@@ -461,19 +397,6 @@ def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, 
 # so that an author can change the notation in one place.
 
 PREFIX = "jug"
-# macro, its meaning, the ways in which prints and formulas write it
-MACROS = (
-    ("speed", r"\dot{\bar\beta}", r"\\dot\{\\bar(?:\{\s*\\beta\}|\s*\\beta)\}"),
-    ("height", r"\bar\beta", r"\\bar(?:\{\s*\\beta\}|\s*\\beta(?![A-Za-z]))"),
-    ("launch", r"\dot\rho_0", r"\\dot(?:\{\s*\\rho\}|\s*\\rho)_(?:0|\{0\})"),
-    ("gravity", r"\gamma", r"\\gamma(?![A-Za-z])"),
-    ("restitution", r"\alpha", r"\\alpha(?![A-Za-z])"),
-    ("collisiontime", r"\tau_c", r"\\tau_(?:c(?![A-Za-z])|\{c\})"),
-    ("H", r"\mathcal{H}", r"\\mathcal(?:\{H\}|\s+H)"),
-    ("B", r"\mathcal{B}", r"\\mathcal(?:\{B\}|\s+B)"),
-    ("R", r"\mathcal{R}", r"\\mathcal(?:\{R\}|\s+R)"),
-    ("state", r"\bar b", r"\\bar(?:\{\s*b\}|\s+b(?![A-Za-z]))"),
-)
 _NARROW = re.compile(
     r"\\overline(?=\s*(?:\{\s*(?:\\[A-Za-z]+|[A-Za-z])\s*\}|\\[A-Za-z]+|[A-Za-z]))"
 )
@@ -497,7 +420,7 @@ def with_macros(latex: str) -> str:
     'a = b \\text{ so that } c = d'
     """
     shown = re.sub(r"(?<!^)\\text\{ ?([^{}]*?) ?\}(?!$)", r"\\text{ \1 }", narrow(latex))
-    for name, _, pattern in MACROS:
+    for name, _, pattern in opened().notation.macros:
         set_as = partial(_macro, f"\\{PREFIX}{name}")
         shown = re.sub(pattern + r"(\s*)(?=(.?))", set_as, shown, flags=re.DOTALL)
     return shown
@@ -514,7 +437,7 @@ def without_macros(latex: str) -> str:
     >>> without_macros(r"\juggravity T")
     '\\gamma T'
     """
-    for name, means, _ in MACROS:
+    for name, means, _ in opened().notation.macros:
         meaning = means.replace("\\", r"\\")  # re.sub reads backslashes in the replacement
         latex = re.sub(rf"\\{PREFIX}{name}(?![A-Za-z])", meaning, latex)
     return latex

@@ -9,7 +9,8 @@ from functools import cache
 from html import escape
 
 from juggleproof.certificates import checker
-from juggleproof.reports.latex import NOTATION, glyph, latex_of
+from juggleproof.papers.paper import opened
+from juggleproof.reports.latex import glyph, latex_of
 from juggleproof.reports.mathml import mathml
 from juggleproof.reports.words import SIGN, WORDS, parts_of, pieces
 
@@ -96,20 +97,28 @@ def change(text: str) -> str:
 
 
 SIDE = r"-?[\w/()*^]+(?: [+-] [\w/()*^]+)*"  # a term with spaces around its signs
-RANGE = re.compile(
-    rf"(?P<point>\bc\d+ = \d\.\d+\.{{3}})|\ba root of (?P<polynomial>{SIDE})"
-    rf"|(?P<condition>(?:{SIDE} <=? )?\balpha (?:<=?|>=?|=) {SIDE})|(?P<alpha>\balpha\b)"
-)
+
+
+@cache
+def _range() -> re.Pattern[str]:
+    """The pattern of end points, polynomials, conditions on the paper's parameter, and the
+    parameter alone.
+    """
+    name = re.escape(opened().parameter) or "(?!)"
+    return re.compile(
+        rf"(?P<point>\bc\d+ = \d\.\d+\.{{3}})|\ba root of (?P<polynomial>{SIDE})"
+        rf"|(?P<condition>(?:{SIDE} <=? )?\b{name} (?:<=?|>=?|=) {SIDE})|(?P<name>\b{name}\b)"
+    )
 
 
 def ranged(sentence: str) -> str:
-    """A sharp range, or a line with one, as markup: conditions on alpha, end points and their
-    polynomials are formulas.
+    """A sharp range, or a line with one, as markup: conditions on the parameter, end points and
+    their polynomials are formulas.
 
     Labels of readings and steps are unchanged.
     """
     shown, at = "", 0
-    for match in RANGE.finditer(sentence):
+    for match in _range().finditer(sentence):
         shown += prose(sentence[at : match.start()])
         kind, text, at = str(match.lastgroup), str(match.group(match.lastgroup or 0)), match.end()
         if kind == "point":
@@ -283,46 +292,6 @@ def chained(parts: Sequence[str]) -> list[str]:
 # -------------------------------------------------------------------------------------------------
 # The meanings of the letters in a statement.
 
-LETTERS = {  # names in statements that the notation lacks -> their meanings
-    "beta0": "height of the ball in another state, b_0",
-    "v0": "velocity of the ball in b_0",
-    "beta1": "height of the ball in a third state",
-    "v1": "velocity of the ball in that state",
-    "z1": "height of the ball less that of e_1",
-    "z2": "velocity of the ball less that of e_1",
-    "rho": "height of the table",
-    "chi": "height of the ball above the table",
-    "chi_dot": "velocity of the ball relative to the table",
-    "chi_after": "height of the ball above the table after the impact",
-    "chi_dot_after": "velocity of the ball relative to the table after the impact",
-    "time": "time since the launch",
-    "lam": "Lagrange's multiplier",
-    "mu": "coefficient of friction",
-    "sigma": "direction of sliding, 1 or -1",
-    "S0": "sliding velocity of the corner before the impact",
-    "C0": "velocity of the corner towards the table before the impact",
-    "B1": "what an impulse along the table adds to the sliding velocity",
-    "B2": "what an impulse upwards adds to the upward velocity",
-    "B3": "what either impulse takes from the other velocity",
-    "e": "restitution of the part",
-    "J": "moment of inertia of the part, over its mass",
-    "x_c": "place of the corner along the table, from the centre of mass",
-    "y_c": "height of the corner, from the centre of mass",
-    "c_x": "velocity of the centre of mass along the table",
-    "c_y": "upward velocity of the centre of mass",
-    "omega": "turning rate",
-    "P_x": "impulse along the table",
-    "P_y": "impulse upwards",
-    "dE_dbeta": "slope of Delta_1 E with the height",
-    "dE_dv": "slope of Delta_1 E with the velocity",
-    "dR_dbeta": "slope of R(b) with the height",
-    "dR_dv": "slope of R(b) with the velocity",
-    "Gamma": "peak acceleration of a table that moves as a sine, over gravity",
-    "G": "acceleration at which that table falls at the bounce, over gravity",
-    "V": "velocity of the ball as it strikes, over gravity times the period",
-    "cosine": "cosine of the angle of the table's sine at the impact",
-    "sine": "sine of that angle",
-}
 WHOLE = ("whole number", "whole numbers")  # for one letter, and for several
 ANY = ("any number that meets what is given", "any numbers that meet what is given")
 
@@ -337,10 +306,11 @@ def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[s
         for keyword in ("forall", "exists", "over", "state", "input", "integer")
     }
     names = {name: 0 for some in listed.values() for name in some}
-    notation = {name for name, _, meaning in NOTATION if meaning and is_meant(name, names)}
+    paper = opened().notation
+    notation = {name for name in paper.listed if paper.is_meant(name, names)}
     whole = [name for name in listed["integer"] if name not in notation]
     known = letters([name for name in names if name not in whole], with_notation)
-    free = [name for name in names if name not in {*LETTERS, *notation, *whole}]
+    free = [name for name in names if name not in {*paper.meanings, *notation, *whole}]
     for some, meanings in ((whole, WHOLE), (free, ANY)):
         if some:
             known.append((mathml(", ".join(map(glyph, some))), meanings[len(some) > 1]))
@@ -349,17 +319,13 @@ def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[s
 
 def letters(names: Collection[str], with_notation: bool = True) -> list[tuple[str, str]]:
     """The names that have a fixed meaning, as markup, each with its meaning."""
-    notation = {name: meaning for name, _, meaning in NOTATION if with_notation and meaning}
+    notation = opened().notation
+    listed = notation.listed if with_notation else {}
     return [
         (mathml(glyph(name)), meaning)
-        for name, meaning in {**notation, **LETTERS}.items()
-        if name in names and is_meant(name, names)
+        for name, meaning in {**listed, **notation.meanings}.items()
+        if name in names and notation.is_meant(name, names)
     ]
-
-
-def is_meant(name: str, names: Collection[str]) -> bool:
-    """Whether a name has the meaning of the notation; x, w and u have it only beside x and w."""
-    return name not in ("x", "w", "u") or {"x", "w"} <= set(names)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -463,9 +429,8 @@ def picture(nodes: Sequence[MarkedStatement], title: str) -> str:
 def depths(nodes: Sequence[MarkedStatement]) -> Mapping[str, int]:
     """The length of the longest path to each node from above; raises ValueError for a cycle.
 
-    >>> a = MarkedStatement("a", "", "", "", "", below=("b", "c"))
-    >>> b = MarkedStatement("b", "", "", "", "", below=("c",))
-    >>> depths([a, b, MarkedStatement("c", "", "", "", "")])
+    >>> below = {"a": ("b", "c"), "b": ("c",), "c": ()}
+    >>> depths([MarkedStatement(name, "", "", "", "", below=one) for name, one in below.items()])
     {'a': 0, 'b': 1, 'c': 2}
     """
     known = {node.name: node for node in nodes}

@@ -27,11 +27,11 @@ from juggleproof.reports import markup
 from juggleproof.reports.contents import Contents, Entry, ShownText, TheoremRule
 from juggleproof.reports.errata import FIRST, GROUPS, goal_of, is_latex
 from juggleproof.reports.figures import saved
-from juggleproof.reports.latex import NOTATION, glyph, latex_of
+from juggleproof.reports.latex import latex_of
 from juggleproof.reports.markup import Chip, MarkedStatement, picture
 from juggleproof.reports.mathml import mathml
 from juggleproof.reports.part import HEADS, TableResults
-from juggleproof.reports.tex_words import SYMBOLS
+from juggleproof.reports.results import has_range
 from juggleproof.statements.store import CERTIFICATES
 
 if TYPE_CHECKING:
@@ -206,7 +206,7 @@ def view_of(entry: Entry) -> ClaimView:
         change=markup.change(change),
         remark=markup.prose(entry.remark),
         why=entry.why_restored,
-        sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
+        sharp=markup.ranged(entry.sharp) if has_range(entry.sharp) else "",
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
         letters=markup.letters_of([one.text for one in entry.statements]),
         shared=_rows(shared),
@@ -237,10 +237,11 @@ def derivations(contents: Contents) -> list[ShownDerivation]:
     texts = {
         one.function: one.line.rpartition(f"{one.sentence} ")[2] for one in contents.derivations
     }
+    symbols = opened().notation.derived
     return [
         ShownDerivation(
             anchor(one.function),
-            mathml(SYMBOLS[one.function]) if one.function in SYMBOLS else "",
+            mathml(symbols[one.function]) if one.function in symbols else "",
             titles[one.function],
             equation(one.function, one.rows) if len(texts[one.function]) <= LONGEST else "",
             texts[one.function],
@@ -267,7 +268,7 @@ def equation(function: str, entries: Sequence[Sequence[str]]) -> str:
     name, _, arguments = function.partition("(")
     words = rf"\text{{{name.replace('_', ' ')}}}"
     given = rf"(\text{{{arguments[:-1]}}})" if arguments else ""
-    left = SYMBOLS.get(function, words + given)
+    left = opened().notation.derived.get(function, words + given)
     if len(entries) == 1 and len(entries[0]) == 1:
         return mathml(f"{left} = {latex_of(entries[0][0])}", block=True)
 
@@ -400,9 +401,6 @@ def tree(rules: Sequence[TheoremRule], outcomes: Mapping[str, str]) -> str:
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
-# functions of `symbolic` whose formulas stand before the errata, R(b) first
-NAMED = ("region_margin", "total_energy", "E_max", "delta_E_max", "relative_kinetic_energy")
-TRAP = "fig-trap"  # the figure that the written proof shows
 
 
 @dataclass(frozen=True)
@@ -442,7 +440,7 @@ def scene_picture(scene: TableResults | None) -> list[Picture]:
 def _environment() -> Environment:
     jinja2, markupsafe = needed("jinja2"), needed("markupsafe")
     made: Environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
+        loader=jinja2.FileSystemLoader([one for one in (opened().templates, TEMPLATES) if one]),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -494,6 +492,16 @@ def packed(parts: Mapping[str, str]) -> str:
     return signs.replace("z", "!!!!!").replace("<", "v")
 
 
+OWN_STYLE = "/* here stands the paper's own style */\n"
+
+
+def _style(own: Path | None) -> str:
+    """The style of the page, with that of the paper's own templates in its place."""
+    places = [TEMPLATES / "style.css", *([own / "style.css"] if own else [])]
+    whole, *more = [path.read_text(encoding="utf-8") for path in places if path.is_file()]
+    return whole.replace(OWN_STYLE, "".join(more))
+
+
 def _shown(
     contents: Contents,
     drawn: Sequence[Picture],
@@ -505,8 +513,11 @@ def _shown(
     groups, behind = errata(by_section), derivations(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     linked = {*outcomes, *(entry.claim.id for entry in contents.entries)}
-    trap = [one for one in drawn if one.slug == TRAP]
-    folded = [one for one in drawn if one.slug != TRAP]
+    paper = opened()
+    motion, opening = (paper.hook(name, FunctionType) for name in ("motion", "opening"))
+    in_proof = paper.hook("proof-figure", str)
+    trap = [one for one in drawn if one.slug == in_proof]
+    folded = [one for one in drawn if one.slug != in_proof]
     parts = {
         **{one.id: part("claim", one, linked) for _, found in by_section for one in found},
         **{
@@ -532,28 +543,33 @@ def _shown(
         "mathml": mathml,
         "panels": rules,
         "derivations": behind,
-        "named": [one for name in NAMED for one in behind if one.anchor == anchor(name)],
+        "named": [
+            one
+            for name in paper.notation.shown_first
+            for one in behind
+            if one.anchor == anchor(name)
+        ],
         "tree": tree(contents.rules, outcomes),
         "drawn": folded,
         "trap": next(iter(trap), None),
-        "motion": opened().hook("motion", FunctionType)(),
-        "opening": opened().hook("opening", FunctionType)(contents),
-        "proof_claim": opened().hook("proof-claim", str),
+        "motion": motion() if motion else None,
+        "opening": opening(contents) if opening else None,
+        "proof_claim": paper.hook("proof-claim", str),
+        "paper": paper,
+        "own": [] if paper.templates is None else [one.name for one in paper.templates.iterdir()],
         "scene": scene,
         "scene_heads": HEADS,
-        "impact_law": [
-            entry.verdict for entry in contents.entries if entry.claim.section == "part"
-        ],
         "verdicts": {word: (MARKS_OF_VERDICTS[word], means) for word, means in VERDICTS.items()},
         "kinds": {kind: rule.label for kind, rule in RULES.items()},
         "section_title": section_title,
         "headline": headline[:1].upper() + headline[1:],
         "further": list(map(markup.line, further)),
         "notation": [
-            (mathml(glyph(name)), name, meaning) for name, _, meaning in NOTATION if meaning
+            (mathml(paper.notation.glyphs[name]), name, meaning)
+            for name, meaning in paper.notation.listed.items()
         ],
         "linked": linked,
         "parts": packed(parts),
-        "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        "style": raw(_style(paper.templates)),
         "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),
     }

@@ -22,8 +22,8 @@ from juggleproof.papers.places import place_of
 from juggleproof.papers.remarks import remarks
 from juggleproof.reports import errata
 from juggleproof.reports import tex_words as words
-from juggleproof.reports.results import counted
-from juggleproof.reports.tree import theorem_line
+from juggleproof.reports.results import columns, counted, no_range
+from juggleproof.reports.tree import name_of_theorem, theorem_line
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT, Store, write_file
 
@@ -54,7 +54,7 @@ def results() -> str:
     lines = [
         *summary().splitlines(),
         "",
-        "| claim | place | verdict | settled by | sharp range of alpha |",
+        f"| {' | '.join(columns())} |",
         "| --- | --- | --- | --- | --- |",
     ]
     for claim in opened().claims():
@@ -69,7 +69,7 @@ def results() -> str:
         if errata.group_of(claim, register, findings):
             verdict = f"[{verdict}](errata.md#{claim.id})"
         detail = f" (`{entry['detail']}`)" if "detail" in entry else ""
-        sharp = f"`{entry['sharp']}`" if "sharp" in entry else "no alpha"
+        sharp = f"`{entry['sharp']}`" if "sharp" in entry else no_range()
         lines.append(
             f'| <a id="{claim.id}"></a>{claim.id}'
             f" | {place_of(claim).removeprefix('section ')}"
@@ -100,7 +100,9 @@ def _first_page(
     findings: Mapping[str, Finding],
     store: Store,
 ) -> list[str]:
-    theorem = theorem_line(store, outcomes_of(DEFAULT, [opened().theorem.name]))
+    if opened().theorem is None:
+        return []
+    theorem = theorem_line(store, outcomes_of(DEFAULT, name_of_theorem()))
     lines = [f"## {errata.FIRST}", "", errata.theorem_stands(claims, theorem), ""]
     for claim in errata.what_matters(claims, groups):
         settled = errata.stored(claim, store)
@@ -185,6 +187,6 @@ def regenerated(page: str) -> str:
 
 
 def update() -> None:
-    """Writes the generated part of every page."""
-    for page in PAGES:
+    """Writes the generated part of every page of the paper."""
+    for page in opened().pages:
         write_file(ROOT / page, regenerated(page).encode())

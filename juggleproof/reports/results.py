@@ -27,6 +27,7 @@ from juggleproof.judging.claims import (
 from juggleproof.judging.judgement import Correction, Judgement
 from juggleproof.judging.register import Change, Register, differences, registered
 from juggleproof.judging.run import Run
+from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
 from juggleproof.reports.errata import (
     counterexample,
@@ -44,8 +45,15 @@ from juggleproof.statements.store import Store
 # -------------------------------------------------------------------------------------------------
 # The table of results, as rows of text and as it is drawn on a terminal.
 
-COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
-OWN_COLUMNS = (*COLUMNS[:-1], "sharp range")  # for a user's claims, whose cells name the parameters
+OWN_COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range")
+
+
+def columns(of_paper: bool = True) -> tuple[str, ...]:
+    """The heads of the table; where they are not the paper's, the cells name the parameters."""
+    name = opened().parameter if of_paper else ""
+    return (*OWN_COLUMNS[:-1], f"{OWN_COLUMNS[-1]} of {name}") if name else OWN_COLUMNS
+
+
 COLOURS = {
     "holds": "green",
     "misprint": "yellow",
@@ -92,7 +100,21 @@ def settled_by(judgement: Judgement) -> str:
     return ", ".join(parts) or "no statement"
 
 
-NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
+NO_OWN_RANGE = "none"
+
+
+def no_range() -> str:
+    """The words in place of a sharp range, for a claim of the paper."""
+    return f"no {opened().parameter}" if opened().parameter else NO_OWN_RANGE
+
+
+def has_range(sharp: str) -> bool:
+    """Whether this is a sharp range, and not words in its place.
+
+    >>> has_range("0 < alpha < 1"), has_range("nowhere"), has_range("no alpha"), has_range("none")
+    (True, True, False, False)
+    """
+    return sharp != NO_OWN_RANGE and not re.fullmatch(r"no \w+", sharp)
 
 
 def is_of_paper(claim: Claim) -> bool:
@@ -121,7 +143,7 @@ def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
     parameter only for the paper's claims.
     """
     if not judgement.sharp:
-        return NO_RANGE if claim is None or is_of_paper(claim) else NO_OWN_RANGE
+        return no_range() if claim is None or is_of_paper(claim) else NO_OWN_RANGE
     shown = [
         (f"{prefix.rstrip('.')}: " if prefix else "") + one.text
         for prefix, one in judgement.sharp.items()
@@ -183,11 +205,11 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
 
 def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Console) -> None:
     """Draws the table on a terminal; prints plain columns, one row a line, elsewhere."""
-    columns = COLUMNS if any(map(is_of_paper, claims)) else OWN_COLUMNS
+    heads = columns(any(map(is_of_paper, claims)))
     if not console.is_terminal:
-        print(plain([columns, *rows(claims, judgements)]))
+        print(plain([heads, *rows(claims, judgements)]))
         return
-    table = Table(Column(columns[0], no_wrap=True), *columns[1:], header_style="bold")
+    table = Table(Column(heads[0], no_wrap=True), *heads[1:], header_style="bold")
     for row, judgement in zip(rows(claims, judgements), judgements):
         colour = COLOURS[judgement.verdict.word]
         table.add_row(
@@ -296,13 +318,13 @@ class ClaimResult:
             self.verdict,
             self.detail,
             self.correction["text"] if self.correction else "",
-            "" if self.sharp in NO_RANGES else self.sharp,
+            self.sharp if has_range(self.sharp) else "",
         )
 
     def sharp_by_reading(self) -> dict[str, str]:
         """The sharp range by reading or step; the name is empty where the claim has one reading."""
         parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
-        if self.sharp in NO_RANGES:
+        if not has_range(self.sharp):
             return {}
         return dict(zip(parts[1::2], parts[2::2])) if len(parts) > 1 else {"": self.sharp}
 
@@ -493,7 +515,7 @@ def _without(one: ClaimResult, reasons: Mapping[str, str]) -> ClaimResult:
         verdict_text="unknown",
         detail=f"the checker rejects {lost[0]}: {reasons[lost[0]]}",
         correction=None,
-        sharp=NO_RANGE,
+        sharp=no_range(),
         wrong=(),
         group="",
         statements=statements,

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from types import FunctionType
 from typing import TYPE_CHECKING
 
 from juggleproof.judging.extras import needed
@@ -18,9 +19,8 @@ from juggleproof.papers.places import place_of
 from juggleproof.reports import tex_words
 from juggleproof.reports.contents import Contents, Entry
 from juggleproof.reports.errata import FIRST, GROUPS
-from juggleproof.reports.latex import MACROS, NOTATION, latex_of, with_macros
-from juggleproof.reports.tex_words import APPENDICES
-from juggleproof.reports.words import parts_of
+from juggleproof.reports.latex import with_macros
+from juggleproof.reports.results import has_range
 from juggleproof.statements.language import ClaimError
 
 if TYPE_CHECKING:
@@ -33,28 +33,7 @@ if TYPE_CHECKING:
 # templates without formulas of the paper.
 
 TEMPLATES = Path(__file__).parent / "templates"
-SECTIONS = {
-    "A.1": "Maximum sustainable energy",
-    "A.2": "Maximum energy change",
-    "A.3": r"Supremum \texorpdfstring{$\Delta E$}{of Delta E} outside \texorpdfstring{$\jugR$}{R}",
-    "A.3.1": r"The boundary \texorpdfstring{$R(\jugstate) = 0$}{R(b) = 0}",
-    "A.3.2": r"Finding \texorpdfstring{$\Delta E_{\sup}$}{the supremum}",
-    "A.4": r"Number of impacts to enter \texorpdfstring{$\jugR$}{R}",
-    "B.1": "Time to collision",
-    "B.2": "Important regions",
-    "B.3": "System dynamics",
-    "B.4": "Fixed point",
-    "B.5": "Zero energy change boundary",
-    "B.6": r"Boundary of \texorpdfstring{$\jugR$}{R}",
-    "B.7": "Table of notation",
-}
-BESIDE = (
-    "theorem-one-third",
-    "theorem-nearby",
-    "theorem-region",
-    "theorem-ends",
-    "theorem-kinetic",
-)
+BIBLIOGRAPHY = "paper.bib"
 
 
 def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> dict[str, bytes]:
@@ -65,42 +44,62 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
     figures beside it. Raises ClaimError, one line, where a template's library is absent or a
     written line is not certified.
     """
-    made = _environment()
+    made, paper = _environment(), opened()
+    notation = paper.notation
     fragments: dict[str, Mapping[str, object]] = {
-        "juggleproof-macros": {"macros": [(name, means) for name, means, _ in MACROS]},
-        "theorem": _theorem(contents),
-        "errata": _errata(contents),
-        "derivations": {"derivations": _behind_the_appendices(contents)},
         "notation": {
             "notation": [
-                (latex, tex_words.prose(meaning)) for _, latex, meaning in NOTATION if meaning
+                (notation.glyphs[name], tex_words.prose(meaning))
+                for name, meaning in notation.listed.items()
             ],
             "names": tex_words.names(),
         },
+        "errata": _errata(contents),
+        "derivations": {"derivations": _behind_the_appendices(contents)},
+        "juggleproof-macros": {"macros": [(name, means) for name, means, _ in notation.macros]},
     }
+    of_theorem = paper.hook("theorem-tex", FunctionType)
+    if of_theorem is not None:
+        fragments["theorem"] = of_theorem(contents)
     texts = {name: _render(made, name, contents, values) for name, values in fragments.items()}
-    for letter, title in APPENDICES.items():
-        texts[f"appendix-{letter.lower()}"] = _render(
-            made, "appendix", contents, _appendix(contents, letter, title)
+    appendices = {f"appendix-{letter.lower()}": letter for letter in paper.appendices}
+    for name, letter in appendices.items():
+        texts[name] = _render(
+            made, "appendix", contents, _appendix(contents, letter, paper.appendices[letter])
         )
     if figures:
         captions = [
             (slug, tex_words.prose(title), tex_words.prose(text)) for slug, title, text in figures
         ]
         texts["figures"] = _render(made, "figures", contents, {"figures": captions})
+    parts = ["appendices"] if appendices else []
+    parts += ["theorem"] if of_theorem is not None else []
+    cited = bool(paper.templates and paper.publication.key)
     values = {
+        "title": _listed([f"the {one}" for one in [*parts, "errata"]]).capitalize(),
+        "of_title": _listed([*parts, "errata"]),
+        "cited": cited,
         "summary": summary(contents),
         "versions": tex_words.plain(
             ", ".join(f"{tool} {one}" for tool, one in contents.tools.items())
         ),
+        "inputs": [
+            *(name for name in ("notation", "theorem", "errata") if name in fragments),
+            *appendices,
+            "derivations",
+        ],
         "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none",
     }
     for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
         texts[name] = _render(made, "document", contents, {**values, "twocolumn": twocolumn})
-    return {
-        "paper.bib": (TEMPLATES / "paper.bib").read_bytes(),
-        **{f"{name}.tex": text.encode() for name, text in texts.items()},
-    }
+    written = {f"{name}.tex": text.encode() for name, text in texts.items()}
+    if not cited or paper.templates is None:
+        return written
+    return {BIBLIOGRAPHY: (paper.templates / BIBLIOGRAPHY).read_bytes(), **written}
+
+
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)
 
 
 def summary(contents: Contents) -> str:
@@ -117,7 +116,7 @@ def summary(contents: Contents) -> str:
 def _environment() -> Environment:
     jinja2 = needed("jinja2")
     made: Environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(str(TEMPLATES)),
+        loader=jinja2.FileSystemLoader([one for one in (opened().templates, TEMPLATES) if one]),
         block_start_string="<%",
         block_end_string="%>",
         variable_start_string="<<",
@@ -141,7 +140,7 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
         "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
     )
     text = made.get_template(f"{template}.tex.j2").render(
-        tools=contents.tools, with_steps=name == "appendix", **values
+        paper=opened(), tools=contents.tools, with_steps=name == "appendix", **values
     )
     return (
         re.sub(r"\n{3,}", "\n\n", "\n".join(line.rstrip() for line in text.strip().splitlines()))
@@ -164,13 +163,13 @@ def _counterexamples(entry: Entry) -> list[str]:
 def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
     sections = [
         (section, heading, [one for one in contents.entries if one.claim.section == section])
-        for section, heading in SECTIONS.items()
+        for section, heading in opened().headings.items()
         if section.startswith(letter)
     ]
     left = [
         one.claim.id
         for one in contents.entries
-        if one.claim.section.startswith(f"{letter}.") and one.claim.section not in SECTIONS
+        if one.claim.section.startswith(f"{letter}.") and one.claim.section not in opened().headings
     ]
     if left:
         raise ClaimError(
@@ -186,7 +185,7 @@ def _behind_the_appendices(contents: Contents) -> list[Derivation]:
     needed = {
         one.function
         for entry in contents.entries
-        if entry.claim.section[:1] in APPENDICES
+        if entry.claim.section[:1] in opened().appendices
         for one in entry.steps
     }
     for one in reversed(contents.derivations):  # each comes after those that it uses
@@ -212,64 +211,6 @@ def _errata(contents: Contents) -> dict[str, object]:
         "first_title": FIRST,
         "theorem_stands": contents.theorem_stands,
         "first_page": contents.first_page(),
-    }
-
-
-def _theorem(contents: Contents) -> dict[str, object]:
-    by_name = {one.name: one for entry in contents.entries for one in entry.statements}
-
-    def rows(name: str, keyword: str) -> list[str]:
-        return [
-            line.partition(" ")[2]
-            for line in by_name[name].text.splitlines()
-            if line.startswith(f"{keyword} ")
-        ]
-
-    def formulas(name: str, keyword: str) -> list[str]:
-        return [with_macros(latex_of(part)) for part in parts_of(rows(name, keyword)[0])]
-
-    def entry(name: str) -> Entry:
-        return contents.entry(name)
-
-    def conjuncts(text: str, most: int | None = None) -> str:
-        """The parts of a conjunction, or the first `most`: the last part of a domain may be there
-        only for a division.
-        """
-        return with_macros(",\\; ".join(latex_of(part) for part in text.split(" and ")[:most]))
-
-    steps = tex_words.ProofSteps(entry(opened().hook("proof-claim", str)))
-    pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
-    stages = rows("theorem/descends", "stage")
-    scaling = next(one for one in contents.derivations if one.function == "scaling")
-    return {
-        "scaling": ",\\; ".join(
-            f"{name} = {with_macros(latex_of(value))}"
-            for name, value in zip(("x", "w"), scaling.shown()[0])
-        ),
-        "guards": [latex_of(guard) for guard, _ in pieces],
-        "images": [
-            ", ".join(with_macros(latex_of(part)) for part in parts_of(image))
-            for _, image in pieces
-        ],
-        "fixed": formulas("theorem/contracts", "point"),
-        "other": formulas("theorem/escapes", "start"),
-        "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
-        "rank": formulas("theorem/descends", "rank")[0],
-        "stage_1": conjuncts(stages[0]),
-        "stage_2": conjuncts(stages[1]),
-        "trap": conjuncts(stages[2]),
-        "later": len(stages) - 1,
-        "below": conjuncts(rows("theorem/descends", "domain")[0], 2),
-        "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
-        "space": latex_of(rows("theorem/map", "space")[0]),
-        "rate": formulas("theorem/contracts", "rate")[0],
-        "given": steps.given,
-        "radius": latex_of(rows("theorem/contracts", "radius")[0]),
-        "show": steps.show,
-        "says": lambda name: entry(name).claim.says,
-        "verdict": lambda name: entry(name).verdict,
-        "rules": contents.rules,
-        "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],
     }
 
 
@@ -302,7 +243,7 @@ def equation(entry: Entry) -> str:
     tag = f"\\tag{{{number}}}" if number else ""
     head = [
         f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text}",
-        *([f"% holds as printed: {entry.sharp}"] if entry.sharp != "no alpha" else []),
+        *([f"% holds as printed: {entry.sharp}"] if has_range(entry.sharp) else []),
         *(
             [
                 f"% {'true instead' if entry.correction['kind'] == 'nearby' else 'corrected'};"
@@ -320,7 +261,7 @@ def equation(entry: Entry) -> str:
     numbered = "equation" if not tag else "equation*"
     macros = [
         f"\\providecommand{{\\jug{name}}}{{{means}}}"
-        for name, means, _ in MACROS
+        for name, means, _ in opened().notation.macros
         if f"\\jug{name}" in shown
     ]
     return (

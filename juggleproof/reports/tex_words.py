@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 from juggleproof.certificates import checker
 from juggleproof.judging.claims import Claim
 from juggleproof.judging.correcting import note_of
+from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
 from juggleproof.papers.remarks import NAMES, PROSE, meanings, names_of
 from juggleproof.reading.meaning import read
 from juggleproof.reading.tree import Operator, Tree, spelled
 from juggleproof.reports.contents import Entry
 from juggleproof.reports.errata import WRONG, is_latex
-from juggleproof.reports.latex import NOTATION, latex_of, narrow, with_macros
+from juggleproof.reports.latex import glyph, latex_of, narrow, with_macros
+from juggleproof.reports.results import has_range
 from juggleproof.reports.words import SIGN, pieces
 from juggleproof.statements.language import ClaimError
 
@@ -40,46 +42,6 @@ SPECIAL = {
     "|": r"\textbar{}",
     '"': "''",
     "`": "'",
-}
-CLAIM_IDS = re.compile(r"\b((?:s[\dAB][\w.]*|prop-\d|eq)-\w[\w-]*|theorem-\w[\w-]*(?:/[\w.-]*\w)?)")
-# The paper's names for derived expressions.
-SYMBOLS = {
-    "f1": r"\bar f_1(\bar b)",
-    "f2": r"\bar f_2(\bar b)",
-    "period": "T",
-    "e_1": "e_1",
-    "E_max": r"E_{\max}",
-    "delta_E_max": r"\Delta E_{\max}",
-    "delta_E_sup": r"\Delta E_{\sup}",
-    "total_energy": r"E(\bar b)",
-    "energy_change_1": r"\Delta_1 E(\bar b)",
-    "energy_change_2": r"\Delta_2 E(\bar b)",
-    "collision_time": r"\tau_c(\bar b)",
-    "acceleration": r"\ddot\chi",
-    "gap": r"\beta(t) - \rho(t)",
-    "time_after_collision": r"\bar{\tau}_c(\bar b)",
-    "relative_kinetic_energy": "K(z)",
-    "energy_gradient": r"D\Delta_1 E(\bar b)",
-    "region_gradient": r"DR(\bar b)",
-    "xi_1": r"\xi_1",
-    "epsilon_1": r"\epsilon_1",
-    "launch_state": "r_0",
-    "region_margin": r"R(\bar b)",
-    "flight_matrix": "A_t",
-    "flight_offset": "a_t",
-    "flight_map": r"F^t(\bar b)",
-    "restitution_matrix": r"R_\alpha",
-    "fixed_point": "e_K",
-    "point_p": "p",
-    "energy_of_p": "E(p)",
-    "hang_time": "t_f",
-    "scaling": "(x, w)",
-}
-
-
-APPENDICES = {
-    "A": "Maximal and supremal points",
-    "B": "Handy equations, definitions, and parameterizations",
 }
 
 
@@ -108,7 +70,7 @@ def prose(text: str) -> str:
     >>> prose("The maximum of Delta_1 E on H. (eq-37)")
     'The maximum of $\\Delta_1 E$ on $\\jugH$. (\\texttt{eq-\\penalty0{}37})'
     """
-    between = CLAIM_IDS.split(text)
+    between = re.split(rf"\b({opened().notation.claims})", text)
     return "".join(
         code(part) if place % 2 else "".join(starmap(_set, pieces(part)))
         for place, part in enumerate(between)
@@ -211,24 +173,20 @@ def entries(one: Derivation) -> str:
 
 def in_errata(entry: Entry) -> bool:
     """Whether the display of the claim stands among the errata, and not in an appendix."""
-    return entry.group in WRONG or bool(entry.group) and entry.claim.section[:1] not in APPENDICES
+    return (
+        entry.group in WRONG
+        or bool(entry.group)
+        and entry.claim.section[:1] not in opened().appendices
+    )
 
 
 def symbol(one: Derivation) -> str:
     """The paper's name for a derived expression, or empty."""
-    return with_macros(SYMBOLS.get(one.function, ""))
+    return with_macros(opened().notation.derived.get(one.function, ""))
 
 
 # -------------------------------------------------------------------------------------------------
 # The symbols of prints, with their meanings in the ledger.
-
-OPERATORS = {
-    r"\Delta": "the change from one sampled state to the next",
-    r"\Delta_1": "the change over a period with an impact",
-    r"\Delta_2": "the change over a period without one",
-    "D": "the derivative, by the variable in the subscript",
-    r"\partial": "before a region: its boundary",
-}
 
 
 def symbols(latex: str, section: str) -> list[tuple[str, str]]:
@@ -241,10 +199,10 @@ def symbols(latex: str, section: str) -> list[tuple[str, str]]:
 
     Raises ClaimError where the ledger has no meaning of a symbol.
     """
-    found = dict[str, str]()
+    found, known = dict[str, str](), opened().notation.operators
     for row in re.split(r"\\text\{[^{}]*\}", latex):
         for part in read(row).parts if row.strip() else ():
-            found |= {sign: OPERATORS[sign] for sign in _operators(part.tree)}
+            found |= {sign: known[sign] for sign in _operators(part.tree)}
             found |= {name: _meaning(name, section) for name in names_of(part.tree)}
     return [(narrow(name), meaning) for name, meaning in found.items()]
 
@@ -280,7 +238,7 @@ def names() -> list[tuple[str, str, str]]:
     """
     rows = [row for row in meanings() if any(not one.endswith(PROSE) for one in row.sections)]
     count = Counter(row.name for row in rows)
-    known = {_bare(latex) for _, latex, meaning in NOTATION if meaning}
+    known = {_bare(latex) for _, latex, meaning in opened().notation.symbols if meaning}
     return [
         (
             with_macros(row.name.replace("...", r"\ldots")),
@@ -304,16 +262,15 @@ def key(name: str) -> str:
 
 
 def holds(sharp: str) -> str:
-    """The words on the alphas of a sharp range."""
+    """The words on the values of the parameter in a sharp range."""
+    paper = opened()
     if sharp == "nowhere":
-        return r"for no $\jugrestitution$"
+        return f"for no ${with_macros(glyph(paper.parameter))}$"
     if ": " not in sharp and "root" not in sharp:
-        return (
-            f"exactly for {prose(sharp)}"
-            if sharp != "0 < alpha < 1"
-            else r"for all $0 < \jugrestitution < 1$"
-        )
-    return prose(re.sub(r"(?<=: )nowhere", "for no alpha", sharp))
+        if sharp == paper.domain:
+            return f"for all ${with_macros(latex_of(sharp))}$"
+        return f"exactly for {prose(sharp)}"
+    return prose(re.sub(r"(?<=: )nowhere", f"for no {paper.parameter}", sharp))
 
 
 def values(at: str) -> str:
@@ -393,6 +350,7 @@ __all__ = [
     "correction",
     "entries",
     "formula",
+    "has_range",
     "heading",
     "holds",
     "in_errata",

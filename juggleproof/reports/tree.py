@@ -46,6 +46,12 @@ def digest_of(texts: Iterable[str]) -> str:
     return hashlib.sha256("\n\n".join(texts).encode()).hexdigest()
 
 
+def name_of_theorem() -> tuple[str, ...]:
+    """The name of the theorem's statement; none where the paper has no theorem."""
+    theorem = opened().theorem
+    return () if theorem is None else (theorem.name,)
+
+
 def theorem_line(
     store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None
 ) -> str:
@@ -53,10 +59,10 @@ def theorem_line(
     on, and their rules; or the statement that is not certified; or that the store has another
     statement under its name.
 
-    Empty where the store does not have it.
+    Empty where the store does not have it, or the paper has no theorem.
     """
     theorem = opened().theorem
-    if theorem.name not in store.texts:
+    if theorem is None or theorem.name not in store.texts:
         return ""
     rules = rules_of(store, [theorem.name])
     names = with_all_below(theorem.name, rules)
@@ -88,8 +94,7 @@ def theorem_line(
             if decided
             else ""
         )
-        + "\n         `make coq` in a checkout proves the same from the definition of the map"
-        "\n         alone, and from flight and impact that ball and table settle in continuous time"
+        + "".join(f"\n         {line}" for line in theorem.witness)
     )
 
 

@@ -9,7 +9,8 @@ from fractions import Fraction
 from functools import cache
 
 from juggleproof.certificates import checker
-from juggleproof.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
+from juggleproof.papers.paper import opened
+from juggleproof.reports.latex import glyph, is_bracketed, latex_of
 
 # -------------------------------------------------------------------------------------------------
 # Sentences of claims and derivations, whose formulas are written as in statements, split into text
@@ -18,97 +19,22 @@ from juggleproof.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
 # A formula is recognized by its words: names of the notation, numerals beside signs, and joining
 # signs. The rest is text.
 
-# Names that occur in sentences but not in statements: regions, maps, and quantities with marks that
-# the statement language lacks.
-NAMED = {
-    "B1^0": r"\mathcal{B}_1^0",
-    "B1^+": r"\mathcal{B}_1^+",
-    "B1^-": r"\mathcal{B}_1^-",
-    "B1": r"\mathcal{B}_1",
-    "B2": r"\mathcal{B}_2",
-    "B_1": "B_1",
-    "B_2": "B_2",
-    "B_3": "B_3",
-    "S_0": "S_0",
-    "Delta_1 E": r"\Delta_1 E",
-    "Delta_2 E": r"\Delta_2 E",
-    "Delta E_max": r"\Delta E_{\max}",
-    "Delta E_sup": r"\Delta E_{\sup}",
-    "Delta E": r"\Delta E",
-    "E_max": r"E_{\max}",
-    "E_sup": r"E_{\sup}",
-    "tau_c": r"\tau_c",
-    "tau_w": r"\tau_w",
-    "xi_1": r"\xi_1",
-    "epsilon_1": r"\epsilon_1",
-    **{f"e_{K}": f"e_{K}" for K in (*range(1, 7), "K")},
-    "T_K": "T_K",
-    "b_0": r"\bar b_0",
-    "r_0": "r_0",
-    "z_k": "z_k",
-    "t_R": r"t_{\mathcal{R}}",
-    "A_T": "A_T",
-    "A_t": "A_t",
-    "R_alpha": r"R_\alpha",
-    "u_1": "u_1",
-    "u_2": "u_2",
-    "f1": r"\bar f_1",
-    "f2": r"\bar f_2",
-    "F^t": "F^t",
-    "f^n": "f^n",
-    "C_y": "C_y",
-    "P_x": "P_x",
-    "P_y": "P_y",
-    "c_x": "c_x",
-    "c_y": "c_y",
-    "G": "G",
-    "z1": "z_1",
-    "z2": "z_2",
-    "a_t": "a_t",
-    "alpha^n": r"\alpha^n",
-    "(-alpha)^n": r"(-\alpha)^n",
-    "R(b)": r"R(\bar b)",
-    "b": r"\bar b",
-    "epsilon": r"\epsilon",
-    "kappa": r"\kappa",
-    "alpha^k": r"\alpha^k",
-    "A_-xi": r"A_{-\xi}",
-    "A_-epsilon": r"A_{-\epsilon}",
-}
-REGIONS = {"H": r"\mathcal{H}", "R": r"\mathcal{R}"}
-LETTERS = {
-    "C",
-    "D",
-    "E",
-    "F",
-    "K",
-    "N",
-    "T",
-    "W",
-    "c",
-    "f",
-    "m",
-    "n",
-    "p",
-    "q",
-    "r",
-    "t",
-    "u",
-    "v",
-    "w",
-    "x",
-    "y",
-    "z",
-}
-WORD = re.compile(
-    r"""
-    \(-alpha\)\^n | Delta_[12]\ E | Delta\ E_(?:max|sup) | Delta\ E\b | B1\^[0+\-](?!\w) | R\(b\)
-  | \|[A-Za-z]\w*\| | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:\.\w+)*(?:-\w+)+
-  | [A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?
-  | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
-""",
-    re.VERBOSE,
-)
+NAME = r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?"
+
+
+@cache
+def _word() -> re.Pattern[str]:
+    """The pattern of a word of a sentence: a name of the paper that has spaces or signs, a word, a
+    numeral, or a sign.
+    """
+    names = [one for one in opened().notation.sentences if not re.fullmatch(NAME, one)]
+    signed = "".join(rf"{re.escape(one)}(?!\w)|" for one in sorted(names, key=len, reverse=True))
+    return re.compile(
+        rf"{signed}\|[A-Za-z]\w*\||'[a-z]+\b|[A-Za-z]\w*(?:\.\w+)*(?:-\w+)+|{NAME}"
+        r"|\d+(?:/\d+)?|<=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|\S"
+    )
+
+
 SIGN = re.compile(  # a letter or sign in the description of a change; `a` is the article
     r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Zb-z]\b|[<>])"
 )
@@ -151,7 +77,7 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
     """The spans (start, end) of formulas: the longest runs of names, numerals, signs and balanced
     brackets that contain a name or a sign.
     """
-    words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
+    words = [(one.group(), one.start(), one.end()) for one in _word().finditer(sentence)]
     spans, place = [], 0
     while place < len(words):
         if not _begins(words, place):
@@ -166,16 +92,18 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
 
 
 def _is_name(word: str) -> bool:
-    word = word.strip("|")
+    notation, word = opened().notation, word.strip("|")
     base, raised, exponent = word.partition("^")
     if raised:
-        return word in NAMED or _is_name(base) and (exponent.isdigit() or exponent in LETTERS)
+        is_power = exponent.isdigit() or exponent in notation.letters
+        return word in notation.sentences or _is_name(base) and is_power
+    numbered = re.fullmatch(r"([a-z]+)\d", word)
     return (
-        word in NAMED
-        or word in REGIONS
-        or word in GLYPHS
-        or word in LETTERS
-        or bool(re.fullmatch(r"(?:[a-z]|beta)\d", word))
+        word in notation.sentences
+        or word in notation.glyphs
+        or word in notation.letters
+        or numbered is not None
+        and (len(numbered[1]) == 1 or numbered[1] in notation.glyphs)
     )
 
 
@@ -247,12 +175,12 @@ def _run(words: list[tuple[str, int, int]], place: int) -> int:
 
 def _is_factor(word: str, first: bool) -> bool:
     """Whether the word can stand beside another one as a factor."""
-    name = word.strip("|")
+    notation, name = opened().notation, word.strip("|")
     base = name.partition("^")[0]
     return (
-        base in LETTERS
-        or base in GLYPHS
-        or (word == ")" or word[0].isdigit() if first else name in NAMED)
+        base in notation.letters
+        or base in notation.glyphs
+        or (word == ")" or word[0].isdigit() if first else name in notation.sentences)
     )
 
 
@@ -260,19 +188,18 @@ def _formula(text: str) -> str:
     """The LaTeX of a formula: as in statements, if the statement language can read it, else word by
     word.
     """
-    words = [found.group() for found in WORD.finditer(text)]
-    if not any(word in NAMED or word in REGIONS for word in words):
+    known = opened().notation.sentences
+    words = [found.group() for found in _word().finditer(text)]
+    if not any(word in known for word in words):
         try:
             return rf"({latex_of(text)})" if is_bracketed(text) else latex_of(text)
         except (checker.Rejected, TypeError):
             pass
     shown = ""
-    for found in WORD.finditer(text):
+    for found in _word().finditer(text):
         word = found.group().strip("|")
         bar = "|" if word != found.group() else ""
-        piece = (
-            NAMED.get(word) or REGIONS.get(word) or JOINING.get(word) if word != "/" else "/"
-        ) or (
+        piece = (known.get(word) or JOINING.get(word) if word != "/" else "/") or (
             _raised(word) if "^" in word[1:] else glyph(word) if _is_name(word) else _numeral(word)
         )
         piece = bar + piece + bar
@@ -295,7 +222,7 @@ def _formula(text: str) -> str:
 def _raised(word: str) -> str:
     base, _, exponent = word.partition("^")
     power = exponent if len(exponent) == 1 else f"{{{exponent}}}"
-    return f"{NAMED.get(base) or REGIONS.get(base) or glyph(base)}^{power}"
+    return f"{opened().notation.sentences.get(base) or glyph(base)}^{power}"
 
 
 def _numeral(word: str) -> str:
@@ -304,7 +231,7 @@ def _numeral(word: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Sharp ranges of alpha, read from their text into intervals that can be drawn.
+# Sharp ranges, read from their text into intervals that can be drawn.
 
 # low, high, and whether each belongs to the interval; for a single number low = high
 Interval = tuple[Fraction, Fraction, bool, bool]
@@ -312,8 +239,8 @@ Interval = tuple[Fraction, Fraction, bool, bool]
 NUMBERS_SHOWN = (2, 3)  # the values put for K or n, where the range depends on one
 _READING = re.compile(r"([A-Za-z][\w-]*): (.*)", re.DOTALL)
 _END = re.compile(r"(c\d+) = (-?\d+\.\d+)\.\.\., a root of .*", re.DOTALL)
-_POINT = re.compile(r"alpha = (.+)")
-_BETWEEN = re.compile(r"(.+?) (<=?) alpha (<=?) (.+)")
+_POINT = re.compile(r"(\w+) = (.+)")
+_BETWEEN = re.compile(r"(.+?) (<=?) (\w+) (<=?) (.+)")
 _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
 
 
@@ -359,22 +286,16 @@ def _for_each_number(
 def _intervals(sharp: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
     if sharp == "nowhere":
         return []
-    intervals = []
+    intervals, parameter = [], opened().parameter
     for piece in sharp.split(" or "):
         point, between = _POINT.fullmatch(piece), _BETWEEN.fullmatch(piece)
         try:
-            if point:
-                number = _value(point[1], values)
+            if point and point[1] == parameter:
+                number = _value(point[2], values)
                 intervals.append((number, number, True, True))
-            elif between:
-                intervals.append(
-                    (
-                        _value(between[1], values),
-                        _value(between[4], values),
-                        between[2] == "<=",
-                        between[3] == "<=",
-                    )
-                )
+            elif between and between[3] == parameter:
+                low, high = _value(between[1], values), _value(between[5], values)
+                intervals.append((low, high, between[2] == "<=", between[4] == "<="))
             else:
                 return None
         except (SyntaxError, LookupError, ZeroDivisionError):

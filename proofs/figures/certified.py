@@ -11,7 +11,7 @@ from juggleproof.proofs.restitution.settling import RANGES
 from juggleproof.proofs.restitution.unequal import FLIGHTS
 from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 from juggleproof.reports.contents import Entry
-from juggleproof.reports.results import NO_RANGE
+from juggleproof.reports.results import no_range
 from juggleproof.reports.words import read
 from juggleproof.statements.language import ClaimError, Formula, Term
 
@@ -28,7 +28,7 @@ def what_attracts(entries: Iterable[Entry]) -> tuple[list[Range], Flights, Range
     sharp = {entry.claim.id: entry.sharp for entry in entries if entry.verdict == "holds"}
 
     def span(claim_id: str) -> Range:
-        found = read(sharp.get(claim_id, NO_RANGE).removeprefix("at least "))[0][1]
+        found = read(sharp.get(claim_id, no_range()).removeprefix("at least "))[0][1]
         if not found:
             raise ClaimError(f"{claim_id} holds on no range that can be drawn")
         return found[0][0], found[-1][1]

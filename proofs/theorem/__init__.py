@@ -18,3 +18,11 @@ DIGEST = "f04e6abda0ad366483f97f4d3c08568e3fb46b61d5c96b1b247c08449e6b4193"
 SENTENCE = (
     "for 0 < alpha < 1, e_1 is stable and attracts every state of H if and only if alpha < 1/3"
 )
+WITNESS = (  # who proves it too
+    "`make coq` in a checkout proves the same from the definition of the map",
+    "alone, and from flight and impact that ball and table settle in continuous time",
+)
+EXPLAINED = (  # where its proof can be read
+    "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
+    " prints them"
+)

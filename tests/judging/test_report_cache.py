@@ -13,6 +13,8 @@ from juggleproof.judging import report_cache
 from juggleproof.statements.store import canonical
 
 KEY = "0" * 64
+PAPER = "a-paper"  # its folder may be any
+FOLDERS = (*report_cache.SOURCES, PAPER)
 RECORDS = [{"id": "a", "says": "It says so."}, {"id": "b"}]
 
 
@@ -23,45 +25,44 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def tree(tmp_path: Path) -> Path:
-    for package in report_cache.SOURCES:
+def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for package in FOLDERS:
         (tmp_path / "tree" / package / "inner").mkdir(parents=True)
         (tmp_path / "tree" / package / "inner" / "one.py").write_text("x = 1\n", encoding="utf-8")
+    monkeypatch.setattr(report_cache, "ROOT", tmp_path / "tree")
+    monkeypatch.setattr(report_cache, "FOLDER", tmp_path / "tree" / PAPER)
     return tmp_path / "tree"
 
 
-@pytest.mark.parametrize("package", report_cache.SOURCES)
+@pytest.mark.parametrize("package", FOLDERS)
 def test_a_changed_source_changes_the_key_holds(package: str, tree: Path) -> None:
     path = tree / package / "inner" / "one.py"
-    seen = [report_cache.key(root=tree)]
-    assert report_cache.key(root=tree) == seen[0]
+    seen = [report_cache.key()]
+    assert report_cache.key() == seen[0]
     path.write_text("x = 2\n", encoding="utf-8")
-    seen.append(report_cache.key(root=tree))
+    seen.append(report_cache.key())
     path.rename(path.with_name("two.py"))
-    seen.append(report_cache.key(root=tree))
+    seen.append(report_cache.key())
     path.write_text("", encoding="utf-8")
-    seen.append(report_cache.key(root=tree))
+    seen.append(report_cache.key())
     assert len(set(seen)) == len(seen)
 
 
 def test_settings_and_versions_change_the_key_holds(
     tree: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen = {report_cache.key(1, root=tree), report_cache.key(2, root=tree)}
+    seen = {report_cache.key(1), report_cache.key(2)}
     monkeypatch.setattr(
         report_cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
     )
-    seen.add(report_cache.key(1, root=tree))
+    seen.add(report_cache.key(1))
     monkeypatch.setattr(report_cache.sys, "version", "another")
-    seen.add(report_cache.key(1, root=tree))
+    seen.add(report_cache.key(1))
     assert len(seen) == 4
 
 
 def test_the_key_reads_the_prints_and_the_checker_holds() -> None:
-    read = {
-        path.relative_to(report_cache.ROOT).as_posix()
-        for path in report_cache._sources(report_cache.ROOT)
-    }
+    read = {name for name, _ in report_cache.sources()}
     assert {
         "certificates/checker/rules.py",
         "proofs/paper/a3_a4_supremum.py",

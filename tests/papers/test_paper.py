@@ -23,6 +23,10 @@ def test_all_that_hangs_in_from_the_paper_loads_holds() -> None:
         assert opened().hook(name, object) is not None
 
 
+def test_a_hook_that_the_paper_lacks_is_none_holds() -> None:
+    assert opened().hook("of-no-paper", object) is None
+
+
 def test_rejects_a_hook_of_another_kind() -> None:
     with pytest.raises(ClaimError, match="explain_state is no str, which explain-state needs"):
         opened().hook("explain-state", str)

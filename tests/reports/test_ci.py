@@ -110,6 +110,13 @@ def test_report_and_run_write_the_same_holds() -> None:
     assert as_junit(contents()) == as_junit(paper())
 
 
+def test_a_claim_that_is_gone_is_a_failure_of_the_register_holds() -> None:
+    suite = read(paper({**load_register(), "gone": {"verdict": "gap"}}))
+    (case,) = suite.findall("testcase[@name='gone']")
+    assert case.attrib["classname"] == "proofs.register"
+    assert case.find("failure") is not None
+
+
 def test_accepted_change_is_no_failure_holds() -> None:
     register = {**load_register(), "gone": {"verdict": "gap"}, "eq-2": {"verdict": "holds"}}
     accepted = paper(register, accepted=True)

@@ -15,7 +15,7 @@ import pytest
 
 from juggleproof.proofs.figures import TABLE, certified
 from juggleproof.reports import figures
-from juggleproof.reports.figures import rows, without_alpha
+from juggleproof.reports.figures import rows, without_range
 from juggleproof.reports.words import read
 from juggleproof.statements.language import ClaimError, equal, reals
 from tests.reports.results_table import results
@@ -92,7 +92,7 @@ def test_rejects_what_it_does_not_read(text: str) -> None:
 def test_every_range_of_the_results_is_read_holds() -> None:
     entries = results()
     ranges = rows(entries)
-    assert len(entries) > 250 and without_alpha(entries) > 50
+    assert len(entries) > 250 and without_range(entries) > 50
     # a range told as "at least" has no known end: it is not drawn
     assert {name for name, _, intervals in ranges if intervals is None} == {
         one.claim.id for one in entries if (one.sharp or "").startswith("at least ")

@@ -123,7 +123,7 @@ def test_rejects_what_was_kept_before_a_change(
 
 
 def test_the_key_reads_templates_and_data_holds() -> None:
-    names = [one.name for one in report_cache._sources(report_cache.ROOT, "*")]
+    names = [path.name for _, path in report_cache.sources("*")]
     assert {"page.html.j2", "style.css", "register.json", "rows.tsv", "sweep.json"} <= {*names}
     assert not any(name.endswith(".pyc") for name in names)
 
