@@ -15,7 +15,8 @@ INDEX = "proofs/ledger/index.json"
 DERIVED = "proofs/ledger/derived.json"
 REGISTER = "proofs/register.json"
 LOCKS = ("requirements.lock",)
-TEST_LOCKS = (*LOCKS, "requirements-report.lock", "requirements-test.lock", "pyproject.toml")
+REPORT_LOCKS = (*LOCKS, "requirements-report.lock")
+TEST_LOCKS = (*REPORT_LOCKS, "requirements-test.lock", "pyproject.toml")
 PEERS_LOCKS = (*TEST_LOCKS, "requirements-peers.lock")
 CHECKER = ("algebra", "text", "language", "rules", "maps", "orbits", "settling")
 SINE = ("flights", "cells", "checker")
@@ -120,7 +121,7 @@ class Stages:
                 for share in WIDE_SHARES
             ),
         ):
-            depends = self.sources.depends_on([module], TEST_LOCKS)
+            depends = self.sources.depends_on([module], REPORT_LOCKS)
             yield Stage(name, ("python", "-m", module, *more), depends)
         for tests in WITH_PEERS:
             depends = self.sources.depends_on(["tests.exhaust.peers", tests], PEERS_LOCKS)

@@ -1,20 +1,20 @@
-"""Maps that are not the paper's, with all that the map rules say of them, and certificates that
-the search finds.
+"""Maps that are not the paper's, with all that the map rules say of them, and the certificates that
+the search has found.  These stand in `maps.json`, so that a test of the checker depends on no
+search; `tests/search/map_certificates.py` finds them anew.
 """
 
 from __future__ import annotations
 
+import json
 from functools import cache
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.search.certificate import search_premises
-from juggleproof.search.ranges import Violation
-from juggleproof.statements.language import NO_ROLES
-from juggleproof.statements.work import Budget
 
 Json = Any
-BUDGET = 40_000
+FOUND = Path(__file__).with_name("maps.json")
 
 # One is subtracted until what is left is less than 1, and that is multiplied by a: to 0 exactly for
 # a < 1.
@@ -525,31 +525,32 @@ def read(text: str) -> dict[str, checker.Statement]:
 
 
 @cache
+def found() -> dict[str, Json]:
+    """What the search has found of each text, by its key."""
+    return dict(json.loads(FOUND.read_text(encoding="utf-8")))
+
+
+def key(text: str) -> str:
+    """The key of a text: it tells of the last statement and of those before it."""
+    return sha256(text.strip().encode()).hexdigest()[:16]
+
+
+def certificate_of(text: str) -> Json:
+    """The certificate of the last statement of a text, or the reason why none was found."""
+    if key(text) not in found():
+        raise LookupError(f"{FOUND}: not searched; tests/search/map_certificates.py searches")
+    return found()[key(text)]
+
+
 def searched(text: str) -> dict[str, Json]:
     """{name: certificate or the reason why none was found} for the statements of a text in order,
     as far as those before are certified.
     """
-    before, _, _ = text.strip().rpartition("\n\n")
-    found = dict(searched(before)) if before else {}  # most texts begin as another does
-    if not any("unknown" in certificate for certificate in found.values()):
-        *earlier, (name, statement) = read(text).items()
-        found[name] = certificate_of(statement, dict(earlier))
-    return found
-
-
-def certificate_of(statement: checker.Statement, known: dict[str, checker.Statement]) -> Json:
-    """A proof of each premise of a map rule, or the first that has none."""
-    premises, proofs = checker.premises_of(statement, known), {}
-
-    def is_false(name: str) -> bool:
-        violation = Violation.of(premises[name], None, NO_ROLES)
-        return violation.absent_everywhere(Budget(BUDGET)) is False
-
-    for name, proof in search_premises(premises, known, BUDGET, is_false=is_false):
-        if proof is None:
-            return {"unknown": f"no proof of the premise {name} was found"}
-        proofs[name] = proof
-    return {"certified": proofs}
+    before, _, last = text.strip().rpartition("\n\n")
+    certificates = searched(before) if before else {}  # most texts begin as another does
+    if not any("unknown" in certificate for certificate in certificates.values()):
+        certificates[last.split()[1]] = certificate_of(text)
+    return certificates
 
 
 def checked(
