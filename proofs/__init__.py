@@ -48,7 +48,6 @@ PAPER = Paper(
     theorem=Theorem(
         theorem.THEOREM, theorem.DIGEST, theorem.SENTENCE, theorem.WITNESS, theorem.EXPLAINED
     ),
-    derivations=f"{juggleproof.__name__}.symbolic",
     principles="Newton's equation, momentum balance, restitution and the launch of the table",
     parameter="alpha",
     domain="0 < alpha < 1",

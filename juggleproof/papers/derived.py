@@ -15,8 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TypeVar, Union
 
-from juggleproof.folders import LEDGER, folder_of
-from juggleproof.papers.paper import opened
+from juggleproof.folders import DERIVATIONS, LEDGER, folder_of
 from juggleproof.reading.values import Matrix, Vector
 from juggleproof.statements.formulas import Argument, Expression
 from juggleproof.statements.language import ClaimError, Formula, Term, real, term
@@ -116,8 +115,8 @@ def digest_of(names: Iterable[str]) -> str:
     patterns = [
         (package, f"{name}.py") for package, _, name in (m.rpartition(".") for m in modules)
     ]
-    if opened().derivations:
-        patterns.append((opened().derivations, "*.py"))
+    if DERIVATIONS:
+        patterns.append((DERIVATIONS, "*.py"))
     paths = dict[str, Path]()
     for package, pattern in patterns:
         paths |= {f"{package}/{path.name}": path for path in folder_of(package).glob(pattern)}

@@ -73,7 +73,6 @@ class Paper:
     checked_apart  the modules whose claims another checker settles
     unprinted      claims that the paper itself does not print, each with its reason
     theorem        its main result, if that is proved
-    derivations    the package that derives its expressions
     principles     the laws from which they are derived, as LaTeX
     parameter      the parameter whose sharp ranges are sought, and `domain`, where it lies
     letters        the letters that the errata use, explained in sentences
@@ -90,7 +89,6 @@ class Paper:
     checked_apart: tuple[str, ...] = ()
     unprinted: Mapping[str, str] = field(default_factory=dict)
     theorem: Theorem | None = None
-    derivations: str = ""
     principles: str = ""
     parameter: str = ""
     domain: str = ""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from juggleproof.judging import report_cache
+from juggleproof.judging import limits, report_cache
 from juggleproof.statements.store import canonical
 
 KEY = "0" * 64
@@ -161,9 +161,9 @@ def test_off_and_no_home_keep_nothing_holds(
 
 
 def test_only_the_latest_files_are_kept_holds(place: Path) -> None:
-    for number in range(report_cache.KEPT + 3):
+    for number in range(limits.KEPT_FILES + 3):
         report_cache.keep(f"{number:064x}", RECORDS)
-    assert len(list(place.iterdir())) == report_cache.KEPT
+    assert len(list(place.iterdir())) == limits.KEPT_FILES
     (place / "notes.txt").write_text(canonical({}).decode(), encoding="utf-8")
     report_cache.keep(KEY, RECORDS)
     assert (place / "notes.txt").exists()

@@ -106,6 +106,7 @@ def test_paper_as_registered_has_no_failure_holds() -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_report_and_run_write_the_same_holds() -> None:
     assert as_junit(contents()) == as_junit(paper())
 
