@@ -230,10 +230,9 @@ def equation(entry: Entry) -> str:
             f"{entry.claim.id} has no printed formula; `juggleproof explain {entry.claim.id}` shows"
             " its statements"
         )
-    number, printed = tex_words.number(entry.claim), tex_words.without_stop(entry.claim.printed)
-    body = tex_words.correction(entry) if entry.correction else printed
-    # a correction that refers to the print by its number gets the print itself
-    body = body.replace(rf"\text{{({number}) or }}", rf"{printed} \text{{ or }}")
+    number, body = tex_words.number(entry.claim), tex_words.regenerated(entry)
+    mended = tex_words.correction(entry) if entry.correction else body
+    read = body if body == mended else rf"{entry.claim.printed} \text{{;}} {mended}"
     rows = [with_macros(tex_words.without_stop(row)) for row in tex_words.lines(body)]
     shown = (
         rows[0]
@@ -255,7 +254,7 @@ def equation(entry: Entry) -> str:
         "% where",
         *(
             f"%   {symbol}: {meaning}"
-            for symbol, meaning in tex_words.symbols(body, entry.claim.section)
+            for symbol, meaning in tex_words.symbols(read, entry.claim.section)
         ),
     ]
     numbered = "equation" if not tag else "equation*"

@@ -133,6 +133,34 @@ def correction(entry: Entry) -> str:
     return text if is_latex(entry.correction) else rf"\text{{{prose(text)}}}"
 
 
+SET = re.compile(r"(?P<set>.*\\mid )(?P<condition>.+?)(?P<end> *\\(?:right)?\\?\})", re.DOTALL)
+
+
+def regenerated(entry: Entry) -> str:
+    """The print of a claim in the form that is true: the print itself where nothing corrects it.
+
+    A true assertion nearby that refers to the print by its number has the print in place of the
+    number; one about the condition of a set stands in the set.
+    """
+    printed = without_stop(entry.claim.printed)
+    if entry.correction is None:
+        return printed
+    body = correction(entry)
+    if entry.correction["kind"] != "nearby" or not is_latex(entry.correction):
+        return body
+    of_set = SET.fullmatch(printed)
+    if of_set:
+        return of_set["set"] + body + of_set["end"]
+    return body.replace(rf"\text{{({number(entry.claim)}) or }}", rf"{printed} \text{{ or }}")
+
+
+def footnote(entry: Entry) -> str:
+    """What the equation of a claim among the errata is, as its footnote says."""
+    if entry.correction is None:
+        return f"As printed ({entry.verdict})"
+    return "True instead" if entry.correction["kind"] == "nearby" else "Corrected"
+
+
 def corrected(entry: Entry) -> str:
     """The corrected print on one line, or the sentence that is true."""
     found = entry.correction
@@ -356,9 +384,11 @@ __all__ = [
     "in_errata",
     "inline",
     "key",
+    "footnote",
     "number",
     "plain",
     "prose",
+    "regenerated",
     "settled",
     "symbol",
     "values",
