@@ -6,7 +6,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 PACKAGE = f"{__package__}.proofs"  # it has PAPER, and the module `deriving`, which loads SymPy
-DERIVATIONS = f"{__package__}.symbolic"  # the package that derives its expressions, if it has one
 
 
 def folder_of(package: str) -> Path:

@@ -15,7 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TypeVar, Union
 
-from juggleproof.folders import DERIVATIONS, LEDGER, folder_of
+from juggleproof.folders import LEDGER, folder_of
 from juggleproof.reading.values import Matrix, Vector
 from juggleproof.statements.formulas import Argument, Expression
 from juggleproof.statements.language import ClaimError, Formula, Term, real, term
@@ -23,6 +23,7 @@ from juggleproof.statements.store import canonical, write_file
 
 PATH = LEDGER / "derived.json"
 ENCODER = "juggleproof.encoding"
+DERIVATIONS = "juggleproof.symbolic"  # the package that derives expressions
 RELATIONS = ("<", "<=", "=", "!=", ">=", ">")
 JOINED = ("and", "or", "not", "implies", "iff")
 Value = Union[Term, Formula, Vector, Matrix, str, tuple["Value", ...]]
@@ -115,8 +116,7 @@ def digest_of(names: Iterable[str]) -> str:
     patterns = [
         (package, f"{name}.py") for package, _, name in (m.rpartition(".") for m in modules)
     ]
-    if DERIVATIONS:
-        patterns.append((DERIVATIONS, "*.py"))
+    patterns.append((DERIVATIONS, "*.py"))
     paths = dict[str, Path]()
     for package, pattern in patterns:
         paths |= {f"{package}/{path.name}": path for path in folder_of(package).glob(pattern)}

@@ -129,7 +129,7 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
     )
     made.globals.update(
-        {name: getattr(tex_words, name) for name in tex_words.__all__ if name != "Steps"},
+        {name: getattr(tex_words, name) for name in tex_words.__all__ if name != "ProofSteps"},
         counterexamples=_counterexamples,
     )
     return made

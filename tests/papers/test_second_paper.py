@@ -51,7 +51,7 @@ here = Path(sys.argv.pop(1))
 sys.path.insert(0, str(here))
 from juggleproof import folders
 
-folders.PACKAGE, folders.DERIVATIONS, folders.FOLDER = "circles", "", here / "circles"
+folders.PACKAGE, folders.FOLDER = "circles", here / "circles"
 folders.REGISTER, folders.LEDGER = here / "circles" / "register.json", here / "circles" / "ledger"
 from juggleproof.statements import store
 
