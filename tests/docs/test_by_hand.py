@@ -11,14 +11,13 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-import pytest
-
-from juggleproof.certificates.checker import rules
+from juggleproof.certificates import checker
 from juggleproof.reading.evaluation import Environment
 from juggleproof.reading.meaning import Printed
 from juggleproof.reports.latex import latex_of
 from juggleproof.reports.markup import conjuncts
 from juggleproof.statements.language import reals
+from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.store import DEFAULT
 from tests.certificates.checker.harness import CLOSE, proof, verdict
 from tests.command import running
@@ -73,7 +72,7 @@ def steps() -> Iterator[tuple[list[str], set[str]]]:
     words, *rest = re.split(r"^```math\n(.*?)\n```$", text, flags=re.M | re.S)
     names, found = list[str](), set[str]()
     for display, after in zip(rest[::2], rest[1::2]):
-        before = re.findall(r"\(((?:`[\w-]+`(?:, )?)+)\)", words)
+        before = re.findall(r"\(((?:`[\w-]+`(?:,\s)?)+)\)", words)
         if before:
             yield names, found
             names, found = re.findall(r"`([\w-]+)`", before[0]), set()
@@ -138,32 +137,35 @@ def summands(line: str) -> list[tuple[str, str]]:
     return [(c or "1", one) for c, one in found]
 
 
-def test_the_identities_of_readme_are_its_certificate_holds(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def leaves(state: SearchState, node: Any) -> Iterator[tuple[SearchState, Any]]:
+    """The cases that a certificate tells apart, each with what closes it."""
+    if node[0] == "cases":
+        _, choice, nodes = node
+        rest = state.branch()
+        for alternative, one in zip(rest.choices.pop(choice), nodes, strict=True):
+            yield from leaves(rest.branch(alternative), one)
+    else:
+        yield state, node
+
+
+def test_the_identities_of_readme_are_its_certificate_holds() -> None:
     text, certificate = certified("s3.2-bounds")["corrected.main"]
     assert text.splitlines()[-1] in text_of(ROOT / "README.md")
-    closes, sums = rules.RULES["psatz"], list[list[tuple[str, str]]]()
-
-    def read(state: rules.State, known: Any, products: Any, equations: Any) -> None:
-        closes(state, known, products, equations)
-        assert equations == [] and all(
-            root == "1" and [power for _, power in factors] == [1] for _, factors, root in products
-        )
-        relations = [state.facts[factors[0][0]][1] for _, factors, _ in products]
-        assert sorted(relations) == [">", ">="]  # as the page says
-        sums.append(
-            [(c, state.context.show(state.facts[factors[0][0]][0])) for c, factors, _ in products]
-        )
-
-    monkeypatch.setitem(rules.RULES, "psatz", read)
-    name = "s3.2-bounds/corrected.main"
-    at = {"r": "1", "g": "1", "beta": "1", "v": "1/2"}
-    entry = proof(json.loads(certificate)[2], at=at, name=name)
-    assert verdict(text, {name: entry})[name][0] == "certified"
+    (statement,) = checker.read_statements(text).values()
+    unfolding = checker.Unfolding(statement, checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
+    _, _, root = json.loads(certificate)
+    assert state.is_closed_by(root, {})
     shown = [summands(line) for line in code(ROOT / "README.md", "text")[-1].splitlines()]
-    assert len(shown) == len(sums) == 3
-    for line, total in zip(shown, sums):
-        assert [c for c, _ in line] == [c for c, _ in total]
-        assert all(is_identity(one, fact) for (_, one), (_, fact) in zip(line, total))
+    assert len(shown) == 3
+    for line, (case, node) in zip(shown, leaves(state, root), strict=True):
+        rule, products, equations = node
+        assert rule == "psatz" and equations == []
+        facts = []
+        for (ours, bracket), (coefficient, ((fact, power),), square) in zip(line, products):
+            poly, relation = case.facts[fact]
+            assert (ours, power, square) == (coefficient, 1, "1")
+            assert is_identity(bracket, case.context.show(poly))
+            facts.append(relation)
+        assert sorted(facts) == [">", ">="] and len(line) == len(products)
         assert is_identity(" + ".join(f"{c}*({one})" for c, one in line), "0")
