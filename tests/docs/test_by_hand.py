@@ -115,13 +115,29 @@ def test_a_display_of_the_proof_is_certified_or_an_identity_holds(
             assert sign == "=" and is_identity(*formula.split(" = "))
 
 
+def rows(part: str, keyword: str) -> list[str]:
+    """What the lines of a statement of the theorem say that begin with the keyword."""
+    stored = (DEFAULT / "statements.txt").read_text(encoding="utf-8")
+    statement = stored.split(f"\nstatement theorem/{part}\n")[1].split("\n\n")[0]
+    return re.findall(rf"^{keyword} (.*)$", statement, re.M)
+
+
 def definitions() -> dict[str, str]:
     """What the letters of the page stand for in the statement that the checker joins."""
-    stored = (DEFAULT / "statements.txt").read_text(encoding="utf-8")
-    descent = stored.split("\nstatement theorem/descends\n")[1].split("\n\n")[0]
-    root = re.findall(r"^root u = sqrt\((.*)\)$", descent, re.M)[0]
-    rank = re.findall(r"^rank (.*)$", descent, re.M)[0]
+    root = rows("descends", "root")[0].removeprefix("u = sqrt(").removesuffix(")")
+    (rank,) = rows("descends", "rank")
     return dict(zip(DEFINED, (rf"\sqrt{{{latex_of(root)}}}", latex_of(rank))))
+
+
+def test_the_model_has_the_map_and_the_point_of_the_checker_holds() -> None:
+    shown = "".join(code(ROOT / "docs/theorem.md", "math"))
+    pieces = [row.split(" -> ") for row in rows("map", "piece")]
+    assert len(pieces) == 2
+    for guard, image in pieces:
+        entries = r",\; ".join(map(latex_of, image.split(", ")))
+        assert rf"({entries}) & \text{{if }} {latex_of(guard)}" in shown
+    point = r",\; ".join(map(latex_of, rows("contracts", "point")[0].split(", ")))
+    assert rf"e_1 = \left({point}\right)" in shown
 
 
 # -------------------------------------------------------------------------------------------------
