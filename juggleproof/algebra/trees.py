@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal, TypeGuard, TypeVar
 
 Op = Literal["and", "or"]
-Tree = TypeVar("Tree")  # a type of trees, of which each has one for its leaves
+Tree = TypeVar("Tree")  # a kind of tree; a kind is told by its leaves
 HOLDS: Mapping[str, Callable[[Any], bool]] = {  # of a value, or only its sign
     ">": lambda value: bool(value > 0),
     ">=": lambda value: bool(value >= 0),

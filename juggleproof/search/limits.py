@@ -105,7 +105,7 @@ MOST_SETS = 20_000  # of facts whose minors are tried [maps]
 MINOR, MINOR_ROUNDING = 1e-12, 1e-7  # least minor; rounding of sums, where entries are <= 1 [maps]
 MINORS_AT = (Fraction(1, 8), Fraction(1, 2), Fraction(7, 8))  # of the side, for these signs [maps]
 HIGHER = 12  # degrees that a Bernstein form may be raised by to have no negative number [maps]
-MOST_BOUNDED = 10  # variables with bounds, of which some are parameters [maps, never]
+MOST_BOUNDED = 10  # variables with bounds; some of them are parameters [maps, never]
 SIMPLIFICATIONS = 8  # passes over the products of an identity [claims]
 LONG_NUMBER = 200  # bits of a number of an identity, from which on a shorter form is sought [maps]
 
@@ -230,7 +230,7 @@ SIMPLE_VALUES: Sequence[Sequence[Fraction]] = [  # by the number of variables [p
         "0 1",  # and for more variables
     )
 ]
-MOST_SIMPLE = 8  # variables, of which each combination of two values is tried [problems]
+MOST_SIMPLE = 8  # variables; each combination of two values is tried [problems]
 FIRST_VALUES, MOST_VALUES = 3, 24  # of a variable; twice as many from round to round [problems]
 WINDOWS = tuple(Fraction(1, 4**k) for k in range(6))  # around a value of a model [claims]
 STARTS, STEPS = 12, 40  # of Gauss-Newton in floats, from each start [problems]

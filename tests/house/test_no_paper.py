@@ -21,7 +21,7 @@ APART = (
     "command/simulate_",
     "command/sine.py",
 )
-ALLOWED = {  # words of files of which some lines are about scenes
+ALLOWED = {  # words of files with some lines about scenes
     "__init__.py": {"juggler"},
     "command/__init__.py": {"juggler"},
     "command/main.py": {"juggler", "restitution", "bounce"},
