@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.exhaust.sources import ROOT, Sources, facts_of, without_prose
+from tests.exhaust.sources import RECORD, ROOT, Sources, facts_of, without_prose
 from tests.exhaust.stages import FRESH, INDEX, REGISTER, STORE, Stages
 
 
@@ -166,6 +166,11 @@ def test_a_change_asks_for_what_it_can_change_holds(
         assert wanted and wanted <= names, pattern
     for pattern in none_of:
         assert not [name for name in names if fnmatch(name, pattern)], pattern
+
+
+def test_no_stage_depends_on_the_record_holds(stages: Stages) -> None:
+    assert RECORD in stages.sources.data(["tests.exhaust.reports"])
+    assert not [name for name, stage in stages.all.items() if RECORD in stage.files]
 
 
 @pytest.mark.parametrize("file", ["README.md", "CHANGELOG.md", "docs/trust.md", "docs/formulas.py"])
