@@ -114,9 +114,9 @@ def digest_of(names: Iterable[str]) -> str:
     """
     modules = {name.partition("(")[0].rpartition(".")[0] for name in names} | {ENCODER}
     patterns = [
-        (package, f"{name}.py") for package, _, name in (m.rpartition(".") for m in modules)
+        (DERIVATIONS, "*.py"),
+        *((package, f"{name}.py") for package, _, name in (m.rpartition(".") for m in modules)),
     ]
-    patterns.append((DERIVATIONS, "*.py"))
     paths = dict[str, Path]()
     for package, pattern in patterns:
         paths |= {f"{package}/{path.name}": path for path in folder_of(package).glob(pattern)}

@@ -245,7 +245,7 @@ def equation(entry: Entry) -> str:
         *([f"% holds as printed: {entry.sharp}"] if has_range(entry.sharp) else []),
         *(
             [
-                f"% {'true instead' if entry.correction['kind'] == 'nearby' else 'corrected'};"
+                f"% {tex_words.footnote(entry).lower()};"
                 f" printed was: {' '.join(entry.claim.printed.split())}"
             ]
             if entry.correction

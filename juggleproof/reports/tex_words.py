@@ -133,7 +133,7 @@ def correction(entry: Entry) -> str:
     return text if is_latex(entry.correction) else rf"\text{{{prose(text)}}}"
 
 
-SET = re.compile(r"(?P<set>.*\\mid )(?P<condition>.+?)(?P<end> *\\(?:right)?\\?\})", re.DOTALL)
+SET = re.compile(r"(.*\\mid ).+?( *\\(?:right)?\\?\})", re.DOTALL)  # around its condition
 
 
 def regenerated(entry: Entry) -> str:
@@ -150,7 +150,7 @@ def regenerated(entry: Entry) -> str:
         return body
     of_set = SET.fullmatch(printed)
     if of_set:
-        return of_set["set"] + body + of_set["end"]
+        return of_set[1] + body + of_set[2]
     return body.replace(rf"\text{{({number(entry.claim)}) or }}", rf"{printed} \text{{ or }}")
 
 

@@ -21,12 +21,16 @@ from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
+from tests.exhaust.record import PATH
+
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "juggleproof"
 PACKAGES = ("symbolic", "certificates", "proofs", "benchmarks")
 NAMED = re.compile(rf"\b(?:{NAME}|tests)(?:\.\w+)+")
 MARK = "pytest.mark.exhaust"
-RECORD = "tests/exhaust/record.tsv"  # no stage depends on it: it is written as stages are done
+RECORD = PATH.relative_to(
+    ROOT
+).as_posix()  # no stage depends on it: it is written as stages are done
 DEFINED = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 # what a module opens as data, by a name that it does not write out
 OPENS = {"juggleproof.papers.paper": "juggleproof.proofs"}

@@ -50,28 +50,24 @@ def search(text: str) -> Json:
     return {"certified": proofs}
 
 
-class Recorder(dict[str, Json]):
-    """What the search finds for the texts that tests ask for."""
-
-    def certificate_of(self, text: str) -> Json:
-        """The certificate of the last statement of a text, searched when it is first asked for."""
-        if key(text) not in self:
-            self[key(text)] = search(text)
-        return self[key(text)]
-
-
-def find() -> Recorder:
-    """What the search finds for all texts that the tests ask for.
+def find() -> dict[str, Json]:
+    """What the search finds for all texts that the tests ask for, by their keys.
 
     Raises RuntimeError where one of these tests fails.
     """
-    recorder = Recorder()
+    found: dict[str, Json] = {}
+
+    def certificate_of(text: str) -> Json:
+        if key(text) not in found:
+            found[key(text)] = search(text)
+        return found[key(text)]
+
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(maps, "certificate_of", recorder.certificate_of)
+        patched.setattr(maps, "certificate_of", certificate_of)
         options = ["-q", "-n", "0", "-p", "no:cacheprovider"]
         if code := pytest.main([*options, *(str(ROOT / one) for one in ASKING)]):
             raise RuntimeError(f"a test of {', '.join(ASKING)} failed: pytest ended with {code}")
-    return recorder
+    return found
 
 
 if __name__ == "__main__":
