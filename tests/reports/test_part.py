@@ -196,10 +196,12 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     readings = import_module("juggleproof.scenes.part.readings")
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     points = tuple(
-        readings.Point(readings.Reading("2x4", "peak", 0, 0, e, 0.08), (), (), (), (lnl,) * 3, 1)
+        readings.ReadingOutcome(
+            readings.TableReading("2x4", "peak", 0, 0, e, 0.08), (), (), (), (lnl,) * 3, 1
+        )
         for e, lnl in ((0.7, -1.0), (0.5, -3.0))
     )
-    stored = (readings.Stage(2, 0, 0.5, 2, 2, points),)
+    stored = (readings.AlikeReadings(2, 0, 0.5, 2, 2, points),)
     for module in (part, readings):
         monkeypatch.setattr(module, "recorded", lambda: stored)
     setting = scene(e=0.7, mu=0.08, A_x=1e-3, f_x=30.0)
