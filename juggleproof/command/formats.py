@@ -10,8 +10,8 @@ from pathlib import Path
 from juggleproof.command.outputs import Files, write_all
 from juggleproof.reports.ci import badge, markdown
 from juggleproof.reports.contents import Contents, as_json, gather
-from juggleproof.reports.figures import labels, of_paper, saved
-from juggleproof.reports.page import FILE, build, pictures
+from juggleproof.reports.figures import labels, of_paper, pictures, saved
+from juggleproof.reports.page import FILE, build
 from juggleproof.reports.part import kept_results
 from juggleproof.reports.tex import compiled, files
 

@@ -77,8 +77,8 @@ class Paper:
     parameter      the parameter whose sharp ranges are sought, and `domain`, where it lies
     letters        the letters that the errata use, explained in sentences
     main_parts     the beginnings of the sections whose wrong statements concern the theorem
-    appendices     the titles of the parts that the LaTeX report has claim by claim, by their letter
-    headings       the headings of the sections of these parts, in order
+    appendices     the titles of the parts that reports regenerate, by their letter
+    headings       the headings of their sections, in order, with formulas between dollars
     pages          the pages of this project that have a part which is generated
     templates      the folder of its own templates for reports
     hooks          the places, as "module:name", of what this paper alone has, by name

@@ -158,6 +158,25 @@ class Contents:
             for one in entries
         ]
 
+    def appendix(self, letter: str) -> list[tuple[str, str, list[Entry]]]:
+        """The sections of an appendix that have claims: number, heading, entries.
+
+        Raises ClaimError, one line, where a section of a claim has no heading.
+        """
+        headings = opened().headings
+        for one in self.entries:
+            if one.claim.section.startswith(f"{letter}.") and one.claim.section not in headings:
+                raise ClaimError(
+                    f"{one.claim.id}: section {one.claim.section} has no heading; add it to the"
+                    " headings of the paper"
+                )
+        sections = [
+            (section, heading, [one for one in self.entries if one.claim.section == section])
+            for section, heading in headings.items()
+            if section.startswith(letter)
+        ]
+        return [one for one in sections if one[2]]
+
     def entry(self, claim_id: str) -> Entry:
         """The entry of this claim."""
         return next(one for one in self.entries if one.claim.id == claim_id)

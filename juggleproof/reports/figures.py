@@ -6,6 +6,7 @@ from base64 import b64decode, b64encode
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from juggleproof.drawing.look import inline_svg
 from juggleproof.judging import report_cache
 from juggleproof.judging.extras import needed
 from juggleproof.papers.figures import PaperFigure
@@ -18,6 +19,8 @@ from juggleproof.statements.language import ClaimError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from juggleproof.reports.part import TableResults
 
 
 # claim (and reading), verdict, range; None where the range cannot be drawn
@@ -115,3 +118,35 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
     from juggleproof.drawing import drawing
 
     return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)
+
+
+class Picture(NamedTuple):
+    """A figure of the page: SVG that contains its own title and description."""
+
+    slug: str
+    title: str
+    caption: str
+    alt: str
+    svg: str
+
+
+def pictures(contents: Contents) -> list[Picture]:
+    """The report's figures."""
+    return [
+        Picture(
+            one.slug,
+            one.title,
+            one.caption,
+            one.alt,
+            inline_svg(one.data, one.slug, one.title, one.alt),
+        )
+        for one in saved(contents)
+    ]
+
+
+def scene_picture(scene: TableResults | None) -> list[Picture]:
+    """Figure 2 for the page; none where it was not drawn."""
+    if scene is None or not scene.figure:
+        return []
+    slug, title, caption, alt = (scene.figure[key] for key in ("slug", "title", "caption", "alt"))
+    return [Picture(slug, title, caption, alt, inline_svg(scene.figure["svg"], slug, title, alt))]

@@ -67,6 +67,18 @@ def prose(sentence: str) -> str:
     )
 
 
+def marked(text: str) -> str:
+    """A text as markup; what stands between dollars is LaTeX.
+
+    >>> marked("Finding $x$")
+    'Finding <math alttext="x"><mi>x</mi></math>'
+    """
+    return "".join(
+        mathml(part) if place % 2 else escape(part, quote=False)
+        for place, part in enumerate(text.split("$"))
+    )
+
+
 def line(text: str) -> str:
     """A line of the program's own output as markup; text between backquotes is code."""
     return "".join(

@@ -16,17 +16,16 @@ from types import FunctionType
 from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
-from juggleproof.drawing.look import inline_svg
 from juggleproof.judging.claims import VERDICTS
 from juggleproof.judging.conclusions import RULES
 from juggleproof.judging.correcting import note_of
 from juggleproof.judging.extras import needed
 from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
-from juggleproof.reports import markup
+from juggleproof.reports import markup, tex_words
 from juggleproof.reports.contents import Contents, Entry, ShownText, TheoremRule
 from juggleproof.reports.errata import FIRST, GROUPS, goal_of, is_latex
-from juggleproof.reports.figures import saved
+from juggleproof.reports.figures import Picture, scene_picture
 from juggleproof.reports.latex import latex_of
 from juggleproof.reports.markup import Chip, MarkedStatement, picture
 from juggleproof.reports.mathml import mathml
@@ -157,11 +156,21 @@ class ClaimView:
     shared: Sequence[markup.MarkedLine]
     statements: Sequence[ShownStatement]
     note: str
+    number: str
+    regenerated: str
+    mended: str
 
     @property
     def id(self) -> str:
         """The claim's id, which is its anchor."""
         return self.entry.claim.id
+
+    @property
+    def has_another_print(self) -> bool:
+        """Whether the claim is regenerated in another form than that of its print."""
+        appendices = opened().appendices
+        corrected = bool(self.mended and self.printed and self.entry.correction)
+        return corrected and self.entry.claim.section[:1] in appendices
 
     @property
     def refuted(self) -> list[ShownStatement]:
@@ -212,7 +221,39 @@ def view_of(entry: Entry) -> ClaimView:
         shared=_rows(shared),
         statements=[statement(one, shared=shared) for one in entry.statements],
         note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
+        number=tex_words.number(claim),
+        regenerated=regenerated(entry) if claim.printed else "",
+        mended=tex_words.footnote(entry) if tex_words.in_errata(entry) else "",
     )
+
+
+def regenerated(entry: Entry) -> str:
+    """The print of a claim in the form that is true, as markup (`tex_words.regenerated`)."""
+    if not tex_words.in_errata(entry):
+        return mathml(entry.claim.printed, block=True)
+    if entry.correction and not is_latex(entry.correction):
+        return markup.prose(entry.correction["text"])
+    return mathml(tex_words.regenerated(entry), block=True)
+
+
+Section = tuple[str, str, list[ClaimView]]
+
+
+def appendices(
+    contents: Contents, views: Mapping[str, ClaimView]
+) -> list[tuple[str, str, list[Section]]]:
+    """The appendices of the paper: letter, title, and sections with their headings and claims."""
+    return [
+        (
+            letter,
+            title,
+            [
+                (section, markup.marked(heading), [views[one.claim.id] for one in entries])
+                for section, heading, entries in contents.appendix(letter)
+            ],
+        )
+        for letter, title in opened().appendices.items()
+    ]
 
 
 @dataclass(frozen=True)
@@ -403,39 +444,6 @@ TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A figure of the page: SVG that contains its own title and description."""
-
-    slug: str
-    title: str
-    caption: str
-    alt: str
-    svg: str
-
-
-def pictures(contents: Contents) -> list[Picture]:
-    """The report's figures."""
-    return [
-        Picture(
-            one.slug,
-            one.title,
-            one.caption,
-            one.alt,
-            inline_svg(one.data, one.slug, one.title, one.alt),
-        )
-        for one in saved(contents)
-    ]
-
-
-def scene_picture(scene: TableResults | None) -> list[Picture]:
-    """Figure 2 for the page; none where it was not drawn."""
-    if scene is None or not scene.figure:
-        return []
-    slug, title, caption, alt = (scene.figure[key] for key in ("slug", "title", "caption", "alt"))
-    return [Picture(slug, title, caption, alt, inline_svg(scene.figure["svg"], slug, title, alt))]
-
-
 @cache
 def _environment() -> Environment:
     jinja2, markupsafe = needed("jinja2"), needed("markupsafe")
@@ -510,6 +518,7 @@ def _shown(
     part: Callable[..., str],
 ) -> dict[str, object]:
     by_section, rules = sections(contents), panels(contents.rules)
+    views = {one.id: one for _, found in by_section for one in found}
     groups, behind = errata(by_section), derivations(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     linked = {*outcomes, *(entry.claim.id for entry in contents.entries)}
@@ -519,12 +528,15 @@ def _shown(
     trap = [one for one in drawn if one.slug == in_proof]
     folded = [one for one in drawn if one.slug != in_proof]
     parts = {
-        **{one.id: part("claim", one, linked) for _, found in by_section for one in found},
+        **{name: part("claim", one, linked) for name, one in views.items()},
         **{
             f"erratum-{one.id}": part("erratum", one)
             for *_, found in groups
             for one in found
             if one.refuted
+        },
+        **{
+            f"print-{one.id}": part("print", one) for one in views.values() if one.has_another_print
         },
         **{f"rule-{one.name}": part("rule", one, linked) for one in rules},
         **{one.anchor: part("derived", one) for one in behind},
@@ -536,6 +548,7 @@ def _shown(
     return {
         "contents": contents,
         "sections": by_section,
+        "appendices": appendices(contents, views),
         "errata": groups,
         "first_title": FIRST,
         "theorem_stands": markup.prose(contents.theorem_stands),

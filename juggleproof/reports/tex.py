@@ -161,22 +161,7 @@ def _counterexamples(entry: Entry) -> list[str]:
 
 
 def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
-    sections = [
-        (section, heading, [one for one in contents.entries if one.claim.section == section])
-        for section, heading in opened().headings.items()
-        if section.startswith(letter)
-    ]
-    left = [
-        one.claim.id
-        for one in contents.entries
-        if one.claim.section.startswith(f"{letter}.") and one.claim.section not in opened().headings
-    ]
-    if left:
-        raise ClaimError(
-            f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the"
-            " LaTeX report; add it there"
-        )
-    return {"letter": letter, "title": title, "sections": [one for one in sections if one[2]]}
+    return {"letter": letter, "title": title, "sections": contents.appendix(letter)}
 
 
 def _behind_the_appendices(contents: Contents) -> list[Derivation]:

@@ -133,6 +133,7 @@ def correction(entry: Entry) -> str:
     return text if is_latex(entry.correction) else rf"\text{{{prose(text)}}}"
 
 
+LETTERLESS = re.compile(r"\\(?:mathcal|overline)|[{}\\]")  # the signs that a bookmark leaves out
 SET = re.compile(r"(.*\\mid ).+?( *\\(?:right)?\\?\})", re.DOTALL)  # around its condition
 
 
@@ -182,6 +183,21 @@ def number(claim: Claim) -> str:
     """The number of a claim's equation, without brackets; empty where it has none."""
     match = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
     return match.group(1) if match and "," not in claim.place else ""
+
+
+def headline(text: str) -> str:
+    r"""A heading as LaTeX; the bookmark of a PDF has its formulas in letters.
+
+    >>> headline(r"Finding $\Delta E_{\sup}$")
+    'Finding \\texorpdfstring{$\\Delta E_{\\sup}$}{Delta E_sup}'
+    """
+    parts = text.split("$")
+    return "".join(
+        rf"\texorpdfstring{{${with_macros(part)}$}}{{{re.sub(LETTERLESS, '', part)}}}"
+        if place % 2
+        else plain(part)
+        for place, part in enumerate(parts)
+    )
 
 
 def heading(claim: Claim) -> str:
@@ -380,6 +396,7 @@ __all__ = [
     "formula",
     "has_range",
     "heading",
+    "headline",
     "holds",
     "in_errata",
     "inline",

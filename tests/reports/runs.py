@@ -16,7 +16,8 @@ from juggleproof.judging.register import Register, load_register
 from juggleproof.judging.run import Options, Run, claims_of_file, run
 from juggleproof.papers.paper import opened
 from juggleproof.reports.contents import Contents, contents_of
-from juggleproof.reports.page import Picture, build, pictures
+from juggleproof.reports.figures import Picture, pictures
+from juggleproof.reports.page import build
 from juggleproof.reports.results import ClaimResult, RunResults, results_of_run, theorem_of_run
 from juggleproof.statements.store import DEFAULT
 

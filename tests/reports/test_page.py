@@ -13,9 +13,11 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.judging.conclusions import RULES
+from juggleproof.papers.paper import opened
 from juggleproof.proofs.opening import PROOF
-from juggleproof.reports import markup
+from juggleproof.reports import markup, tex_words
 from juggleproof.reports.contents import Contents, ShownText
+from juggleproof.reports.errata import is_latex
 from juggleproof.reports.latex import glyph
 from juggleproof.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
@@ -236,6 +238,29 @@ def test_theorem_stands_first_and_errata_before_the_rest_holds() -> None:
     ] == wanted_order
     wanted = {f"erratum-{entry.claim.id}" for entry in contents().entries if entry.group}
     assert wanted and {one.attributes["id"] for one in document().with_class("erratum")} == wanted
+
+
+def test_every_equation_of_the_appendices_stands_in_its_place_as_it_is_true_holds() -> None:
+    mended = 0
+    for entry in contents().entries:
+        if entry.claim.section[0] not in opened().appendices:
+            continue
+        block = by_id(f"equation-{entry.claim.id}")
+        assert any(one is block for one in by_id(f"regenerated-{entry.claim.section}").children)
+        shown = [one.attributes["alttext"] for one in block.all("math")]
+        wrong, correction = tex_words.in_errata(entry), entry.correction
+        assert ("mended" in block.attributes["class"]) == wrong
+        if not entry.claim.printed:
+            continue
+        printed = " ".join(entry.claim.printed.split())
+        if not wrong:
+            assert shown[-1] == printed
+        elif correction is None:
+            assert entry.verdict in spaced(block) and printed in shown
+        elif is_latex(correction):
+            assert shown[-2:] == [" ".join(tex_words.regenerated(entry).split()), printed]
+            mended += 1
+    assert mended > 10
 
 
 def test_every_counterexample_is_in_words_holds() -> None:
