@@ -55,7 +55,7 @@ PAPER = Paper(
 alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
 ball's height and velocity when the table is
 at its lowest; """,
-    main_parts=("4", "A"),
+    enters=("sA.3.2-sup3",),
     appendices=APPENDICES,
     headings=HEADINGS,
     pages=("README.md", "docs/results.md", "docs/errata.md", "docs/remarks.md"),

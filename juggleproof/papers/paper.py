@@ -76,7 +76,7 @@ class Paper:
     principles     the laws from which they are derived, as LaTeX
     parameter      the parameter whose sharp ranges are sought, and `domain`, where it lies
     letters        the letters that the errata use, explained in sentences
-    main_parts     the beginnings of the sections whose wrong statements concern the theorem
+    enters         the claims whose values enter other results of the paper
     appendices     the titles of the parts that reports regenerate, by their letter
     headings       the headings of their sections, in order, with formulas between dollars
     pages          the pages of this project that have a part which is generated
@@ -93,7 +93,7 @@ class Paper:
     parameter: str = ""
     domain: str = ""
     letters: str = ""
-    main_parts: tuple[str, ...] = ()
+    enters: tuple[str, ...] = ()
     appendices: Mapping[str, str] = field(default_factory=dict)
     headings: Mapping[str, str] = field(default_factory=dict)
     pages: tuple[str, ...] = ()

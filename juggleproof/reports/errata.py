@@ -263,8 +263,7 @@ def first_page(
     theorem: str,
 ) -> list[str]:
     """The first page, for those who cite the theorem: whether it stands, by its line `theorem`, and
-    the heaviest errors of the main parts, each with its three lines; nothing where the paper has no
-    theorem.
+    the errors that concern it, each with its three lines; nothing where the paper has no theorem.
     """
     if opened().theorem is None:
         return []
@@ -302,13 +301,10 @@ def theorem_stands(claims: Sequence[Claim], theorem: str) -> str:
 
 def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Claim]:
     """The errors that concern the theorem, by the group of each claim: those that break its proof,
-    then the wrong statements of the paper's main parts.
+    then the wrong values that enter other results of the paper.
     """
-    parts = opened().main_parts
-    wrong = [claim for claim in claims if group[claim.id] == "statement"]
-    return [claim for claim in claims if group[claim.id] == "proof"] + [
-        claim for claim in wrong if claim.section.startswith(parts)
-    ]
+    breaks = [claim for claim in claims if group[claim.id] == "proof"]
+    return breaks + [one for one in claims if one.id in opened().enters and group[one.id]]
 
 
 def at_a_glance(values: str, numbers: str, words: str) -> str:
