@@ -90,7 +90,7 @@ class Failure:
         if formula.op == "iff" and not so:
             met, other = sorted(parts, key=self.truth, reverse=True)
             return (
-                f"one condition is met: {self.why(met, True)}; the other is not:"
+                f"one of the two conditions holds: {self.why(met, True)}; the other fails:"
                 f" {self.why(other, False)}"
             )
         if formula.op not in RELATIONS:
@@ -152,7 +152,7 @@ def in_words(text: str, point: Point, of_paper: bool = True) -> str:
     failure = kind(lines[0][1], point, premises, goals)
     chosen = failure.state_named(next((one for word, one in lines if word == "exists"), ""))
     try:
-        what = f"no choice of {chosen.replace(' ', ' and ')} meets all that is asserted"
+        what = f"no {chosen.replace(' ', ' and ')} satisfies the assertion"
         what = what if chosen else failure.failing()
         line = "; ".join([*failure.assumed(), what])
     except LookupError:

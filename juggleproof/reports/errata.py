@@ -384,16 +384,25 @@ def what_is_wrong(
     ]
 
 
+def for_which(sharp: str) -> str:
+    """A sharp range after the words that say whether it is the whole of it.
+
+    >>> for_which("alpha < 1/3"), for_which("at least alpha < 1/3")
+    ('exactly for alpha < 1/3', 'for at least alpha < 1/3')
+    """
+    return ("for " if sharp.startswith("at least ") else "exactly for ") + sharp
+
+
 def _for_which(sharp: str, word: str) -> str:
     """The words on the values of the parameter for which an assertion holds."""
     if sharp in ("", "not found"):
         return ""
     paper = opened()
     if word == "holds":
-        return "" if sharp == paper.domain else f", exactly for {sharp}"
+        return "" if sharp == paper.domain else f", {for_which(sharp)}"
     if sharp == "nowhere":
         return f", for every {paper.parameter}"
-    return f"; it would be true exactly for {sharp}"
+    return f"; it would be true {for_which(sharp)}"
 
 
 def counterexample(refutation: object) -> str:

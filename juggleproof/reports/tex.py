@@ -188,11 +188,11 @@ def _errata(contents: Contents) -> dict[str, object]:
         for group, title in GROUPS.items()
     ]
     counted = "; ".join(
-        f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims
+        f"{title[:1].lower()}{title[1:]}, {len(claims)}" for title, claims in groups if claims
     )
     return {
         "groups": [one for one in groups if one[1]],
-        "counts": f"In all: {counted}.",
+        "counts": f"The errata by kind: {counted}.",
         "first_title": FIRST,
         "theorem_stands": contents.theorem_stands,
         "first_page": contents.first_page(),

@@ -17,7 +17,7 @@ from juggleproof.papers.remarks import NAMES, PROSE, meanings, names_of
 from juggleproof.reading.meaning import read
 from juggleproof.reading.tree import Operator, Tree, spelled
 from juggleproof.reports.contents import Entry
-from juggleproof.reports.errata import WRONG, is_latex
+from juggleproof.reports.errata import WRONG, for_which, is_latex
 from juggleproof.reports.latex import glyph, latex_of, narrow, with_macros
 from juggleproof.reports.results import has_range
 from juggleproof.reports.words import SIGN, pieces
@@ -313,7 +313,7 @@ def holds(sharp: str) -> str:
     if ": " not in sharp and "root" not in sharp:
         if sharp == paper.domain:
             return f"for all ${with_macros(latex_of(sharp))}$"
-        return f"exactly for {prose(sharp)}"
+        return prose(for_which(sharp))
     return prose(re.sub(r"(?<=: )nowhere", f"for no {paper.parameter}", sharp))
 
 
