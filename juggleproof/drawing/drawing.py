@@ -75,11 +75,12 @@ def _with_own_ids(text: str, slug: str) -> str:
     text = text.replace("xlink:href=", "href=").replace(
         ' xmlns:xlink="http://www.w3.org/1999/xlink"', ""
     )
+    text = text.replace(' target="_blank"', "")  # links lead to places of the same page
     glyphs = list(dict.fromkeys(re.findall(r'<use href="#([^"]*)"', text)))
     short = {glyph: f"{slug}-{count:x}" for count, glyph in enumerate(glyphs)}
     text = re.sub(r"<!--.*?-->|<!DOCTYPE[^>]*>", "", text, flags=re.DOTALL)
     text = re.sub(
-        r'(\sid="|href="#|url\(#)([^")]*)',
+        r'(\sid="|<use [^>]*?href="#|url\(#)([^")]*)',
         lambda match: match[1] + short.get(match[2], f"{slug}-{match[2]}"),
         text,
     )

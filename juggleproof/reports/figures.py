@@ -15,11 +15,12 @@ from juggleproof.reports.contents import Contents, gather
 from juggleproof.reports.contents import Entry as Judged
 from juggleproof.reports.results import has_range
 from juggleproof.reports.words import Interval, read
-from juggleproof.statements.language import ClaimError
+from juggleproof.statements.language import ClaimError, lemmas_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from juggleproof.drawing.argument import Dot
     from juggleproof.reports.part import TableResults
 
 
@@ -74,6 +75,24 @@ def without_range(entries: Iterable[Judged]) -> int:
 def what_ranges_show(entries: Sequence[Judged]) -> tuple[list[Row], int]:
     """A row for each range, and the number of claims without a range."""
     return rows(entries), without_range(entries)
+
+
+def what_claims_rest_on(entries: Sequence[Judged]) -> tuple[list[Dot], str]:
+    """The claims with those that each rests on: the claim that it repeats, the claims of the map
+    rules that settle it, and those of statements that its certificates use; and the theorem's.
+    """
+    from juggleproof.drawing.argument import Dot
+
+    known = {entry.claim.id for entry in entries}
+    dots = []
+    for entry in entries:
+        names = [entry.claim.repeats, *entry.rests_on]
+        names += sorted(set().union(*(lemmas_of(one.certificate) for one in entry.statements)))
+        claims = dict.fromkeys(name.partition("/")[0] for name in names)
+        rests_on = tuple(name for name in claims if name in known and name != entry.claim.id)
+        dots.append(Dot(entry.claim.id, entry.claim.section, entry.verdict, rests_on))
+    theorem = opened().theorem
+    return dots, theorem.claim if theorem else ""
 
 
 def labels(one: PaperFigure) -> tuple[str, str, str, str]:

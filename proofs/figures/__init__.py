@@ -1,4 +1,4 @@
-"""The figures of the paper, drawn again from what is derived, and three that it lacks; in the
+"""The figures of the paper, drawn again from what is derived, and four that it lacks; in the
 paper's order.
 
     arcs     derived expressions as numbers, and the arcs that they draw
@@ -157,6 +157,19 @@ TABLE = (
         " and subharmonic orbits begin there.",
         f"{__name__}.ours:ranges",
         "juggleproof.reports.figures:what_ranges_show",
+        of_verdicts=True,
+    ),
+    PaperFigure(
+        "",
+        "fig-argument",
+        "How the claims rest on one another",
+        "Every claim in a circle, section by section. A line leads from a claim to one that it"
+        " rests on: one that it repeats, or whose certificate settles it. Bold: the theorem, with"
+        " what it rests on and what rests on it.",
+        "A circle of dots in the colours and shapes of their verdicts. Bold lines lead from the"
+        " abstract and from section 4 to the theorem, others from appendix B to its sources.",
+        "juggleproof.drawing.argument:map_of_argument",
+        "juggleproof.reports.figures:what_claims_rest_on",
         of_verdicts=True,
     ),
     PaperFigure(
