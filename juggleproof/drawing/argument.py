@@ -133,7 +133,7 @@ def belonging(dots: Iterable[Dot], theorem: str) -> set[str]:
 def _mark(plane: Plane, at: Point, verdict: str, size: float, name: str = "") -> None:
     shape, colour = MARKS[verdict]
     marker = MarkerStyle(shape)
-    outline = marker.get_path().transformed(marker.get_transform().scale(2 * size))
+    outline = marker.get_path().transformed(marker.get_transform() + Affine2D().scale(2 * size))
     style: Style = {"facecolor": colour, "edgecolor": "none"}
     if shape == "o":  # the end of a line is round, in a tenth of the bytes of a circle
         outline = Path([(0, -0.2), (0, 0.2)])
