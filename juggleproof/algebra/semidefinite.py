@@ -490,7 +490,7 @@ class LinearEquations:
 
     @cached_property
     def independent(self) -> tuple[list[int], fmpz_mat, fmpz_mat]:
-        """Rows of which no one follows from the others, the matrix of these, and it times its
+        """Rows that are independent of one another, the matrix of these, and it times its
         transpose.
         """
         table = [[0] * len(self.terms) for _ in range(self.rows)]

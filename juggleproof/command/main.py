@@ -203,7 +203,7 @@ def build_parser() -> argparse.ArgumentParser:
         nargs="*",
         type=Path,
         metavar="FILE",
-        help="with claims of your own (.py), of which it is one instead of the paper's",
+        help="with claims of your own (.py): CLAIM is one of them, not of the paper",
     )
     explain.add_argument(
         "--premises",

@@ -78,11 +78,9 @@ def _add_juggler(scenes: Commands) -> None:
         help="x=..,w=.. or beta=..,v=..; may be given several times",
     )
     start.add_argument("--grid", metavar="G", help="x=FROM:TO:COUNT,w=FROM:TO:COUNT, or beta and v")
+    start.add_argument("--boundary", type=whole, metavar="N", help="N states on the boundary of R")
     start.add_argument(
-        "--boundary", type=whole, metavar="N", help="so many states on the boundary of R"
-    )
-    start.add_argument(
-        "--random", type=whole, metavar="N", help="so many states of a box, by --seed"
+        "--random", type=whole, metavar="N", help="N states of a box, drawn by --seed"
     )
     start.add_argument(
         "--seed", type=whole, default=0, metavar="N", help="with --random (default: 0)"
@@ -128,7 +126,7 @@ def _add_juggler(scenes: Commands) -> None:
         metavar="T",
         help="FROM:TO:COUNT: heights of ball and table at these times, from one start, instead",
     )
-    out = juggler.add_argument_group("what is told")
+    out = juggler.add_argument_group("what is printed")
     out.add_argument(
         "--units",
         default="normal",
@@ -217,7 +215,7 @@ def add_part(scenes: Commands) -> None:
         "--figure", type=Path, metavar="F", help="F.svg: figure 2, the blocks at 0, 0.8 and 3 s"
     )
     start = part.add_argument_group("which parts, for --orientation and --clear")
-    start.add_argument("--parts", type=whole, metavar="N", help="so many parts, drawn by --seed")
+    start.add_argument("--parts", type=whole, metavar="N", help="N parts, drawn by --seed")
     start.add_argument(
         "--angles",
         metavar="A",

@@ -53,9 +53,7 @@ class RuleLines:
 
     @cached_property
     def letters(self) -> Letters:
-        """The letters of the conclusion, none of which is a name in the statement, even with an
-        index.
-        """
+        """The letters of the conclusion; none is a name in the statement, even with an index."""
         names = checker.names_in(*(text for _, text in self.of_map().rows), *self.roots())
         taken = {name.partition("_")[0] for name in names}
         found = []

@@ -420,7 +420,7 @@ PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 
 def results_of(contents: Contents | RunResults, register: Register | None = None) -> RunResults:
-    """The results of which reports are made: the argument itself, or the contents of a report
+    """The results that reports are made of: the argument itself, or the contents of a report
     converted to results.
     """
     if isinstance(contents, RunResults):

@@ -33,7 +33,7 @@ class AdjoinedNumber:
 
     @staticmethod
     def of(number: AlgebraicNumber, digits: int, name: str) -> AdjoinedNumber:
-        """The number between neighbouring decimals of so many digits."""
+        """The number between neighbouring decimals with this number of digits."""
         scale = 10**digits
         number.narrow(Fraction(1, 4 * scale))
         while (number.low * scale).__floor__() != (number.high * scale).__floor__():

@@ -289,8 +289,8 @@ def lemma_atoms(context: checker.Context, text: str) -> list[checker.Atom]:
 def search_by_lemmas(
     state: SearchState, lemmas: Sequence[checker.Atom], close: Callable[[SearchState], Node | None]
 ) -> Node | None:
-    """A node that closes the state: by the signs of each polynomial, of which those are closed
-    first that its lemma says it has not.
+    """A node that closes the state: by the signs of each polynomial, first those signs that its
+    lemma rules out.
     """
     if not lemmas:
         return close(state)

@@ -146,7 +146,7 @@ class Closing:
         return problem
 
     def count(self, least: int, terms: Sequence[int]) -> None:
-        """Spends what reading facts of so many terms takes, which is more where they are large."""
+        """Spend the work of reading facts with this number of terms; large numbers cost more."""
         self.budget.spend(least + 2 * max(0, sum(terms) - limits.MANY_TERMS))
 
     # -------------------------------------------------------- disjunctions
@@ -417,8 +417,8 @@ class Closing:
 
 @dataclass
 class Lemma:
-    """Cases by sign of which one is left, in which integers are rounded; `node` closes that case
-    too where it is known.
+    """Cases by sign: one is left open, in which integers are rounded; `node` closes it where that
+    is known.
     """
 
     text: str

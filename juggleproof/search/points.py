@@ -173,7 +173,7 @@ def assignments(
         len(condition.variables()) >= limits.MANY_VARIABLES
         or disjunctions(condition) >= limits.MANY_VARIABLES
     ):
-        # Sampling would try few of so many values: models are asked for first.
+        # Sampling would try a small part of the values: models are asked for first.
         yield from whole_models(condition, names, integers, budget, roles, limits.Z3_GUESS_WORK)
     for width, last, nodes, irrational in limits.SAMPLER_ROUNDS[effort]:
         yield from Sampler(

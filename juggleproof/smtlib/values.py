@@ -40,7 +40,7 @@ Guards = tuple[tuple[Formula, bool], ...]
 
 @dataclass(frozen=True)
 class RealCases:
-    """A real term as cases (conditions, value), exactly one of which applies at each point."""
+    """A real term as cases (conditions, value); exactly one case applies at each point."""
 
     cases: tuple[tuple[Guards, Term], ...]
 

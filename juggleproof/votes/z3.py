@@ -76,7 +76,7 @@ class VoteSession:
         self.before: int = outer.before if outer else 0
 
     def ask(self, question: VoteQuestion, engine: str, units: int) -> Reply:
-        """One query, for at most so many resource units."""
+        """One query, for at most this number of resource units."""
         units = min(units, self.purse - self.spent)
         if units <= 0:
             return Reply("unknown", how="the budget is spent")

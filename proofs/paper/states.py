@@ -180,22 +180,22 @@ def flights(count: Number) -> StateFunction[Vector]:
 
 
 def cycle(count: Number, start: Vector = b) -> Vector:
-    """The state after this number of periods, of which the first has an impact."""
+    """The state after this number of periods; the first has an impact."""
     return vector(flights(term(count) - 1)(f1(start)))
 
 
 def composite(count: Number, state: Vector) -> Vector:
-    """The state after all but one of so many periods of flight, and one with an impact."""
+    """The state after `count` periods: all but one of flight, then one with an impact."""
     return vector(f1(vector(flights(term(count) - 1)(state))))
 
 
 def power_of_flight(time: Term, count: Number) -> Matrix:
-    """A_t to this power, which is A of so many times t, as the statement `powers` has it."""
+    """A_t to the power n, which is A of n t by the statement `powers`."""
     return flight_matrix(term(count) * time)
 
 
 def comes_back(count: Number, start: Vector = b) -> Formula:
-    """After this number of periods, of which the first has an impact, the state is what it was."""
+    """After this number of periods, the first with an impact, the state is what it was."""
     return equals(cycle(count, start), start)
 
 

@@ -46,12 +46,12 @@ HALF = equal(2 * alpha, 1) & (1 - alpha > 0) & (1 + alpha > 0)
 
 
 def flown(periods: int, start: Vector = HERE) -> Vector:
-    """T_K of the state for so many periods."""
+    """T_K of the state, K being the number of periods."""
     return from_here(derived_vector("normal_impact_after", (periods,)), start)
 
 
 def lasts(periods: int, start: Vector = HERE) -> Formula:
-    """The flight after an impact lasts so many periods, or more if it is the longest."""
+    """The flight after an impact lasts this number of periods, or more if it is the longest."""
     next_one = flown(periods, start)
     above = [term(next_one.entries[0]) >= 0] if periods > 1 else []
     return conjunction([*above, *([strikes(next_one)] if periods < LONGEST else [])])

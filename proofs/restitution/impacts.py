@@ -80,7 +80,7 @@ def apart(one: Vector, other: Vector, most: Term) -> Formula:
 
 
 def before(periods: Term) -> Vector:
-    """The state so many periods of flight before the impact of e_K, where its range begins."""
+    """The state this number of periods before the impact of e_K, where its range begins."""
     return Vector((periods * (K - periods), K + 1 - 2 * periods))
 
 

@@ -105,7 +105,7 @@ class Restitutions:
 
 
 def flown(*periods: int) -> Vector:
-    """The impact after flights of so many periods."""
+    """The impact after flights of this number of periods."""
     found: Vector = derived_vector("normal_impact_after", periods)
     return found
 
@@ -120,7 +120,7 @@ def every_orbit_settles(claim_id: str) -> list[AnyStatement]:
     space = SPACE & is_none_of(*chosen.exceptions()) if chosen.exceptions() else SPACE
 
     def flies(*periods: int) -> Formula:
-        """After a slow impact flights last so many periods."""
+        """After a slow impact each flight lasts this number of periods."""
         parts = [slow]
         for count, last in enumerate(periods, 1):
             after = flown(*periods[:count])

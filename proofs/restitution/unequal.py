@@ -67,17 +67,17 @@ def derived_along(name: str, flights: tuple[int, ...], *arguments: int) -> Vecto
 
 
 def turned(count: int) -> tuple[int, ...]:
-    """The flights that follow one another after so many."""
+    """The flights in turn, from the flight of this index on."""
     return FLIGHTS[count:] + FLIGHTS[:count]
 
 
 def on_the_orbit(count: int) -> Vector:
-    """The impact after so many flights from the start: the first of those that then follow."""
+    """The impact after this number of flights from the start, before those that then follow."""
     return derived_along("normal_periodic_impact", turned(count))
 
 
 def beside(count: int) -> Vector:
-    """The impact after so many flights, from (z1, z2) beside the start."""
+    """The impact after this number of flights, from (z1, z2) beside the start."""
     return derived_along("normal_impact_beside", FLIGHTS, count)
 
 
@@ -109,17 +109,17 @@ def _of_the_impact(name: str, flights: tuple[int, ...]) -> Formula:
 
 
 def change(count: int) -> Vector:
-    """What (z1, z2) beside the start adds to the impact after so many flights."""
+    """The change by (z1, z2) beside the start of the impact after this number of flights."""
     return derived_along("normal_change_beside", FLIGHTS[:count])
 
 
 def changed(count: int) -> Vector:
-    """The impact after so many flights, which is (x, w) on the orbit, from beside the start."""
+    """The impact after this number of flights from beside the start; on the orbit it is (x, w)."""
     return Vector(tuple(here + term(more) for here, more in zip((x, w), change(count).entries)))
 
 
 def moved(count: int, times: int = 0) -> Term:
-    """How much x after so many flights, and w so many times, change at most beside the start."""
+    """The greatest change beside the start of x plus `times` times w, after `count` flights."""
     return (PERIODS + sum(FLIGHTS[:count]) + times) * alpha**count * rho
 
 

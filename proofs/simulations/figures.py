@@ -26,8 +26,8 @@ class Still(TypedDict):
 
 
 class FrameCounts(TypedDict):
-    """Of each ensemble: upright blocks at 0.8 s, pairs of neighbours, a degree apart, of which one
-    is upright then, and upright blocks at 3 s.
+    """Numbers of each ensemble: upright blocks at 0.8 s; pairs of neighbours, a degree apart, with
+    one upright then; upright blocks at 3 s.
     """
 
     upright: list[int]

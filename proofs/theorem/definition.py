@@ -83,7 +83,7 @@ OTHER: Vector = tidied(
 @dataclass(frozen=True)
 class Descent:
     """A rank that falls by 1 at least outside of all stages, roots that it is written with, and
-    stages of which the last is the trap.
+    stages, the last being the trap.
     """
 
     rank: Term

@@ -393,7 +393,7 @@ def _after_the_certified_number(entry: OrbitMove, core: int, alpha: Fraction) ->
 
 
 def later(state: ExactState, periods: int) -> ExactState:
-    """The state of the trap so many periods later, by the closed form."""
+    """The state of the trap this number of periods later, by the closed form."""
     return ExactState(state.alpha, *in_the_trap(state.alpha, state.x, state.w, periods))
 
 

@@ -149,7 +149,7 @@ def flight_length(state: ExactState) -> int:
 
 
 def flown(state: ExactState, periods: int) -> ExactState:
-    """The state after so many periods without an impact."""
+    """The state after this number of periods without an impact."""
     return ExactState(state.alpha, *exact().flight(state.x, state.w, periods))
 
 
@@ -165,7 +165,7 @@ def step(state: ExactState) -> ExactState:
 
 @dataclass(frozen=True)
 class OrbitMove:
-    """From the period `start` on: a flight of so many periods, or an impact, which takes one."""
+    """From the period `start` on: a flight of `periods` periods, or an impact, which takes one."""
 
     start: int
     state: ExactState
@@ -174,8 +174,8 @@ class OrbitMove:
 
 
 def moves(state: ExactState, impacts: int = MAX_IMPACTS) -> Iterator[OrbitMove]:
-    """The orbit, flights at once, up to so many impacts or until its numbers are too long; at its
-    end comes an impact.
+    """The orbit, flights at once, up to this number of impacts or until its numbers are too long.
+    At its end comes an impact.
     """
     count = 0
     for _ in range(impacts):
@@ -216,13 +216,13 @@ KAPPA = alpha * (1 + 3 * alpha) / (1 - alpha)
 
 
 def flown_for(periods: Term, start: Vector) -> Vector:
-    """The state after so many periods of flight."""
+    """The state after this number of periods of flight."""
     values = {"x": term(start.entries[0]), "w": term(start.entries[1]), "K": periods}
     return at(derived_vector("normal_flight_power"), values)
 
 
 def next_impact(periods: Term, start: Vector = HERE) -> Vector:
-    """The state at the next impact, so many periods after an impact at `start`."""
+    """The state at the next impact, `periods` periods after an impact at `start`."""
     struck: Vector = at(
         derived_vector("normal_f1"), {"x": term(start.entries[0]), "w": term(start.entries[1])}
     )
@@ -317,7 +317,7 @@ def strikes(state: Vector) -> Formula:
 
 
 def after_impact(periods: Term, start: Vector) -> Vector:
-    """The state after an impact and so many periods of flight."""
+    """The state after an impact and this number of periods of flight."""
     return next_impact(periods + 1, start)
 
 
@@ -541,7 +541,7 @@ def at_state(thing: Placed, state: Vector) -> Placed:
 
 
 def before_the_ground(periods: Term) -> Vector:
-    """The state so many periods before the ball strikes on the ground, coming down with u."""
+    """The state this number of periods before the ball strikes the ground, coming down with u."""
     return Vector((periods * (u - periods), 1 + u - 2 * periods))
 
 

@@ -151,7 +151,7 @@ def certified(state: ExactState) -> StepBound:
 
 
 def by_the_rate(alpha: Fraction, periods: int) -> Fraction:
-    """How near to e_1 a state within 1 of it in the trap is, so many periods later: (2 alpha)^k."""
+    """The distance from e_1 after k periods of a state of the trap within 1 of it: (2 alpha)^k."""
     return value_of(IN_THE_TRAP.rate, {"alpha": alpha}) ** periods * value_of(IN_THE_TRAP.size, {})
 
 
@@ -178,7 +178,7 @@ PHASES = 16
 
 @dataclass(frozen=True)
 class RegionEntry:
-    """When an orbit enters R: after so many impacts, at this time, seen at this sample."""
+    """The entry of an orbit into R: the number of impacts, the time, the sample that shows it."""
 
     impacts: int
     time: Fraction

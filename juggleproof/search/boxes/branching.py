@@ -233,7 +233,7 @@ class Branching:
         self.boxes, self.heap, self.stuck = 1, [(self.root.bound, 0, self.root)], False
 
     def affordable(self) -> int:
-        """How many boxes are worth their products, of which floats are cheaper by far."""
+        """The number of boxes that are worth their products; products of floats are cheaper."""
         shape: tuple[int, ...] = self.numbers.root.shape
         return max(
             1,

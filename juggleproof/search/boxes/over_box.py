@@ -116,7 +116,7 @@ def close_over_box(state: SearchState, most: int, budget: Budget) -> Node | None
     for fact in facts_over_box(state):
         middle, size, constant = fact.middle(), fact.size, (0,) * len(fact.names)
         for margin in (Fraction(0),) if fact.strict else limits.BOX_MARGINS:
-            # faces, of which each is a part of the box before, cost no more than two boxes
+            # each face is a part of the box before: all faces cost no more than two boxes
             letters = min(most, max(budget.left // size, 2 * len(fact.names)))
             budget.spend(10)
             if middle < 0 or letters < 1:

@@ -178,8 +178,8 @@ def with_facts(state: SearchState, kept: Sequence[int]) -> SearchState:
 
 
 def is_end(problem: LeafProblem, number: int, ring: Ring) -> bool:
-    """Whether a fact bounds one variable of the state by terms in the parameters, of which products
-    with V alone are used.
+    """Whether a fact bounds one variable of the state by terms in the parameters; such a fact is
+    multiplied by V alone.
     """
     lowered = problem.source.lowered[problem.facts[number].factors[0][0]]
     return total_degree(lowered) > 1 and is_bound(lowered, ring)
@@ -335,7 +335,7 @@ class Combinations:
         return None
 
     def has(self, count: int) -> bool:
-        """Whether there are products of so many facts, which are not too many."""
+        """Whether there are products of this number of facts, and not too many."""
         while len(self.parts) <= count:
             products, terms = self.parts[-1].sizes_with_facts()
             if products > self.most or terms > self.most_terms:

@@ -416,7 +416,7 @@ def close_by_equations(problem: LeafProblem) -> Node | None:
 
 
 def contrary_bounds(problem: LeafProblem) -> Solution | None:
-    """Two facts of which a positive combination is a number less than it has to be."""
+    """Two facts with a positive combination that is a number less than it has to be."""
     before: dict[tuple[Monomial, bool], list[int]] = {}  # by the leading monomial and its sign
     for k, fact in enumerate(problem.facts):
         leading, lead = fact.poly.monomial(0), int(fact.poly.leading_coefficient())

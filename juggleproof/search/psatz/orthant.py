@@ -185,7 +185,7 @@ class Base:
 
 
 def search_orthant(problem: LeafProblem, most: int, budget: Budget) -> Node | None:
-    """The node of an identity of at most so many products; None where none was found, or where the
+    """The node of an identity of at most `most` products; None where none was found, or where the
     facts in coordinates are too large for the budget.
 
     Raises Exhausted where the budget ends.
@@ -221,7 +221,7 @@ class OrthantLeaf:
             for k in orthant.only
             if k not in orthant.own.values() and not not_negative(orthant.facts[k])
         ]
-        self.alone = rest  # of which the first bases are
+        self.alone = rest  # the first bases are made of these
         groups: list[tuple[int, ...]] = [(k,) for k in rest]
         if len(rest) <= limits.MOST_FACTS_IN_ORTHANT:
             groups += combinations_with_replacement(rest, 2)

@@ -61,8 +61,8 @@ class FactBlock(GramBlock):
 
 @dataclass
 class SquaresProgram:
-    """Blocks and cofactors, each with the product that it stands for, of which some combination is
-    to be 0; `lift` makes the node of an identity between the facts.
+    """Blocks and cofactors, each with the product that it stands for; a combination of these is to
+    be 0; `lift` makes the node of an identity between the facts.
 
     The strict terms sum to `total`.  `goals`, `denominators` and `kernels` are tried in turn.
     """

@@ -97,8 +97,8 @@ class Farkas:
     one: int
 
 
-# the rows that a basis holds with equality, and its columns, for a program in rows, of which the
-# last column is maximised
+# the rows that a basis holds with equality, and its columns, for a program in rows whose last
+# column is maximised
 Basis = tuple[Sequence[int], Sequence[int]]
 FindBasis = Callable[[Sequence[Row], Sequence[str], int, Budget], Basis]
 
@@ -305,7 +305,7 @@ def key_of(fact: Fact) -> FactKey:
 def decide(
     state: SearchState, budget: Budget, find_basis: FindBasis, depth: int = 0
 ) -> Vertex | Tree | None:
-    """A point that meets all that a state of linear facts and disjunctions assumes, or why there is
+    """A point that satisfies a state of linear facts and disjunctions, or why there is
     none; None where cases are nested too deep.
 
     A case whose contradiction does not use what the case assumes settles all cases.

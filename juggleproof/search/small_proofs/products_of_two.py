@@ -1,5 +1,5 @@
-"""Small proofs: products of at most two facts, and squares, of which an exact linear program adds
-up some to 0; and what is linear.
+"""Small proofs: an exact linear program adds up products of at most two facts, and squares, to 0;
+and linear facts.
 
 Nothing here needs floats: so it is tried before what is dear to load.
 """
