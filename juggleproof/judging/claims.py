@@ -225,6 +225,11 @@ class Claim:
         domains = self.vocabulary.domains or domains_of(statements, self.parameters)
         return Roles(domains, self.vocabulary.scales)
 
+    @property
+    def assumed(self) -> tuple[Formula, ...]:
+        """What its section assumes beyond the standing assumptions."""
+        return self.vocabulary.assumes(self.section)
+
     def stated(self, roles: Roles) -> Roles:
         """The roles, if the vocabulary states them, else none: domains that are taken from
         statements need not be those of a map.

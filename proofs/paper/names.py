@@ -75,6 +75,7 @@ STANDING = Vocabulary(
     scales=frozenset({"r", "g"}),
     reads=lambda: paper_names(),
     introduces=lambda section: introduced(section),
+    assumes=lambda section: assumed(section),
     defines=lambda: definitions(),
 )
 claim = partial(claims.claim, vocabulary=STANDING)
@@ -536,6 +537,14 @@ def _definitions() -> tuple[Definition, ...]:
         if parameters:
             made.append(Definition(name, parameters, entries))
     return (*made, *(Definition(*row) for row in sets()))
+
+
+def assumed(section: str) -> tuple[Formula, ...]:
+    """What the section assumes: (21) in section 4, "assuming favorable parameter values", and in
+    appendix A, which serves it.
+    """
+    serves = section.split(".")[0] in ("4", "A")
+    return (alpha < derived("restitution_threshold", 2),) if serves else ()
 
 
 # -------------------------------------------------------------------------------------------------

@@ -263,6 +263,7 @@ def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds(
     first, stands, *entries = page.strip().split("\n\n")
     assert first == errata.FIRST and stands.startswith("The theorem survives all of these")
     assert entries[0].startswith("s4.3.1-LaSalle, section 4.3.1")
+    assert "0 < 0" not in page and "[falls-in-flight]: 49/50 < 9/50" in entries[0]
     for entry in entries:
         titles = [line.split()[0] for line in entry.splitlines()[1:] if line[4] != " "]
         assert titles == ["said", "wrong", "true"], entry
