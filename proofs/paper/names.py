@@ -399,8 +399,9 @@ def boundary_of_band(size: Term) -> Region:
 
 
 def is_narrow(size: Term) -> tuple[Formula, ...]:
-    """The band of this size does not reach to the velocity c, at which R leaves B1."""
-    return leaves_R_at(c), from_e_1(on_the_line(c)) > size
+    """The band of this size does not reach up to the velocity c, at which R leaves B1."""
+    above_e_1 = (speed(e_1) < c) & (from_e_1(on_the_line(c)) > size)
+    return leaves_R_at(c), above_e_1
 
 
 # -------------------------------------------------------------------------------------------------

@@ -127,18 +127,22 @@ class ClaimSearch:
         point = {name: Fraction(text) for name, text in found.terms.items()}
         own = strength_of(statement.text(), point, self.assumed)
         for stronger in refuted_more_strongly(statement, self.assumed, own):
-            there = self._counterexample(read(stronger.text(), stronger.name))
+            work = self.budget // limits.TRIAL_SHARE
+            there = self._counterexample(read(stronger.text(), stronger.name), work, (0, 1))
             if isinstance(there, Counterexample) and not there.adjoined:
                 strong: Certificate = {"refuted": there._replace(node=("close",))}
                 if checker.check_one(parsed, strong, self.known, {})[0] == "refuted":
                     return strong
         return certificate
 
-    def _counterexample(self, parsed: checker.Statement) -> Values | None:
-        """A counterexample by a short search at simple values; None where it finds none."""
+    def _counterexample(
+        self, parsed: checker.Statement, work: int, efforts: Sequence[int]
+    ) -> Values | None:
+        """A counterexample by short searches, each with this work; None where they find none, or
+        run out.
+        """
         start = SearchState(checker.Context())
-        for effort in (0, 1):
-            budget = Budget(self.budget // limits.TRIAL_SHARE)
+        for effort in efforts:
             try:
                 values = search_values(
                     parsed,
@@ -146,7 +150,7 @@ class ClaimSearch:
                     "counterexample",
                     {},
                     self.known,
-                    budget,
+                    Budget(work),
                     effort=effort,
                     roles=self.roles,
                 )
@@ -209,18 +213,7 @@ class ClaimSearch:
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
-        start = SearchState(checker.Context())
-        values = search_values(
-            parsed,
-            start,
-            "counterexample",
-            {},
-            self.known,
-            Budget(limits.QUICK_WORK),
-            effort=0,
-            roles=self.roles,
-        )
-        return values is not None
+        return self._counterexample(parsed, limits.QUICK_WORK, (0,)) is not None
 
     def certificate_of_inclusion(self, parsed: checker.Statement) -> Certificate:
         """The certificate that a quick search finds; `unknown` where it finds none."""
