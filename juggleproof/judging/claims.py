@@ -238,7 +238,8 @@ class Claim:
     @property
     def assumed(self) -> tuple[Formula, ...]:
         """What its section assumes beyond the standing assumptions."""
-        return self.vocabulary.assumes(self.section)
+        assumes = self.vocabulary.assumes
+        return () if assumes is None else assumes(self.section)
 
     def stated(self, roles: Roles) -> Roles:
         """The roles, if the vocabulary states them, else none: domains that are taken from

@@ -59,7 +59,7 @@ class Vocabulary:
     scales: frozenset[str] | None = None
     reads: Callable[[], Environment] | None = None
     introduces: Callable[[str], frozenset[str]] | None = None
-    assumes: Callable[[str], tuple[Formula, ...]] = lambda section: ()
+    assumes: Callable[[str], tuple[Formula, ...]] | None = None
     defines: Callable[[], Sequence[Definition]] | None = None
 
 

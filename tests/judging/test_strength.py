@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import pytest
+
+from juggleproof.judging import limits
+from juggleproof.judging.searches import ClaimSearch
 from juggleproof.judging.strength import Strength, loosened, refuted_more_strongly, strength_of
 from juggleproof.papers.paper import opened
 from juggleproof.proofs.paper.names import assumed
 from juggleproof.reports.errata import point_of, told_outside
 from juggleproof.statements.formulas import Formula, equal, iff, implies
-from juggleproof.statements.language import Statement, real
+from juggleproof.statements.language import NO_ROLES, Roles, Statement, real
 from juggleproof.statements.store import DEFAULT, Store
+from juggleproof.statements.work import read
 from tests.rows import each_row
 
 alpha, x, y = real("alpha"), real("x"), real("y")
@@ -92,3 +97,29 @@ def test_what_lies_outside_is_told_holds() -> None:
     assert told_outside(within, Strength(True, False)) == ""
     told = " The section assumes alpha < 1/3; there no counterexample is known."
     assert told_outside(within, Strength(False, True)) == told
+
+
+def test_a_trial_that_runs_out_refutes_nothing_holds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As one that ended the run, with what it could not decide."""
+    statement = Statement("demo/falls", ("x",), show=x**2 < x)
+    search = ClaimSearch(10**6, None, (), (), NO_ROLES, {}, {}, {}, {}, is_trial=True)
+    parsed = read(statement.text(), statement.name)
+    assert search.is_refuted_by_sampling(parsed)
+    monkeypatch.setattr(limits, "QUICK_WORK", 1)
+    assert not search.is_refuted_by_sampling(parsed)
+
+
+def test_a_refutation_becomes_strict_and_within_what_is_assumed_holds() -> None:
+    statement = Statement(
+        "demo/falls", ("alpha", "x"), (("given", alpha > 0), ("given", x > 0)), show=x**2 < x
+    )
+    roles = Roles({"alpha": (alpha > 0,)})
+    parsed = read(statement.text(), statement.name)
+
+    def found(*assumed: Formula) -> dict[str, str]:
+        search = ClaimSearch(10**6, None, (), assumed, roles, {}, {}, {}, {}, is_trial=False)
+        return dict(search.certificate(statement, parsed, False, "")["refuted"].terms)
+
+    assert Fraction(found()["x"]) > 1
+    within = found(alpha < Fraction(1, 3))
+    assert Fraction(within["alpha"]) < Fraction(1, 3) and Fraction(within["x"]) > 1

@@ -46,7 +46,7 @@ def test_p_lies_in_b2_and_from_some_alpha_on_in_r_holds(alpha: Fraction, in_r: b
 
 
 def test_rejects_a_narrow_band_on_the_other_side_of_e_1() -> None:
-    """At alpha = 2/5 the line leaves R below e_1, whose velocity is -3/7: no band is narrow there."""
+    """At alpha = 2/5 the line leaves R below e_1, whose velocity is -3/7: no band is narrow."""
     alpha, below = Fraction(2, 5), Fraction(-4, 5)
     assert not holds(is_narrow(eps)[1], alpha=alpha, c=below, eps=Fraction(1, 1000))
     assert holds(is_narrow(eps)[1], alpha=alpha, c=Fraction(1, 2), eps=Fraction(1, 1000))
