@@ -135,7 +135,7 @@ def supremum_outside_the_region(printed: Printed) -> list[Statement]:
         return supremum
 
     in_a_period = only_at(b, energy(next_one) - energy(b))
-    names = {
+    names: dict[str, Value] = {
         r"\Delta E_{sup}": least,
         r"\Delta E": in_a_period,
         r"\sup_{\cdot} \cdot": value,
@@ -272,7 +272,8 @@ def multiplier_does_not_fit(printed: Printed) -> Readings:
     """
     parallel = equal(dE_dbeta, lam * dR_dbeta) & equal(dE_dv, lam * dR_dv)
     slopes = are_slopes(dE_dbeta, dE_dv, dR_dbeta, dR_dv, state=b_0)
-    on_curve = [H(b_0), ON_R(b_0), slopes, printed.formula(MULTIPLIED)]
+    on_curve = [H(b_0), ON_R(b_0), slopes]
+    everywhere = [*on_curve, printed.formula(MULTIPLIED)]
     return Readings(
         {
             "in-closed-B1": Reading(
@@ -280,7 +281,7 @@ def multiplier_does_not_fit(printed: Printed) -> Readings:
                 "A.4 says the closure of B1 - R",
             ),
             "everywhere": Reading(
-                Assertion((always(~parallel, given=on_curve),)), "A.3.1 says on R(b) = 0"
+                Assertion((always(~parallel, given=everywhere),)), "A.3.1 says on R(b) = 0"
             ),
         }
     )

@@ -220,15 +220,16 @@ def band_is_kept_up_to_this_size() -> list[Statement]:
     fast = Vector((0, r - r / alpha))  # on the ground, closing at r/alpha
     half_width = [d >= 0, equal(d**2, 2 * eps)]  # sqrt(2 eps)
     kept = alpha * (1 + alpha) * d < 1 - alpha
+    reached = term(at(derived("region_margin"), fast)) >= 0  # R has this state
     return [
         always(stays, given=[band(size)(b), *half_width, kept], in_range=RANGE_21, label="kept"),
         always(
             band(size)(fast) & ~B1(f1(fast)),
-            given=[R(fast), *half_width, ~kept],
+            given=[reached, *half_width, ~kept],
             in_range=RANGE_21,
             label="not-kept",
         ),
-        always(stays, given=[band(size)(b), ~R(fast)], in_range=RANGE_21, label="every-band"),
+        always(stays, given=[band(size)(b), ~reached], in_range=RANGE_21, label="every-band"),
     ]
 
 

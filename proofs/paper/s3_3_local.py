@@ -264,8 +264,7 @@ def positive_height_and_early_impact_give_b1() -> Argument:
     early = collision_time(b) < T
     return Argument(
         steps={
-            "positive": Assertion((always(beta > 0, given=[FIXED]),)),
-            "falls": Assertion((always(v < 0, given=[FIXED]),)),
+            "positive": Assertion((always((beta > 0) & (v < 0), given=[FIXED]),)),
             "in-time": Assertion((always(early, given=[FIXED, v < r]),)),
             "inference": Assertion((always(B1(b), given=[v < 0, beta > 0, early]),)),
         },
