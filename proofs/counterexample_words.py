@@ -54,11 +54,11 @@ NOUNS = {  # of definitions, of `named_terms`, and of variables that mean one th
 }
 # The left and the right side of statements that compare longer terms.
 SIDES = {
-    "s2.1-impact-velocity/with-amplitude": (
+    "s2.1-impact-velocity/of-a-ball.with-amplitude": (
         "the second relative velocity times the first amplitude",
         "the first relative velocity times the second amplitude",
     ),
-    "s2.1-impact-velocity/with-frequency": (
+    "s2.1-impact-velocity/of-a-ball.with-frequency": (
         "the second relative velocity times the first frequency",
         "the first relative velocity times the second frequency",
     ),

@@ -218,7 +218,7 @@ MACROS = (
     ("height", r"\bar\beta", r"\\bar(?:\{\s*\\beta\}|\s*\\beta(?![A-Za-z]))"),
     ("launch", r"\dot\rho_0", r"\\dot(?:\{\s*\\rho\}|\s*\\rho)_(?:0|\{0\})"),
     ("gravity", r"\gamma", r"\\gamma(?![A-Za-z])"),
-    ("restitution", r"\alpha", r"\\alpha(?![A-Za-z])"),
+    ("restitution", r"\alpha", r"\\alpha(?![A-Za-z]|\s*_)"),
     ("collisiontime", r"\tau_c", r"\\tau_(?:c(?![A-Za-z])|\{c\})"),
     ("H", r"\mathcal{H}", r"\\mathcal(?:\{H\}|\s+H)"),
     ("B", r"\mathcal{B}", r"\\mathcal(?:\{B\}|\s+B)"),

@@ -2,7 +2,8 @@
 
 In reading order, each importing those before it only:
 
-- `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
+- `evaluating`, `strength`: terms and formulas at rational values; counterexamples at simple ones,
+  and how strong they are.
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
 - `correcting`: prints that may mend a refuted one.
 - `conclusions`, `orbit_rules`: what a certified rule for orbits says; rules as a claim writes them.

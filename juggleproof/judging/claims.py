@@ -113,9 +113,19 @@ REMARK = "remark."  # the prefix of the statements of a remark
 
 @dataclass(frozen=True)
 class Simulated:
-    """The figures that a simulation gives, with its seed; they prove nothing."""
+    """The figures that a simulation gives, with its seed; they prove nothing.
+
+    `agrees` says whether they agree with what is printed; None where nobody has compared them.
+    """
 
     figures: str
+    agrees: bool | None = None
+
+    @property
+    def told(self) -> str:
+        """The figures, after whether they agree with what is printed."""
+        agreement = {True: "agrees with the print: ", False: "does not agree with the print: "}
+        return (agreement[self.agrees] if self.agrees is not None else "") + self.figures
 
 
 @dataclass(frozen=True)
@@ -225,6 +235,12 @@ class Claim:
         domains = self.vocabulary.domains or domains_of(statements, self.parameters)
         return Roles(domains, self.vocabulary.scales)
 
+    @property
+    def assumed(self) -> tuple[Formula, ...]:
+        """What its section assumes beyond the standing assumptions."""
+        assumes = self.vocabulary.assumes
+        return () if assumes is None else assumes(self.section)
+
     def stated(self, roles: Roles) -> Roles:
         """The roles, if the vocabulary states them, else none: domains that are taken from
         statements need not be those of a map.
@@ -331,7 +347,7 @@ def as_body(returned: object, claim_id: str) -> Body:
 def _printable(body: Body) -> Body:
     """The body with each of its displayed texts in one line."""
     if isinstance(body, Simulated):
-        return Simulated(one_line(body.figures))
+        return replace(body, figures=one_line(body.figures))
     if isinstance(body, NotFormalised):
         return NotFormalised(one_line(body.why))
     if isinstance(body, Readings):
@@ -605,7 +621,7 @@ def verdict_of(
             ("by " if rules == "holds" else "awaits ") + ", ".join(body.rests_on),
         )
     if isinstance(body, Simulated):
-        return Verdict("simulated", body.figures)
+        return Verdict("simulated", body.told)
     if isinstance(body, CheckedApart):
         return body.verdict()
     if isinstance(body, NotFormalised):

@@ -44,7 +44,8 @@ class Vocabulary:
     has the positive variables that a change of units makes 1 (None: homogeneity decides); `sample`
     is a point at which signs of denominators are guessed; `reads` returns the environment in which
     prints are read for their correction, `introduces` the names to which the prose of a section
-    gives a meaning, and `defines` the definitions of the statement file.
+    gives a meaning, `assumes` what a section assumes beyond that, and `defines` the definitions of
+    the statement file.
     """
 
     order: tuple[str, ...] = ()
@@ -58,6 +59,7 @@ class Vocabulary:
     scales: frozenset[str] | None = None
     reads: Callable[[], Environment] | None = None
     introduces: Callable[[str], frozenset[str]] | None = None
+    assumes: Callable[[str], tuple[Formula, ...]] | None = None
     defines: Callable[[], Sequence[Definition]] | None = None
 
 

@@ -91,6 +91,7 @@ class Judge:
             self.resources.budget,
             self.claim.hints.get("search"),
             self.claim.vocabulary.roots.values(),
+            self.claim.assumed,
             self.judgement.roles,
             self.known,
             self.judgement.outcomes,

@@ -34,12 +34,13 @@ from juggleproof.judging.run import (
     settle_by_rules,
     with_below,
 )
+from juggleproof.judging.strength import UNSEEN, Strength
 from juggleproof.papers.derivations import behind, derivations_of
 from juggleproof.papers.paper import opened
 from juggleproof.reports import errata, tree
 from juggleproof.reports import results as table
 from juggleproof.reports.results import ClaimResult, RunResults, reading_of
-from juggleproof.statements.language import ClaimError, lemmas_of, rests_on
+from juggleproof.statements.language import ClaimError, Formula, lemmas_of, rests_on
 from juggleproof.statements.nodes import Json
 from juggleproof.statements.store import DEFAULT, Store, canonical
 from juggleproof.statements.vote import Vote
@@ -71,6 +72,7 @@ class ShownText:
     numbers: str
     words: str
     votes: Mapping[str, str]
+    strength: Strength = UNSEEN
 
 
 @dataclass(frozen=True)
@@ -95,11 +97,15 @@ class Entry:
 
     @property
     def fails(self) -> list[str]:
-        """The counterexamples, each once."""
-        shown = (
-            errata.at_a_glance(one.at, one.numbers, one.words) for one in self.statements if one.at
-        )
+        """The counterexamples, the strongest first, each once."""
+        shown = (errata.at_a_glance(one.at, one.numbers, one.words) for one in self.refuted)
         return list(dict.fromkeys(shown))
+
+    @property
+    def refuted(self) -> list[ShownText]:
+        """The refuted statements, that with the strongest counterexample first."""
+        refuted = [one for one in self.statements if one.at]
+        return sorted(refuted, key=lambda one: one.strength, reverse=True)
 
     @property
     def remark(self) -> str:
@@ -353,6 +359,7 @@ def _entry(
                 judgement.outcomes[name],
                 store.certificate(name, text),
                 judgement.votes.get(name, ()),
+                claim.assumed,
             )
             for name, text in [*judgement.statements]
         ),
@@ -361,9 +368,15 @@ def _entry(
 
 
 def _shown(
-    name: str, text: str, outcome: str, certificate: object, votes: Sequence[Vote]
+    name: str,
+    text: str,
+    outcome: str,
+    certificate: object,
+    votes: Sequence[Vote],
+    assumed: Sequence[Formula] = (),
 ) -> ShownText:
     refuted = certificate.get("refuted") if isinstance(certificate, dict) else None
+    strength = errata.strength_at(text, refuted, assumed) if refuted else UNSEEN
     return ShownText(
         name,
         text,
@@ -371,8 +384,9 @@ def _shown(
         certificate,
         errata.counterexample(refuted) if refuted else "",
         errata.numbers_of(text, refuted),
-        errata.words_of(text, refuted),
+        errata.words_of(text, refuted) + errata.told_outside(assumed, strength),
         {vote.route: vote.answer for vote in votes},
+        strength,
     )
 
 

@@ -18,12 +18,13 @@ from juggleproof.judging.correcting import note_of
 from juggleproof.judging.evaluating import numbers_at, value_at
 from juggleproof.judging.judgement import Correction, Finding
 from juggleproof.judging.register import Register
+from juggleproof.judging.strength import UNSEEN, Strength, strength_of
 from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
 from juggleproof.reading.meaning import read
 from juggleproof.reports.counterexample_words import in_words
 from juggleproof.reports.tree import STANDS
-from juggleproof.statements.language import ClaimError
+from juggleproof.statements.language import ClaimError, Formula, conjunction
 from juggleproof.statements.nodes import Certificate
 from juggleproof.statements.store import Store
 
@@ -203,7 +204,7 @@ def rows_of(
         rows.append(ErrataRow("correction", "none found"))
     if claim.remark:
         rows.append(ErrataRow("remark", told(claim.remark)))
-    for one in _counterexamples(settled):
+    for one in _counterexamples(claim, settled):
         rows.append(ErrataRow("fails at", one.text, code=True))
         if one.words:
             rows.append(ErrataRow("in words", one.words))
@@ -282,7 +283,8 @@ def three_lines_of(
 ) -> list[FirstPageLine]:
     """The three lines of a claim on the first page."""
     wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
-    fails = [at_a_glance(one.values, one.numbers, one.words) for one in _counterexamples(settled)]
+    counterexamples = _counterexamples(claim, settled)
+    fails = [at_a_glance(one.values, one.numbers, one.words) for one in counterexamples]
     return in_three_lines(claim, wrong, fails, finding.get("correction"))
 
 
@@ -438,17 +440,36 @@ class Fails(NamedTuple):
         )
 
 
-def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
-    """The counterexamples of the refuted statements; those with equal values are shown once."""
-    fails = dict[str, Fails]()
+def _counterexamples(claim: Claim, settled: Sequence[Settled]) -> list[Fails]:
+    """The counterexamples of the refuted statements, the strongest first; those with equal values
+    are shown once.
+    """
+    fails, strengths = dict[str, Fails](), dict[str, Strength]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
             label = name.split("/")[1].removesuffix(".main")
             refuted = certificate["refuted"]
             values = counterexample(refuted) + ("" if label == "main" else f"   [{label}]")
-            one = Fails(values, goal_of(text), numbers_of(text, refuted), words_of(text, refuted))
+            strengths[values] = strength_at(text, refuted, claim.assumed)
+            words = words_of(text, refuted) + told_outside(claim.assumed, strengths[values])
+            one = Fails(values, goal_of(text), numbers_of(text, refuted), words)
             fails.setdefault(values, one)
-    return [*fails.values()]
+    return sorted(fails.values(), key=lambda one: strengths[one.values], reverse=True)
+
+
+def strength_at(text: str, refutation: object, assumed: Sequence[Formula]) -> Strength:
+    """The strength of a counterexample in a section that assumes this; `UNSEEN` for a family, and
+    for a counterexample with a root.
+    """
+    point = point_of(text, refutation)
+    return UNSEEN if point is None else strength_of(text, point, assumed)
+
+
+def told_outside(assumed: Sequence[Formula], strength: Strength) -> str:
+    """A sentence where a counterexample lies outside of what its section assumes; else empty."""
+    if strength.within or not assumed:
+        return ""
+    return f" The section assumes {conjunction(assumed)}; there no counterexample is known."
 
 
 def words_of(text: str, refutation: object, of_paper: bool = True) -> str:

@@ -174,11 +174,13 @@ class ClaimView:
 
     @property
     def refuted(self) -> list[ShownStatement]:
-        """The refuted statements, without those that repeat a counterexample."""
+        """The refuted statements, the strongest counterexample first, without those that repeat
+        one.
+        """
         by_values: dict[tuple[str, str], ShownStatement] = {}
-        for one in self.statements:
-            if one.outcome == "refuted":
-                by_values.setdefault((one.at, one.words), one)
+        shown = {one.name: one for one in self.statements}
+        for one in (shown[refuted.name] for refuted in self.entry.refuted):
+            by_values.setdefault((one.at, one.words), one)
         return list(by_values.values())
 
     @property

@@ -149,13 +149,12 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 
 
 def _counterexamples(entry: Entry) -> list[str]:
-    """The counterexamples as LaTeX, each once."""
+    """The counterexamples as LaTeX, the strongest first, each once."""
     shown = (
         tex_words.values(one.at)
         + (f": {tex_words.prose(one.numbers)}." if one.numbers else ".")
         + (f" {tex_words.prose(one.words)}" if one.words else "")
-        for one in entry.statements
-        if one.at
+        for one in entry.refuted
     )
     return list(dict.fromkeys(shown))
 

@@ -6,6 +6,8 @@ from juggleproof.symbolic.modes import MODES
 
 UNPRINTED = {
     "region-scaling": "the change to the normal form, through which every other claim is judged",
+    "region-K-size": "which bands around e_1 are kept, where (32) says nothing of epsilon",
+    "region-Emax-B1": "what is kept for alpha < 1/3, where B1 and R together are not",
     "region-trap": (
         "the trap of the theorem's proof, which stands in for the paper's last invariant set"
     ),

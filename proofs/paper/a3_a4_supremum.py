@@ -4,7 +4,7 @@ and how many impacts lead into R.
 
 from __future__ import annotations
 
-from juggleproof.judging.claims import Argument, Assertion, Readings, Remark
+from juggleproof.judging.claims import Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_OUTSIDE,
@@ -16,7 +16,6 @@ from juggleproof.proofs.paper.names import (
     R,
     alpha,
     always,
-    as_region,
     at,
     b,
     beta,
@@ -34,7 +33,6 @@ from juggleproof.proofs.paper.names import (
     strikes_at,
     t,
     v,
-    value_of,
 )
 from juggleproof.proofs.paper.regions import (
     BOUNDED,
@@ -66,12 +64,14 @@ from juggleproof.proofs.paper.states import (
     dE_dv,
     dR_dbeta,
     dR_dv,
+    relations_of,
     with_slopes,
 )
 from juggleproof.reading.meaning import Printed
 from juggleproof.reading.parser import parse_name
-from juggleproof.reading.values import Region, Value, Vector, scalar
+from juggleproof.reading.values import ExtremalValue, Region, Value, Vector, scalar
 from juggleproof.statements.language import (
+    ClaimError,
     Formula,
     Statement,
     Term,
@@ -85,7 +85,7 @@ from juggleproof.statements.language import (
 # -------------------------------------------------------------------------------------------------
 # Appendix A.3: how little an impact takes outside the region R, at least.
 
-lam, height, h = reals("lam height h")
+lam, height, h, supremum = reals("lam height h supremum")
 AT_CORNER = (
     paper_names()
     .at(parse_name(r"\overline b"), b_0)
@@ -116,19 +116,41 @@ def is_least_bound(
     "sA.3-sup",
     "A.3",
     "line 679",
-    printed=r"\mathcal{H} - \mathcal{R}",
-    as_it_stands=r"\mathcal{A} - \mathcal{R}",
-    mended=r"\mathcal{B}_1 - \mathcal{R}",
+    printed=r"\Delta E_{sup} = \sup_{\overline{b} \in \mathcal{H} - \mathcal{R}}"
+    r" \Delta E(\overline{b})",
+    as_it_stands=r"\Delta E \text{ on the } \mathcal{A} - \mathcal{R} \text{ region}",
+    mended=r"\Delta E_{sup} = \sup_{\overline{b} \in \mathcal{B}_1 - \mathcal{R}}"
+    r" \Delta E(\overline{b})",
 )
 def supremum_outside_the_region(printed: Printed) -> list[Statement]:
-    """The energy change at the corner of R is the supremum over the states of this set, with or
-    without an impact.
+    """The energy change at the corner of R, Delta E_sup, is the supremum over the states of this
+    set, with or without an impact.
     """
-    region, next_one = as_region(value_of(printed, paper_names())), Vector(reals("beta1 v1"))
-    _, approached = is_least_bound(least, region & B1, [CORNER(b_0)])
-    in_a_period = energy(next_one) - energy(b) < least
-    given = [CORNER(b_0), region(b), next_states(b, next_one)]
-    return [always(in_a_period, given=given, label="bound"), approached]
+    next_one, suprema = Vector(reals("beta1 v1")), list[tuple[Formula, Term]]()
+
+    def value(found: ExtremalValue) -> Term:
+        if found.sign != r"\sup" or found.condition is None:
+            raise ClaimError(f"{found.sign} stands where a supremum under a condition is expected")
+        suprema.append((found.condition, term(scalar(found.value))))
+        return supremum
+
+    in_a_period = only_at(b, energy(next_one) - energy(b))
+    names: dict[str, Value] = {
+        r"\Delta E_{sup}": least,
+        r"\Delta E": in_a_period,
+        r"\sup_{\cdot} \cdot": value,
+    }
+    ((bound, sign, of),) = relations_of(printed, paper_names().extended(names), 1)
+    if sign != "=" or of is not supremum:
+        raise ClaimError("a value that equals a supremum is expected here")
+    ((inside, changes),) = suprema
+    region, given = Region(lambda state: at(inside, state)), [CORNER(b_0)]
+    _, approached = is_least_bound(term(scalar(bound)), region & B1, given)
+    below = changes < term(scalar(bound))
+    return [
+        always(below, given=[*given, inside, next_states(b, next_one)], label="bound"),
+        approached,
+    ]
 
 
 ON_THE_LEVEL = state_on_the_level(v0)
@@ -244,19 +266,24 @@ def slope_with_the_velocity_recalled(printed: Printed) -> Statement:
 
 
 @claim("sA.3.1-not-satisfied", "A.3.1", "line 700", printed=r"\lambda = \alpha + 1")
-def multiplier_does_not_fit(printed: Printed) -> Argument:
-    """With this multiplier the gradients are nowhere parallel on R(b) = 0, so that no state there,
-    on B1 or its boundary, is stationary.
+def multiplier_does_not_fit(printed: Printed) -> Readings:
+    """With this multiplier the gradients are nowhere parallel on R(b) = 0: nowhere in B1 or on the
+    line between B1 and B2, or nowhere at all.
     """
     parallel = equal(dE_dbeta, lam * dR_dbeta) & equal(dE_dv, lam * dR_dv)
-    on_curve = [H(b_0), ON_R(b_0), are_slopes(dE_dbeta, dE_dv, dR_dbeta, dR_dv, state=b_0)]
-    return Argument(
-        steps={
-            "nowhere-parallel": Assertion(
-                (always(~parallel, given=[*on_curve, printed.formula(MULTIPLIED)]),)
-            )
-        },
-        conclusion=Assertion((always(~parallel, given=[*on_curve, CLOSED_B1(b_0)]),)),
+    slopes = are_slopes(dE_dbeta, dE_dv, dR_dbeta, dR_dv, state=b_0)
+    on_curve = [H(b_0), ON_R(b_0), slopes]
+    everywhere = [*on_curve, printed.formula(MULTIPLIED)]
+    return Readings(
+        {
+            "in-closed-B1": Reading(
+                Assertion((always(~parallel, given=[*on_curve, CLOSED_B1(b_0)]),)),
+                "A.4 says the closure of B1 - R",
+            ),
+            "everywhere": Reading(
+                Assertion((always(~parallel, given=everywhere),)), "A.3.1 says on R(b) = 0"
+            ),
+        }
     )
 
 

@@ -22,6 +22,7 @@ from juggleproof.proofs.paper.names import (
     always,
     at,
     b,
+    band,
     c,
     claim,
     collision_time,
@@ -51,8 +52,9 @@ from juggleproof.proofs.paper.states import (
     narrow_band_stays,
 )
 from juggleproof.reading.values import Region, Vector
-from juggleproof.statements.language import Statement, equal, iff, term
+from juggleproof.statements.language import Statement, equal, iff, real, term
 
+d = real("d")
 TRAP = B1 & Region(lambda state: alpha * (r - speed(state)) < r)
 
 
@@ -203,9 +205,41 @@ def fixed_point_lies_in_both() -> Statement:
 @claim("region-K", "inclusions", "line 565")
 def bands_are_mapped_into_themselves() -> list[Statement]:
     """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does
-    not reach to where R leaves B1.
+    not reach up to where R leaves B1; there are such bands.
     """
     return [*narrow_band_stays(eps * r**2)]
+
+
+@claim("region-K-size", "inclusions", "not printed")
+def band_is_kept_up_to_this_size() -> list[Statement]:
+    """f1 maps the band of size eps r^2 around e_1 into itself if sqrt(2 eps) < (1 - alpha)/(alpha
+    (1 + alpha)); and where R has the state on the ground that closes at r/alpha, only then, for f1
+    takes this state of the band out of B1; else it maps every band into itself.
+    """
+    size, stays = eps * r**2, band(eps * r**2)(f1(b))
+    fast = Vector((0, r - r / alpha))  # on the ground, closing at r/alpha
+    half_width = [d >= 0, equal(d**2, 2 * eps)]  # sqrt(2 eps)
+    kept = alpha * (1 + alpha) * d < 1 - alpha
+    reached = term(at(derived("region_margin"), fast)) >= 0  # R has this state
+    return [
+        always(stays, given=[band(size)(b), *half_width, kept], in_range=RANGE_21, label="kept"),
+        always(
+            band(size)(fast) & ~B1(f1(fast)),
+            given=[reached, *half_width, ~kept],
+            in_range=RANGE_21,
+            label="not-kept",
+        ),
+        always(stays, given=[band(size)(b), ~reached], in_range=RANGE_21, label="every-band"),
+    ]
+
+
+@claim("region-Emax-B1", "inclusions", "not printed")
+def impacts_of_sustainable_energy_stay_impacts() -> Statement:
+    """The states of B1 with energy E_max at most are mapped to such states by f, which is f1
+    there.
+    """
+    sustainable = B1 & Region(lambda state: energy(state) <= derived("E_max"))
+    return always(sustainable(f1(b)), given=[sustainable(b)], in_range=RANGE_21)
 
 
 @claim("region-trap", "inclusions", "not printed")

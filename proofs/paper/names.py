@@ -75,6 +75,7 @@ STANDING = Vocabulary(
     scales=frozenset({"r", "g"}),
     reads=lambda: paper_names(),
     introduces=lambda section: introduced(section),
+    assumes=lambda section: assumed(section),
     defines=lambda: definitions(),
 )
 claim = partial(claims.claim, vocabulary=STANDING)
@@ -398,8 +399,9 @@ def boundary_of_band(size: Term) -> Region:
 
 
 def is_narrow(size: Term) -> tuple[Formula, ...]:
-    """The band of this size does not reach to the velocity c, at which R leaves B1."""
-    return leaves_R_at(c), from_e_1(on_the_line(c)) > size
+    """The band of this size does not reach up to the velocity c, at which R leaves B1."""
+    above_e_1 = (speed(e_1) < c) & (from_e_1(on_the_line(c)) > size)
+    return leaves_R_at(c), above_e_1
 
 
 # -------------------------------------------------------------------------------------------------
@@ -536,6 +538,14 @@ def _definitions() -> tuple[Definition, ...]:
         if parameters:
             made.append(Definition(name, parameters, entries))
     return (*made, *(Definition(*row) for row in sets()))
+
+
+def assumed(section: str) -> tuple[Formula, ...]:
+    """What the section assumes: (21) in section 4, "assuming favorable parameter values", and in
+    appendix A, which serves it.
+    """
+    serves = section.split(".")[0] in ("4", "A")
+    return (alpha < derived("restitution_threshold", 2),) if serves else ()
 
 
 # -------------------------------------------------------------------------------------------------

@@ -94,6 +94,7 @@ def states_on_or_above_the_table(printed: Printed) -> list[Statement]:
     "line 125",
     printed=r"0 \le \tau_c(\overline{b}) < T",
     as_it_stands=r"0 \le \tau_c(b) < T",
+    repeats="s2.2.1-H",
 )
 def time_to_collision_tells_b1(printed: Printed) -> Readings:
     """In H, the time to collision lies in the first period exactly on the region B1 of (7).
@@ -192,7 +193,21 @@ def _beside_the_line(axis: Formula, side: Formula, inside: Formula) -> Assertion
     return Assertion((always(inside, given=[axis, H(b), on_line, side]),))
 
 
-@claim("s2.2.1-axis-below", "2.2.1", "line 137", printed=r"\dot{\overline{\beta}} = 0")
+PROBABLY_MISNAMED = Remark(
+    "The axis is probably misnamed, and the edge of H is meant, the axis beta = 0: it is upright in"
+    " Figure 6, so that the line, which meets it at the speed of the table, parts it into what is"
+    " below and what is above. Both axes have the property.",
+    lambda: always(iff(meet(T), equal(v, r)), given=[H(b), equal(beta, 0)], label="parts-the-edge"),
+)
+
+
+@claim(
+    "s2.2.1-axis-below",
+    "2.2.1",
+    "line 137",
+    printed=r"\dot{\overline{\beta}} = 0",
+    remark=PROBABLY_MISNAMED,
+)
 def axis_below_the_line(printed: Printed) -> Readings:
     """What lies on the axis below the line between B1 and B2 belongs to B1: the axis of no speed as
     printed, or the edge of H.
@@ -211,7 +226,13 @@ def axis_below_the_line(printed: Printed) -> Readings:
     )
 
 
-@claim("s2.2.1-axis-above", "2.2.1", "line 137", printed=r"\dot{\overline{\beta}} = 0")
+@claim(
+    "s2.2.1-axis-above",
+    "2.2.1",
+    "line 137",
+    printed=r"\dot{\overline{\beta}} = 0",
+    remark=PROBABLY_MISNAMED,
+)
 def axis_above_the_line(printed: Printed) -> Readings:
     """What lies on the axis above the line between B1 and B2 belongs to B2: the axis of no speed as
     printed, or the edge of H.

@@ -294,9 +294,11 @@ def _height_above_the_table(printed: Printed) -> list[Statement]:
     "line 238",
     printed=r"0 = [F^{\tau_c}(\overline{b})]_1 - [F^{\tau_c}(r_0)]_1",
 )
-def collision_equation(printed: Printed) -> list[Statement]:
-    """Ball and table meet when the difference of their heights in flight is zero."""
-    return _height_above_the_table(printed)
+def collision_equation(printed: Printed) -> Statement:
+    """Ball and table meet when the difference of their heights in flight is zero, which is a
+    definition: they are then at one height.
+    """
+    return always(iff(printed.formula(AT_TIME), meet(t)))
 
 
 @claim(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from juggleproof.judging.claims import Argument, Assertion, Following
+from juggleproof.judging.claims import Argument, Assertion, Following, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -246,20 +246,29 @@ def impact_at_the_fixed_point_comes_in_time(printed: Printed) -> list[Statement]
     ]
 
 
-@claim("s3.3-e1-in-B1-since", "3.3", "lines 306 to 310")
+@claim(
+    "s3.3-e1-in-B1-since",
+    "3.3",
+    "lines 306 to 310",
+    remark=Remark(
+        "That the ball falls is not among the reasons, but stands in the display before them. It is"
+        " needed: of a ball faster than the table the time to collision by (6) is negative, and so"
+        " less than a period, and no impact comes.",
+        by=("s3.3.1-B2",),
+    ),
+)
 def positive_height_and_early_impact_give_b1() -> Argument:
-    """A state of positive height whose time to collision is less than a period lies in B1; the
-    fixed point is such a state.
+    """A state of positive height whose ball falls, and whose time to collision is less than a
+    period, lies in B1; the fixed point is such a state.
     """
     early = collision_time(b) < T
     return Argument(
         steps={
-            "positive": Assertion((always(beta > 0, given=[FIXED]),)),
+            "positive": Assertion((always((beta > 0) & (v < 0), given=[FIXED]),)),
             "in-time": Assertion((always(early, given=[FIXED, v < r]),)),
-            "inference": Assertion((always(B1(b), given=[different(v, r), beta > 0, early]),)),
+            "inference": Assertion((always(B1(b), given=[v < 0, beta > 0, early]),)),
         },
         conclusion=Assertion((always(B1(b), given=[FIXED]),)),
-        proved_by="s3.3-e1-in-B1",
     )
 
 

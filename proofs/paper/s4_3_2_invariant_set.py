@@ -44,6 +44,7 @@ from juggleproof.proofs.paper.states import (
     NEAR,
     RANGE_21,
     STABILITY,
+    narrow_band_exists,
     narrow_band_stays,
     next_image,
     relative_step,
@@ -242,7 +243,7 @@ def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
 )
 def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
     """f1 maps the boundary of the band into the band: of a band of every size, or of a narrow one,
-    which does not reach to where R leaves B1.
+    which does not reach up to where R leaves B1; there are such bands.
     """
     stays = printed.formula(AROUND_E1)
     return Readings(
@@ -252,7 +253,12 @@ def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
                 "(32) defines the band for an epsilon of which nothing is said",
             ),
             "near-e_1": Reading(
-                Assertion((always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),)),
+                Assertion(
+                    (
+                        narrow_band_exists(),
+                        always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),
+                    )
+                ),
                 "before (32) the kinetic energy is said to be close to that of e_1",
             ),
         }
@@ -301,10 +307,16 @@ def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     "4.3.2",
     "line 565",
     printed=r"\overline{f}(\mathcal{K}) \subseteq \mathcal{K}",
+    remark=Remark(
+        "Where R has states that close at r/alpha, the band of (32) is kept if and only if"
+        " sqrt(2 eps)/r < (1 - alpha)/(alpha (1 + alpha)), and else for every eps. With E_max in"
+        " place of the level of R it would be kept for every eps and alpha < 1/3.",
+        by=("region-K-size", "region-Emax-B1"),
+    ),
 )
 def band_is_mapped_into_itself(printed: Printed) -> Argument:
     """Since f is continuous on the band and its boundary is mapped into it, a narrow band is mapped
-    into itself.
+    into itself; there are such bands.
 
     For continuous maps in general this does not follow: a quadratic map can keep the ends of an
     interval in it and lead a point between them out of it.
@@ -326,7 +338,13 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
 
     return Argument(
         steps={"boundary-is-enough": Assertion((is_enough,))},
-        conclusion=Assertion((stays(f1, [], "with-impact"), stays(f2, [B2(b)], "without-impact"))),
+        conclusion=Assertion(
+            (
+                narrow_band_exists(),
+                stays(f1, [], "with-impact"),
+                stays(f2, [B2(b)], "without-impact"),
+            )
+        ),
     )
 
 

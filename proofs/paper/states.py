@@ -28,6 +28,7 @@ from juggleproof.proofs.paper.names import (
     ball_at,
     band,
     boundary_of_band,
+    c,
     collide,
     collision_time,
     derived,
@@ -48,6 +49,7 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     is_narrow,
     kinetic_energy,
+    leaves_R_at,
     meanings,
     meet,
     of_z,
@@ -308,10 +310,20 @@ relative_step = of_z(derived_vector("relative_map"))
 NEAR = is_narrow(eps)
 
 
+def narrow_band_exists() -> Statement:
+    """R leaves B1 at a velocity above that of e_1, so that some band around e_1 is narrow."""
+    return always(
+        speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="there-is-a-narrow-one"
+    )
+
+
 def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
-    """f1 maps a narrow band into itself: its images are in B1, in R, and in the band."""
+    """There are narrow bands, and f1 maps each into itself: its images are in B1, in R, and in the
+    band.
+    """
     after = f1(b)
     return (
+        narrow_band_exists(),
         always(
             B1(after),
             given=[*is_narrow(size), B1(b), from_e_1(b) <= size],

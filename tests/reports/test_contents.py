@@ -137,7 +137,7 @@ def test_own_file_with_a_false_claim_is_as_described_holds(tmp_path: Path) -> No
     )
     assert (
         claim(data, "above")["verdict"] == "false"
-        and claim(data, "above")["statements"][0]["counterexample"] == "x = 1"
+        and claim(data, "above")["statements"][0]["counterexample"] == "x = 1/2"
     )
     assert claim(data, "negative-square")["statements"][0]["counterexample"].startswith(
         "every value"

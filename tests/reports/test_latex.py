@@ -356,6 +356,17 @@ def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
     assert r"\tag{37}" in equation(contents().entry("eq-37"))
 
 
+def test_the_column_of_gravity_is_not_set_by_the_macro_of_the_restitution_holds() -> None:
+    assert with_macros(r"A_T - \alpha_T + \alpha r_0") == r"A_T - \alpha_T + \jugrestitution r_0"
+    text = equation(contents().entry("sB.3-aT"))
+    assert r"\alpha_T" in text and r"\jugrestitution" not in text
+
+
+def test_an_equation_of_a_set_names_what_it_is_of_holds() -> None:
+    text = equation(contents().entry("sA.3-sup"))
+    assert r"\sup" in text and r"\Delta E_{" in text
+
+
 def test_an_export_judges_only_what_is_asked_for_holds(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -426,7 +437,7 @@ def test_every_equation_compiles_alone_holds() -> None:
 # Commands of equations that are no symbols of the paper.
 STRUCTURE = set(
     r"\frac \sqrt \left \right \middle \in \notin \subset \subseteq \cap \cup \circ \cdot \equiv"
-    r" \le \ge \mid \quad \qquad \to \lim \max \forall \partial".split()
+    r" \le \ge \mid \quad \qquad \to \lim \max \sup \forall \partial".split()
 )
 ACCENTED = re.compile(r"((?:\\(?:dot|bar|mathcal)[ {]*)*)(\\[A-Za-z]+|[A-Za-z])")
 

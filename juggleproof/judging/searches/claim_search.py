@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.judging import limits
 from juggleproof.judging.evaluating import at_simple_values, is_simple
 from juggleproof.judging.orbit_rules import premises_of
 from juggleproof.judging.searches.unproved_premises import why
+from juggleproof.judging.strength import refuted_more_strongly, strength_of
 from juggleproof.search.certificate import search_certificate, search_premises
 from juggleproof.search.closing import Hints, search_closing
 from juggleproof.search.points import search_values
@@ -25,7 +27,7 @@ from juggleproof.statements.language import (
     Term,
     disjunction,
 )
-from juggleproof.statements.nodes import Certificate, Counterexample
+from juggleproof.statements.nodes import Certificate, Counterexample, Values
 from juggleproof.statements.states import SearchState, state_of
 from juggleproof.statements.vote import Vote
 from juggleproof.statements.vote import VoteBudget as Asking
@@ -46,6 +48,7 @@ class ClaimSearch:
     budget: int
     hints: Hints | None
     roots: Collection[Term]
+    assumed: Sequence[Formula]
     roles: Roles
     known: dict[str, checker.Statement]
     outcomes: Mapping[str, str]
@@ -80,6 +83,7 @@ class ClaimSearch:
             certificate = {"unknown": f"the budget of {budget} units ran out"}
         if isinstance(statement, Statement) and not self.is_trial:
             certificate = self._in_simple_values(statement, certificate)
+            certificate = self._by_the_strongest(statement, certificate)
         if "certified" not in certificate and isinstance(statement, Statement):
             if not self.is_trial:
                 outcome = "refuted" if "refuted" in certificate else "unknown"
@@ -111,6 +115,50 @@ class ClaimSearch:
                 if checker.check_one(parsed, simple, self.known, {})[0] == "refuted":
                     return simple
         return certificate
+
+    def _by_the_strongest(self, statement: Statement, certificate: Certificate) -> Certificate:
+        """A refutation within what the section assumes, and strict where the goal is, if a search
+        finds one that the checker accepts; else the certificate unchanged.
+        """
+        found = certificate.get("refuted")
+        if not isinstance(found, Counterexample) or found.adjoined:
+            return certificate
+        parsed = read(statement.text(), statement.name)
+        point = {name: Fraction(text) for name, text in found.terms.items()}
+        own = strength_of(statement.text(), point, self.assumed)
+        for stronger in refuted_more_strongly(statement, self.assumed, own):
+            work = self.budget // limits.TRIAL_SHARE
+            there = self._counterexample(read(stronger.text(), stronger.name), work, (0, 1))
+            if isinstance(there, Counterexample) and not there.adjoined:
+                strong: Certificate = {"refuted": there._replace(node=("close",))}
+                if checker.check_one(parsed, strong, self.known, {})[0] == "refuted":
+                    return strong
+        return certificate
+
+    def _counterexample(
+        self, parsed: checker.Statement, work: int, efforts: Sequence[int]
+    ) -> Values | None:
+        """A counterexample by short searches, each with this work; None where they find none, or
+        run out.
+        """
+        start = SearchState(checker.Context())
+        for effort in efforts:
+            try:
+                values = search_values(
+                    parsed,
+                    start,
+                    "counterexample",
+                    {},
+                    self.known,
+                    Budget(work),
+                    effort=effort,
+                    roles=self.roles,
+                )
+            except Exhausted:
+                continue
+            if values is not None:
+                return values
+        return None
 
     def _certificate_of_rule(
         self,
@@ -165,18 +213,7 @@ class ClaimSearch:
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
-        start = SearchState(checker.Context())
-        values = search_values(
-            parsed,
-            start,
-            "counterexample",
-            {},
-            self.known,
-            Budget(limits.QUICK_WORK),
-            effort=0,
-            roles=self.roles,
-        )
-        return values is not None
+        return self._counterexample(parsed, limits.QUICK_WORK, (0,)) is not None
 
     def certificate_of_inclusion(self, parsed: checker.Statement) -> Certificate:
         """The certificate that a quick search finds; `unknown` where it finds none."""

@@ -55,6 +55,12 @@ def test_what_a_simulation_shows_has_figures_and_no_statement_holds() -> None:
     }
     assert simulated and not simulated.keys() & stated
     assert all(re.search(r"\d", figures) for figures in simulated.values())
+    apart = {"table-1"}
+    assert {
+        name for name in simulated if simulated[name].startswith("does not agree with the print: ")
+    } == apart
+    agree = {name for name in simulated if simulated[name].startswith("agrees with the print: ")}
+    assert agree == simulated.keys() - apart
 
 
 @pytest.mark.exhaust

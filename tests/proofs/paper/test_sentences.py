@@ -39,7 +39,7 @@ NAMES: tuple[tuple[str, str, tuple[str, ...]], ...] = (
         r"R\(b\)",
         ("region_margin", "at_corner_of_R", "margin =", r"\(level_of_R\(r\) - v0?\^2/2\)/g"),
     ),
-    ("narrow", "narrow|does not reach to where R leaves B1", ("narrow",)),
+    ("narrow", "narrow|does not reach up to where R leaves B1", ("narrow",)),
     ("R leaves B1", "where R leaves B1", ("R_leaves_B1_at",)),
     ("boundary of the band", "boundary of the band", ("on_boundary_of_band",)),
     ("band", "band|region K", ("in_band", r"K_from_e_1\(.*\) <= eps")),
@@ -199,14 +199,14 @@ def test_a_definition_of_a_set_stands_in_statements_and_for_words_holds(name: st
 CHANGED = (
     (
         "s4.3.2-f1-boundary/near-e_1.main",
+        "given (alpha*r - r)/(alpha + 1) < c and (c - (alpha*r - r)/(alpha + 1))^2/2 > eps",
         "given (c - (alpha*r - r)/(alpha + 1))^2/2 > eps",
-        "given r > eps",
         "narrow",
     ),
     (
         "s4.3.2-f1-boundary/near-e_1.main",
-        "given (c - (alpha*r - r)/(alpha + 1))^2/2 > eps",
-        "given (c - (alpha*r - r)/(alpha + 1))^2/2 >= eps",
+        "given (alpha*r - r)/(alpha + 1) < c and (c - (alpha*r - r)/(alpha + 1))^2/2 > eps",
+        "given (alpha*r - r)/(alpha + 1) < c and (c - (alpha*r - r)/(alpha + 1))^2/2 >= eps",
         "narrow",
     ),
     (
