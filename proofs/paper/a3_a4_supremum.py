@@ -427,6 +427,11 @@ def supremum_by_the_velocity(printed: Printed) -> Statement:
     "line 710",
     derived=lambda: term(derived("delta_E_sup")),
     printed=PRINTED_SUPREMUM,
+    remark=Remark(
+        "This value enters (26). With the printed one the number of impacts is too small for great"
+        " alpha, also when rounded up; with the corrected one, rounded up, it is enough.",
+        by=("eq-26", "theorem-count"),
+    ),
 )
 def supremum_by_alpha(printed: Printed) -> Statement:
     """The supremum, which is that of sA.3.2-sup1, by alpha and the table's launch velocity."""
