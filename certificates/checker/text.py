@@ -198,21 +198,23 @@ class Definitions:
         require(not unused, Kind.UNUSED, ", ".join(sorted(unused)))
         self.known[name] = parameters, set(over), out
 
-    def occur_in(self, text: str) -> bool:
-        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
+    def occur_in(self, text: str) -> set[str]:
+        """The definitions that a text names."""
+        return self.known.keys() & names_in(text) if self.known else set()
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a
         definition may be over.
         """
-        if self.occur_in(text):
-            return self.write_out(parse(text), {}, declared)
+        used = self.occur_in(text)
 
         def tree() -> ast.expr:
             self.work.room -= 5 * len(text)  # see MAX_TEXT
-            return parse(text)
+            return self.write_out(parse(text), {}, declared) if used else parse(text)
 
-        return self.work.once(text, tree)
+        # what a definition says never changes, and no name in it is that of a later one
+        key = (text, frozenset(used), frozenset(declared)) if used else text
+        return self.work.once(key, tree)
 
     def write_out(
         self, node: ast.expr, values: Mapping[str, ast.expr], declared: set[str]
