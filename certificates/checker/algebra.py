@@ -196,9 +196,12 @@ class Work:
         if self.left < 0:
             raise Rejected(Kind.WORK)
 
-    def once(self, key: object, make: Callable[[], T]) -> T:
-        """What `make` returns, which depends on the key alone.  To find it again is counted as to
-        make it: so a check may do as much, whatever was checked before it.
+    def once(
+        self, key: object, make: Callable[[], T], fits: Callable[[T], bool] = lambda found: True
+    ) -> T:
+        """What `make` returns, which depends on the key alone, and on what `fits` asks for.  To
+        find it again is counted as to make it: so a check may do as much, whatever was checked
+        before it.
 
         A key holds trees and polynomials, each equal to itself alone: nothing else can take its
         place while it is kept.  Within a check nothing is dropped: so what is kept, and what it was
@@ -207,8 +210,9 @@ class Work:
         if key in self.kept:
             found: T
             found, cost = self.kept[key]
-            self.spend(cost)
-            return found
+            if fits(found):
+                self.spend(cost)
+                return found
         before = self.left
         value = make()
         if self.room > 0:

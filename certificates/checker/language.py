@@ -56,7 +56,8 @@ from .text import (
     written_line,
 )
 
-Licences = dict[frozenset[tuple[int, int]], Licence]  # by the primitive polynomial
+Key = frozenset[tuple[int, int]]  # of a licence: its primitive polynomial
+Licences = dict[Key, Licence]
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
@@ -76,8 +77,8 @@ class Context:
     strict line made nonzero.
 
     index: {key: number of the variable}; integers: the keys of integer variables; values: {name:
-    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; work: the meter of
-    the check, which an inner context shares.
+    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; asked: what was found
+    in it, for `once`; work: the meter of the check, which an inner context shares.
     """
 
     def __init__(
@@ -90,6 +91,7 @@ class Context:
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
         self.licensed: Licences = dict(outer.licensed) if outer else {}
+        self.asked: dict[Key, Licence | None] = {}
         if values is None:
             values = outer.values if outer else {}
         self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
@@ -138,12 +140,17 @@ class Context:
         """
         value = self.value(node)
         require(value.terms, Kind.ZERO_DIVISION, lambda: ast.unparse(node))
+        constant = value.constant()
+        if constant:
+            return self.number(1 / constant)
         content, poly = value.primitive()
-        licence = self.licensed.get(frozenset(poly.terms.items()))
+        key = frozenset(poly.terms.items())
+        licence = self.asked[key] = self.licensed.get(key)
         if licence or poly.constant():
             sign = -1 if licence and licence[0].terms != poly.terms else 1
             upper = self.number(Fraction(sign * value.den, content))
-            upper = self.number(1).numerator(value.under) * upper
+            if value.under:
+                upper *= self.number(1).numerator(value.under)
             return upper.over({licence: 1} if licence else {})
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
             return self.reciprocal(node.left) * self.reciprocal(node.right)
@@ -230,14 +237,23 @@ class Context:
         return value
 
     def once(self, read: Callable[[Context, ast.expr], T], node: ast.expr) -> T:
-        """What a tree says here.  That depends on the values of its names and, where it divides, on
-        what is licensed.
+        """What a tree says here.  That depends on the values of its names and on what the licences
+        say to each division in it, in turn.
         """
-        names, divides = self.work.once(node, partial(names_of, node))
-        licences = self.licensed.values() if divides else ()
-        self.work.spend(len(names) + len(licences))
-        key = (read, node, *map(self.values.get, names), *licences)
-        return self.work.once(key, partial(read, self, node))
+        names = self.work.once(node, partial(names_of, node))
+        self.work.spend(len(names))
+
+        def make() -> tuple[T, dict[Key, Licence | None]]:
+            self.asked = {}
+            return read(self, node), self.asked
+
+        # the answers are compared up to the first that differs, and `make` asks for as many again
+        value, _ = self.work.once(
+            (read, node, *map(self.values.get, names)),
+            make,
+            lambda found: all(self.licensed.get(key) is one for key, one in found[1].items()),
+        )
+        return value
 
     def monomials(self, text: str) -> list[Monomial]:
         """The monomials of a text that `summands` reads, as `product` reads them; none where a name

@@ -80,21 +80,9 @@ def names_in(*texts: str) -> set[str]:
     return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - WORDS
 
 
-def names_of(node: ast.expr) -> tuple[list[str], bool]:
-    """The names in a tree, sorted, and whether it divides."""
-    names: set[str] = set()
-    divides = False
-    nodes: list[ast.AST] = [node]
-    while nodes:
-        part = nodes.pop()
-        if isinstance(part, ast.Name):
-            names.add(part.id)
-        elif isinstance(part, ast.BinOp):
-            divides = divides or isinstance(part.op, ast.Div)
-            nodes += [part.left, part.right]
-        else:
-            nodes += ast.iter_child_nodes(part)
-    return sorted(names), divides
+def names_of(node: ast.expr) -> list[str]:
+    """The names in a tree, sorted."""
+    return sorted({part.id for part in ast.walk(node) if isinstance(part, ast.Name)})
 
 
 def exponent(node: ast.BinOp) -> int:
