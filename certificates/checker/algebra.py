@@ -408,10 +408,15 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
 
 
 def licence_of(poly: Poly, positive: bool) -> tuple[frozenset[tuple[int, int]], Licence]:
-    """The licence of a strict line: the primitive polynomial as a key, and the licence."""
+    """The licence of a strict line: the primitive polynomial as a key, and the licence, which is
+    one thing for all lines that say the same.
+    """
     content, poly = poly.primitive()
-    poly.work.spend(len(poly.terms) * poly.work.dear)
-    return frozenset(poly.terms.items()), (poly if content > 0 else -poly, positive)
+    work = poly.work
+    work.spend(len(poly.terms) * work.dear)
+    key = frozenset(poly.terms.items())
+    licence = poly if content > 0 else -poly, positive
+    return key, work.once((key, content > 0, positive, poly.deg, poly.bits), lambda: licence)
 
 
 def number(value: Rational, work: Work) -> Poly:

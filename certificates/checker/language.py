@@ -77,8 +77,8 @@ class Context:
     strict line made nonzero.
 
     index: {key: number of the variable}; integers: the keys of integer variables; values: {name:
-    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; asked: what was found
-    in it, for `once`; work: the meter of the check, which an inner context shares.
+    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; asked: what was
+    found in it, see `once`; work: the meter of the check, which an inner context shares.
     """
 
     def __init__(

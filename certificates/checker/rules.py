@@ -38,15 +38,7 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .language import (
-    Context,
-    Known,
-    Range,
-    Statement,
-    Unfolding,
-    univariate,
-    variables_of,
-)
+from .language import Context, Known, Range, Statement, Unfolding, univariate, variables_of
 from .text import parse, rational
 
 Hint = Any  # of a certificate, which anyone may have written: what does not fit is refused
@@ -389,7 +381,7 @@ def find(
     for entry in adjoined:
         adjoin(state, known, *entry)
     # `base` comes last: a certificate has no say in what is given to it
-    values = {key: state.context.value(parse(text)) for key, text in terms.items()}
+    values = {key: state.context.once(Context.value, parse(t)) for key, t in terms.items()}
     inner = Context(state.context, {**values, **base})
     unfolding = Unfolding(statement, inner, sharp, purpose != "point")
     needed = unfolding.variables if purpose == "witness" else unfolding.universal

@@ -11,13 +11,7 @@ from collections.abc import Callable
 from typing import Literal, NoReturn, TypeVar
 
 from .algebra import MAX_WORK, Kind, Rejected, Work, require
-from .language import (
-    Context,
-    Known,
-    Statement,
-    Unfolding,
-    read_statements,
-)
+from .language import Context, Known, Statement, Unfolding, read_statements
 from .orbits import check_orbit_rule
 from .rules import Hint, State, check_sharp, find, prove
 
