@@ -39,6 +39,7 @@ PRODUCT = r"(?:(?:0|[1-9]\d{0,60})(?:/[1-9]\d{0,60})?|NAME)(?:\*NAME)*"
 FLAT = re.compile(
     f"-?{PRODUCT}(?: [+-] {PRODUCT})*".replace("NAME", r"[A-Za-z]\w*(?:\^[1-9]\d{0,3})?"), re.ASCII
 )
+NUMBER = re.compile(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", re.ASCII)
 
 
 def parse(text: object) -> ast.expr:
@@ -121,10 +122,10 @@ def rational(value: object) -> Rational:
     """An exact rational: an int, or the text p or p/q."""
     if type(value) is int:  # not isinstance: True is no number
         return value
-    pattern = r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?"
-    if not isinstance(value, str) or not re.fullmatch(pattern, value, re.ASCII):
+    if not isinstance(value, str) or not NUMBER.fullmatch(value):
         raise Rejected(Kind.RATIONAL, value)
-    return Fraction(value)
+    upper, _, lower = value.partition("/")
+    return Fraction(int(upper), int(lower)) if lower else int(upper)
 
 
 def rows(text: str) -> Iterator[tuple[int, str, str]]:
