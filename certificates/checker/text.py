@@ -83,7 +83,17 @@ def names_in(*texts: str) -> set[str]:
 
 def names_of(node: ast.expr) -> list[str]:
     """The names in a tree, sorted."""
-    return sorted({part.id for part in ast.walk(node) if isinstance(part, ast.Name)})
+    names: set[str] = set()
+    nodes: list[ast.AST] = [node]
+    while nodes:
+        part = nodes.pop()
+        if isinstance(part, ast.Name):
+            names.add(part.id)
+        elif isinstance(part, ast.BinOp):
+            nodes += [part.left, part.right]
+        elif not isinstance(part, ast.Constant):
+            nodes += ast.iter_child_nodes(part)
+    return sorted(names)
 
 
 def exponent(node: ast.BinOp) -> int:
