@@ -342,13 +342,16 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
     terms: Terms = {}
     deg = bits = 0
     for factor, p, q in products:
-        scale = den // (factor.denominator * p.den * q.den) * factor.numerator
+        scale = factor.numerator
+        if den != 1:
+            scale *= den // (factor.denominator * p.den * q.den)
         few, many = p.terms, q.terms
         if len(many) < len(few):
             few, many = many, few
         size = bits_of(scale) + p.bits + q.bits
         work.spend(8 + len(few) * len(many) * (work.dear + (size * size >> 16)))
-        require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
+        if size > MAX_BITS:
+            raise Rejected(Kind.SIZE, f"{size} bits")
         deg = max(deg, p.deg + q.deg)
         bits = max(bits, size)
         for m, c in few.items():
@@ -357,8 +360,10 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
                 for n, d in many.items():
                     n += m
                     terms[n] = terms.get(n, 0) + c * d
-            else:
+            elif m or c != 1:
                 terms = {m + n: c * d for n, d in many.items()}
+            else:
+                terms = many.copy()
             if len(terms) > MAX_TERMS:
                 raise Rejected(Kind.SIZE, "too many terms")
     if 0 in terms.values():
