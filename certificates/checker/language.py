@@ -260,17 +260,22 @@ class Context:
         is no variable: such a text is left to `value`.
         """
         monomials: list[Monomial] = []
+        read: dict[str, tuple[int, int]] = {}  # of each power, its monomial and degree
         for upper, lower, powers in summands(text):
             m = degree = 0
-            for name, power in powers:
-                value = self.values.get(name)
-                if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
-                    return []
-                (one,) = value.terms
-                if power * value.deg > MAX_DEGREE:
-                    return []
-                m += one * power
-                degree += value.deg * power
+            for power in powers:
+                if power not in read:
+                    name, _, e = power.partition("^")
+                    value = self.values.get(name)
+                    if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
+                        return []
+                    (one,) = value.terms
+                    read[power] = one * int(e or 1), value.deg * int(e or 1)
+                    if read[power][1] > MAX_DEGREE:
+                        return []
+                more, count = read[power]
+                m += more
+                degree += count
             monomials.append((m, upper, lower, degree))
         self.work.spend(PER_FACTOR * len(text))
         return monomials

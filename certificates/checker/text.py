@@ -103,22 +103,18 @@ def exponent(node: ast.BinOp) -> int:
     raise Rejected(Kind.TERM, ast.unparse(node))
 
 
-def summands(text: str) -> list[tuple[int, int, list[tuple[str, int]]]]:
-    """Of a text like 3/4*x^2*y - x + 1, (upper, lower part of its number, powers) of each summand,
-    as `parse` reads it, without a tree; none for any other text.
+def summands(text: str) -> list[tuple[int, int, list[str]]]:
+    """Of a text like 3/4*x^2*y - x + 1, (upper, lower part of its number, powers of names) of each
+    summand, as `parse` reads it, without a tree; none for any other text.
     """
     found = []
     if len(text) <= MAX_TEXT and FLAT.fullmatch(text):
         for summand in text.replace(" - ", " + -").split(" + "):
-            unsigned = summand.removeprefix("-")
-            upper, lower, powers = "1", "1", []
-            for factor in unsigned.split("*"):
-                if factor[0].isdigit():  # the first alone, in such a text
-                    upper, _, lower = factor.partition("/")
-                else:
-                    name, _, power = factor.partition("^")
-                    powers.append((name, int(power or 1)))
-            whole = int(upper) if unsigned == summand else -int(upper)
+            first, *powers = summand.removeprefix("-").split("*")
+            if not first[0].isdigit():  # the first alone can be a number, in such a text
+                first, powers = "1", [first, *powers]
+            upper, _, lower = first.partition("/")
+            whole = -int(upper) if summand[0] == "-" else int(upper)
             found.append((whole, int(lower or 1), powers))
     return found
 
