@@ -55,8 +55,10 @@ class State:
     """
 
     def __init__(self, variables: Context, parent: State | None = None) -> None:
-        values = {key: variable(place, variables.work) for key, place in variables.index.items()}
-        self.context = Context(variables, values)
+        values = variables.values
+        if not parent or variables is not parent.context:  # where each key stands for its variable
+            values = {key: variable(at, variables.work) for key, at in variables.index.items()}
+        self.context: Context = Context(variables, values)
         self.context.licensed = dict(parent.context.licensed) if parent else {}
         self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
         self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
@@ -71,9 +73,9 @@ class State:
                 self.closed = self.closed or not part
             elif part[0] == "atom":
                 self.facts.append((part[1], part[2]))
-                self.context.license(part)
             else:
                 self.choices.append(part[1])
+        self.context.license(formula)
         return self
 
     def branch(self, formula: Formula = True, variables: Context | None = None) -> State:
