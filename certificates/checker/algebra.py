@@ -28,6 +28,7 @@ T = TypeVar("T")
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
 Licence = tuple["Poly", bool]  # a polynomial other than 0, and whether it is > 0
+Key = frozenset[tuple[int, int]]  # of a licence: its primitive polynomial
 Under = dict[Licence, int]  # {licence: exponent}
 Monomial = tuple[int, int, int, int]  # packed exponents, upper and lower part of a factor, degree
 
@@ -196,12 +197,10 @@ class Work:
         if self.left < 0:
             raise Rejected(Kind.WORK)
 
-    def once(
-        self, key: object, make: Callable[[], T], fits: Callable[[T], bool] = lambda found: True
-    ) -> T:
-        """What `make` returns, which depends on the key alone, and on what `fits` asks for.  To
-        find it again is counted as to make it: so a check may do as much, whatever was checked
-        before it.
+    def once(self, key: object, make: Callable[[], T], fits: Callable[[T], object] = id) -> T:
+        """What `make` returns, which depends on the key alone, or on what `fits` asks for as well:
+        anything has an id.  To find it again is counted as to make it: so a check may do as much,
+        whatever was checked before it.
 
         A key holds trees and polynomials, each equal to itself alone: nothing else can take its
         place while it is kept.  Within a check nothing is dropped: so what is kept, and what it was
@@ -352,8 +351,7 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
         work.spend(8 + len(few) * len(many) * (work.dear + (size * size >> 16)))
         if size > MAX_BITS:
             raise Rejected(Kind.SIZE, f"{size} bits")
-        deg = max(deg, p.deg + q.deg)
-        bits = max(bits, size)
+        deg, bits = max(deg, p.deg + q.deg), max(bits, size)
         for m, c in few.items():
             c *= scale
             if terms:
@@ -412,10 +410,8 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
-def licence_of(poly: Poly, positive: bool) -> tuple[frozenset[tuple[int, int]], Licence]:
-    """The licence of a strict line: the primitive polynomial as a key, and the licence, which is
-    one thing for all lines that say the same.
-    """
+def licence_of(poly: Poly, positive: bool) -> tuple[Key, Licence]:
+    """The key and the licence of a strict line, one thing for all lines that say the same."""
     content, poly = poly.primitive()
     work = poly.work
     work.spend(len(poly.terms) * work.dear)

@@ -24,6 +24,7 @@ from .algebra import (
     MAX_VARIABLES,
     ONE,
     Formula,
+    Key,
     Kind,
     Licence,
     Monomial,
@@ -44,20 +45,8 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import (
-    WORDS,
-    Definitions,
-    exponent,
-    names_of,
-    parse,
-    rows,
-    summands,
-    written,
-    written_line,
-)
+from .text import WORDS, Definitions, exponent, names_of, parse, row_text, rows, summands, written
 
-Key = frozenset[tuple[int, int]]  # of a licence: its primitive polynomial
-Licences = dict[Key, Licence]
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
@@ -90,7 +79,7 @@ class Context:
         self.work: Work = outer.work if outer else work or Work()
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
-        self.licensed: Licences = dict(outer.licensed) if outer else {}
+        self.licensed: dict[Key, Licence] = dict(outer.licensed) if outer else {}
         self.asked: dict[Key, Licence | None] = {}
         if values is None:
             values = outer.values if outer else {}
@@ -140,8 +129,7 @@ class Context:
         """
         value = self.value(node)
         require(value.terms, Kind.ZERO_DIVISION, lambda: ast.unparse(node))
-        constant = value.constant()
-        if constant:
+        if constant := value.constant():
             return self.number(1 / constant)
         content, poly = value.primitive()
         key = frozenset(poly.terms.items())
@@ -242,18 +230,14 @@ class Context:
         """
         names = self.work.once(node, partial(names_of, node))
         self.work.spend(len(names))
+        self.asked = {}
 
-        def make() -> tuple[T, dict[Key, Licence | None]]:
-            self.asked = {}
-            return read(self, node), self.asked
+        # compared up to the first that differs, which `make` would come to as well
+        def fits(found: tuple[T, dict[Key, Licence | None]]) -> bool:
+            return all(self.licensed.get(key) is one for key, one in found[1].items())
 
-        # the answers are compared up to the first that differs, and `make` asks for as many again
-        value, _ = self.work.once(
-            (read, node, *map(self.values.get, names)),
-            make,
-            lambda found: all(self.licensed.get(key) is one for key, one in found[1].items()),
-        )
-        return value
+        key = (read, node, *map(self.values.get, names))
+        return self.work.once(key, lambda: (read(self, node), {**self.asked}), fits)[0]
 
     def monomials(self, text: str) -> list[Monomial]:
         """The monomials of a text that `summands` reads, as `product` reads them; none where a name
@@ -488,7 +472,7 @@ class Statement:
         said = LINES[keyword](text, lambda part: definitions.read(part, self.declared))
         out = text
         if keyword in ("let", "root", "domain", "have") and definitions.occur_in(text):
-            out = written_line(keyword, said)
+            out = row_text(keyword, said)
         self.lines.append((keyword, said))
         self.texts.append(text)
         self.plain.append(out)

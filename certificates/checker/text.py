@@ -68,7 +68,7 @@ def written(node: ast.AST) -> str:
     return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
-def written_line(keyword: str, said: Any) -> str:
+def row_text(keyword: str, said: Any) -> str:
     """The text of a line `let`, `root`, `domain` or `have`."""
     if keyword in ("domain", "have"):
         return written(said)
