@@ -32,12 +32,14 @@ from .algebra import (
     Poly,
     Rational,
     Rejected,
+    Under,
     Work,
     bits_of,
     conjuncts,
     fold,
     join,
     licence_of,
+    merged,
     negate,
     number,
     require,
@@ -182,6 +184,7 @@ class Context:
         """The value of a chain of * and /: of numbers and variables at once, then of the rest."""
         upper = lower = 1
         monomial = degree = 0
+        under: Under = {}
         others: list[Poly] = []
         factors, count = [node], 0
         while factors:
@@ -195,9 +198,12 @@ class Context:
                 value = self.reciprocal(node.right)
             else:
                 value = self.value(node)
-            if value.under or len(value.terms) != 1:
+            if len(value.terms) != 1:
                 others.append(value)
                 continue
+            if value.under:
+                self.work.spend(len(under) + len(value.under))
+                under = merged(sum, under, value.under)
             ((m, c),) = value.terms.items()
             monomial += m
             degree += value.deg
@@ -209,8 +215,9 @@ class Context:
                 self.work.spend(size * size >> 16)
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
-        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
-        return prod(others, start=first)
+        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work, under)
+        alone = others and (monomial, upper, lower, under) == (0, 1, 1, {})
+        return prod(others[1:], start=others[0]) if alone else prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
@@ -273,11 +280,8 @@ class Context:
             relation = relation.replace("<", ">")
         value = left - right
         # over an odd power of what may be negative, the numerator has not the sign of the quotient
-        signless = [
-            poly
-            for (poly, positive), exponent in value.under.items()
-            if exponent % 2 and not positive and ">" in relation
-        ]
+        under = value.under.items() if ">" in relation else ()
+        signless = [poly for (poly, positive), e in under if e % 2 and not positive]
         return fold(prod(signless, start=value.over({})), relation)
 
     def formula(self, node: ast.expr) -> Formula:
@@ -543,12 +547,8 @@ class Unfolding:
         self.universal: list[str] = []
         self.given = set(context.values)
         self.integers = {name for line in statement.get("integer") for name in line}
-        quantified = {
-            name
-            for keyword in ("forall", "exists")
-            for line in statement.get(keyword)
-            for name in line
-        }
+        bound = statement.get("forall") + statement.get("exists")
+        quantified = {name for line in bound for name in line}
         # a value for anything else would put a number in place of what a line defines
         valued = self.given <= quantified | {said[0] for said in statement.get("root")}
         require(self.integers <= quantified and valued, Kind.NO_VARIABLE, statement.name)
