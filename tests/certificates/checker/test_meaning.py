@@ -443,6 +443,40 @@ def test_the_names_of_a_tree_are_found_holds(text: str, expected: list[str]) -> 
     assert names_of(checker.parse(text)) == expected
 
 
+@pytest.mark.parametrize(
+    "text, terms, den, under",
+    [
+        ("1*1", {0: 1}, 1, []),
+        ("x*(x + y)", {2: 1, 1 + (1 << 16): 1}, 1, []),
+        ("(x + y)*(x - y)*3", {2: 3, 2 << 16: -3}, 1, []),
+        ("(x + y)/2", {1: 1, 1 << 16: 1}, 2, []),
+        ("(x + y)/y", {1: 1, 1 << 16: 1}, 1, [1]),
+        ("2*x/y/y*x/3", {2: 2}, 3, [2]),
+        ("1/y*(x/y)*(x + 1)", {2: 1, 1: 1}, 1, [2]),
+    ],
+)
+def test_a_product_has_its_numerator_and_what_it_is_over_holds(
+    text: str, terms: dict[int, int], den: int, under: list[int]
+) -> None:
+    value = licensed_by(of_x_and_y(), "y != 0").value(checker.parse(text))
+    assert (value.terms, value.den, [*value.under.values()]) == (terms, den, under)
+
+
+def test_a_sum_takes_nothing_from_its_summands_holds() -> None:
+    context = of_x_and_y()
+    assert context.value(checker.parse("x + y")).terms == {1: 1, 1 << 16: 1}
+    assert context.values["x"].terms == {1: 1} and context.values["y"].terms == {1 << 16: 1}
+
+
+def test_a_branch_has_the_variables_of_its_context_under_their_keys_holds() -> None:
+    state = State(of_x_and_y())
+    assert state.branch().context.values == state.context.values
+    inner = Context(state.context)
+    inner.define("half", inner.value(checker.parse("x/2")))
+    inner.declare("z")
+    assert state.branch(variables=inner).context.values.keys() == {"x", "y", "z"}
+
+
 def test_monomials_are_limited_by_their_degree_and_counted_by_their_letters() -> None:
     context = of_x_and_y()
     assert context.monomials("x^4000*y") == [(4000 + (1 << 16), 1, 1, 4001)]
