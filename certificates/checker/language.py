@@ -314,8 +314,7 @@ class Context:
         for m in sorted(poly.terms, reverse=True):
             factors = [str(Fraction(poly.terms[m], poly.den))]
             for name, place in self.index.items():
-                exponent = m >> (BITS * place) & MASK
-                if exponent:
+                if exponent := m >> (BITS * place) & MASK:
                     factors.append(name if exponent == 1 else f"{name}^{exponent}")
             parts.append("*".join(factors))
         return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
@@ -480,10 +479,9 @@ class Statement:
         self.lines.append((keyword, said))
         self.texts.append(text)
         self.plain.append(out)
+        bound: Said = [said[0]] if keyword in ("let", "root", "number") else []
         if keyword in ("forall", "over", "state", "input", "exists"):
             bound = said
-        else:
-            bound = [said[0]] if keyword in ("let", "root", "number") else []
         for name in [*bound, *OWN.get(keyword, [])]:
             definitions.bind(name)
         if keyword in ("map", "relation") and text in statements:
@@ -567,9 +565,8 @@ class Unfolding:
         elif keyword == "given" or keyword == "range" and sharp is None:
             self.assume(said, self.premises)
         elif keyword == "have":
-            self.obligations.append(
-                (len(self.premises), negate(context.once(Context.formula, said)))
-            )
+            missing = negate(context.once(Context.formula, said))
+            self.obligations.append((len(self.premises), missing))
             self.assume(said, self.premises)
         elif keyword == "let":
             name, term = said
@@ -580,8 +577,7 @@ class Unfolding:
             self.obligations.append((len(self.premises), context.atom(value, "<", zero)))
             self.variable(name, True)
             own = context.values[name]
-            self.premises.append(context.atom(own, ">=", zero))
-            self.premises.append(context.atom(own * own, "=", value))
+            self.premises += [context.atom(own, ">=", zero), context.atom(own * own, "=", value)]
         elif keyword == "with" or keyword == "show" and shown:
             self.assume(said, self.goals)
 
