@@ -28,6 +28,7 @@ T = TypeVar("T")
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
 Licence = tuple["Poly", bool]  # a polynomial other than 0, and whether it is > 0
+Key = frozenset[tuple[int, int]]  # of a licence: its primitive polynomial
 Under = dict[Licence, int]  # {licence: exponent}
 Monomial = tuple[int, int, int, int]  # packed exponents, upper and lower part of a factor, degree
 
@@ -196,9 +197,10 @@ class Work:
         if self.left < 0:
             raise Rejected(Kind.WORK)
 
-    def once(self, key: object, make: Callable[[], T]) -> T:
-        """What `make` returns, which depends on the key alone.  To find it again is counted as to
-        make it: so a check may do as much, whatever was checked before it.
+    def once(self, key: object, make: Callable[[], T], fits: Callable[[T], object] = id) -> T:
+        """What `make` returns, which depends on the key alone, or on what `fits` asks for as well:
+        anything has an id.  To find it again is counted as to make it: so a check may do as much,
+        whatever was checked before it.
 
         A key holds trees and polynomials, each equal to itself alone: nothing else can take its
         place while it is kept.  Within a check nothing is dropped: so what is kept, and what it was
@@ -207,8 +209,9 @@ class Work:
         if key in self.kept:
             found: T
             found, cost = self.kept[key]
-            self.spend(cost)
-            return found
+            if fits(found):
+                self.spend(cost)
+                return found
         before = self.left
         value = make()
         if self.room > 0:
@@ -338,23 +341,27 @@ def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work)
     terms: Terms = {}
     deg = bits = 0
     for factor, p, q in products:
-        scale = den // (factor.denominator * p.den * q.den) * factor.numerator
+        scale = factor.numerator
+        if den != 1:
+            scale *= den // (factor.denominator * p.den * q.den)
         few, many = p.terms, q.terms
         if len(many) < len(few):
             few, many = many, few
         size = bits_of(scale) + p.bits + q.bits
         work.spend(8 + len(few) * len(many) * (work.dear + (size * size >> 16)))
-        require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
-        deg = max(deg, p.deg + q.deg)
-        bits = max(bits, size)
+        if size > MAX_BITS:
+            raise Rejected(Kind.SIZE, f"{size} bits")
+        deg, bits = max(deg, p.deg + q.deg), max(bits, size)
         for m, c in few.items():
             c *= scale
             if terms:
                 for n, d in many.items():
                     n += m
                     terms[n] = terms.get(n, 0) + c * d
-            else:
+            elif m or c != 1:
                 terms = {m + n: c * d for n, d in many.items()}
+            else:
+                terms = many.copy()
             if len(terms) > MAX_TERMS:
                 raise Rejected(Kind.SIZE, "too many terms")
     if 0 in terms.values():
@@ -403,11 +410,14 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
-def licence_of(poly: Poly, positive: bool) -> tuple[frozenset[tuple[int, int]], Licence]:
-    """The licence of a strict line: the primitive polynomial as a key, and the licence."""
+def licence_of(poly: Poly, positive: bool) -> tuple[Key, Licence]:
+    """The key and the licence of a strict line, one thing for all lines that say the same."""
     content, poly = poly.primitive()
-    poly.work.spend(len(poly.terms) * poly.work.dear)
-    return frozenset(poly.terms.items()), (poly if content > 0 else -poly, positive)
+    work = poly.work
+    work.spend(len(poly.terms) * work.dear)
+    key = frozenset(poly.terms.items())
+    licence = poly if content > 0 else -poly, positive
+    return key, work.once((key, content > 0, positive, poly.deg, poly.bits), lambda: licence)
 
 
 def number(value: Rational, work: Work) -> Poly:

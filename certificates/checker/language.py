@@ -24,6 +24,7 @@ from .algebra import (
     MAX_VARIABLES,
     ONE,
     Formula,
+    Key,
     Kind,
     Licence,
     Monomial,
@@ -31,12 +32,14 @@ from .algebra import (
     Poly,
     Rational,
     Rejected,
+    Under,
     Work,
     bits_of,
     conjuncts,
     fold,
     join,
     licence_of,
+    merged,
     negate,
     number,
     require,
@@ -44,19 +47,8 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .text import (
-    WORDS,
-    Definitions,
-    exponent,
-    names_of,
-    parse,
-    rows,
-    summands,
-    written,
-    written_line,
-)
+from .text import WORDS, Definitions, exponent, names_of, parse, row_text, rows, summands, written
 
-Licences = dict[frozenset[tuple[int, int]], Licence]  # by the primitive polynomial
 Range = Sequence[ast.expr]  # the domain of a sharp range, and its condition
 Reader = Callable[[str], ast.expr]
 Known = Mapping[str, "Statement"]
@@ -76,8 +68,8 @@ class Context:
     strict line made nonzero.
 
     index: {key: number of the variable}; integers: the keys of integer variables; values: {name:
-    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; work: the meter of
-    the check, which an inner context shares.
+    polynomial, or quotient of such}; licensed: {key of a polynomial: licence}; asked: what was
+    found in it, see `once`; work: the meter of the check, which an inner context shares.
     """
 
     def __init__(
@@ -89,7 +81,8 @@ class Context:
         self.work: Work = outer.work if outer else work or Work()
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
-        self.licensed: Licences = dict(outer.licensed) if outer else {}
+        self.licensed: dict[Key, Licence] = dict(outer.licensed) if outer else {}
+        self.asked: dict[Key, Licence | None] = {}
         if values is None:
             values = outer.values if outer else {}
         self.work.spend(len(self.index) + len(self.licensed) + len(values))  # else copies are free
@@ -138,12 +131,16 @@ class Context:
         """
         value = self.value(node)
         require(value.terms, Kind.ZERO_DIVISION, lambda: ast.unparse(node))
+        if constant := value.constant():
+            return self.number(1 / constant)
         content, poly = value.primitive()
-        licence = self.licensed.get(frozenset(poly.terms.items()))
+        key = frozenset(poly.terms.items())
+        licence = self.asked[key] = self.licensed.get(key)
         if licence or poly.constant():
             sign = -1 if licence and licence[0].terms != poly.terms else 1
             upper = self.number(Fraction(sign * value.den, content))
-            upper = self.number(1).numerator(value.under) * upper
+            if value.under:
+                upper *= self.number(1).numerator(value.under)
             return upper.over({licence: 1} if licence else {})
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
             return self.reciprocal(node.left) * self.reciprocal(node.right)
@@ -187,6 +184,7 @@ class Context:
         """The value of a chain of * and /: of numbers and variables at once, then of the rest."""
         upper = lower = 1
         monomial = degree = 0
+        under: Under = {}
         others: list[Poly] = []
         factors, count = [node], 0
         while factors:
@@ -200,9 +198,12 @@ class Context:
                 value = self.reciprocal(node.right)
             else:
                 value = self.value(node)
-            if value.under or len(value.terms) != 1:
+            if len(value.terms) != 1:
                 others.append(value)
                 continue
+            if value.under:
+                self.work.spend(len(under) + len(value.under))
+                under = merged(sum, under, value.under)
             ((m, c),) = value.terms.items()
             monomial += m
             degree += value.deg
@@ -214,8 +215,9 @@ class Context:
                 self.work.spend(size * size >> 16)
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         self.work.spend(PER_FACTOR * count)  # a statement is unfolded as often as it is used
-        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
-        return prod(others, start=first)
+        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work, under)
+        alone = others and (monomial, upper, lower, under) == (0, 1, 1, {})
+        return prod(others[1:], start=others[0]) if alone else prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""
@@ -230,31 +232,41 @@ class Context:
         return value
 
     def once(self, read: Callable[[Context, ast.expr], T], node: ast.expr) -> T:
-        """What a tree says here.  That depends on the values of its names and, where it divides, on
-        what is licensed.
+        """What a tree says here.  That depends on the values of its names and on what the licences
+        say to each division in it, in turn.
         """
-        names, divides = self.work.once(node, partial(names_of, node))
-        licences = self.licensed.values() if divides else ()
-        self.work.spend(len(names) + len(licences))
-        key = (read, node, *map(self.values.get, names), *licences)
-        return self.work.once(key, partial(read, self, node))
+        names = self.work.once(node, partial(names_of, node))
+        self.work.spend(len(names))
+        self.asked = {}
+
+        # compared up to the first that differs, which `make` would come to as well
+        def fits(found: tuple[T, dict[Key, Licence | None]]) -> bool:
+            return all(self.licensed.get(key) is one for key, one in found[1].items())
+
+        key = (read, node, *map(self.values.get, names))
+        return self.work.once(key, lambda: (read(self, node), {**self.asked}), fits)[0]
 
     def monomials(self, text: str) -> list[Monomial]:
         """The monomials of a text that `summands` reads, as `product` reads them; none where a name
         is no variable: such a text is left to `value`.
         """
         monomials: list[Monomial] = []
+        read: dict[str, tuple[int, int]] = {}  # of each power, its monomial and degree
         for upper, lower, powers in summands(text):
             m = degree = 0
-            for name, power in powers:
-                value = self.values.get(name)
-                if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
-                    return []
-                (one,) = value.terms
-                if power * value.deg > MAX_DEGREE:
-                    return []
-                m += one * power
-                degree += value.deg * power
+            for power in powers:
+                if power not in read:
+                    name, _, e = power.partition("^")
+                    value = self.values.get(name)
+                    if not value or value.den != 1 or value.under or [*value.terms.values()] != [1]:
+                        return []
+                    (one,) = value.terms
+                    read[power] = one * int(e or 1), value.deg * int(e or 1)
+                    if read[power][1] > MAX_DEGREE:
+                        return []
+                more, count = read[power]
+                m += more
+                degree += count
             monomials.append((m, upper, lower, degree))
         self.work.spend(PER_FACTOR * len(text))
         return monomials
@@ -268,11 +280,8 @@ class Context:
             relation = relation.replace("<", ">")
         value = left - right
         # over an odd power of what may be negative, the numerator has not the sign of the quotient
-        signless = [
-            poly
-            for (poly, positive), exponent in value.under.items()
-            if exponent % 2 and not positive and ">" in relation
-        ]
+        under = value.under.items() if ">" in relation else ()
+        signless = [poly for (poly, positive), e in under if e % 2 and not positive]
         return fold(prod(signless, start=value.over({})), relation)
 
     def formula(self, node: ast.expr) -> Formula:
@@ -305,8 +314,7 @@ class Context:
         for m in sorted(poly.terms, reverse=True):
             factors = [str(Fraction(poly.terms[m], poly.den))]
             for name, place in self.index.items():
-                exponent = m >> (BITS * place) & MASK
-                if exponent:
+                if exponent := m >> (BITS * place) & MASK:
                     factors.append(name if exponent == 1 else f"{name}^{exponent}")
             parts.append("*".join(factors))
         return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
@@ -467,14 +475,13 @@ class Statement:
         said = LINES[keyword](text, lambda part: definitions.read(part, self.declared))
         out = text
         if keyword in ("let", "root", "domain", "have") and definitions.occur_in(text):
-            out = written_line(keyword, said)
+            out = row_text(keyword, said)
         self.lines.append((keyword, said))
         self.texts.append(text)
         self.plain.append(out)
+        bound: Said = [said[0]] if keyword in ("let", "root", "number") else []
         if keyword in ("forall", "over", "state", "input", "exists"):
             bound = said
-        else:
-            bound = [said[0]] if keyword in ("let", "root", "number") else []
         for name in [*bound, *OWN.get(keyword, [])]:
             definitions.bind(name)
         if keyword in ("map", "relation") and text in statements:
@@ -538,12 +545,8 @@ class Unfolding:
         self.universal: list[str] = []
         self.given = set(context.values)
         self.integers = {name for line in statement.get("integer") for name in line}
-        quantified = {
-            name
-            for keyword in ("forall", "exists")
-            for line in statement.get(keyword)
-            for name in line
-        }
+        bound = statement.get("forall") + statement.get("exists")
+        quantified = {name for line in bound for name in line}
         # a value for anything else would put a number in place of what a line defines
         valued = self.given <= quantified | {said[0] for said in statement.get("root")}
         require(self.integers <= quantified and valued, Kind.NO_VARIABLE, statement.name)
@@ -562,9 +565,8 @@ class Unfolding:
         elif keyword == "given" or keyword == "range" and sharp is None:
             self.assume(said, self.premises)
         elif keyword == "have":
-            self.obligations.append(
-                (len(self.premises), negate(context.once(Context.formula, said)))
-            )
+            missing = negate(context.once(Context.formula, said))
+            self.obligations.append((len(self.premises), missing))
             self.assume(said, self.premises)
         elif keyword == "let":
             name, term = said
@@ -575,8 +577,7 @@ class Unfolding:
             self.obligations.append((len(self.premises), context.atom(value, "<", zero)))
             self.variable(name, True)
             own = context.values[name]
-            self.premises.append(context.atom(own, ">=", zero))
-            self.premises.append(context.atom(own * own, "=", value))
+            self.premises += [context.atom(own, ">=", zero), context.atom(own * own, "=", value)]
         elif keyword == "with" or keyword == "show" and shown:
             self.assume(said, self.goals)
 

@@ -38,15 +38,7 @@ from .algebra import (
     sum_of_products,
     variable,
 )
-from .language import (
-    Context,
-    Known,
-    Range,
-    Statement,
-    Unfolding,
-    univariate,
-    variables_of,
-)
+from .language import Context, Known, Range, Statement, Unfolding, univariate, variables_of
 from .text import parse, rational
 
 Hint = Any  # of a certificate, which anyone may have written: what does not fit is refused
@@ -63,8 +55,10 @@ class State:
     """
 
     def __init__(self, variables: Context, parent: State | None = None) -> None:
-        values = {key: variable(place, variables.work) for key, place in variables.index.items()}
-        self.context = Context(variables, values)
+        values = variables.values
+        if not parent or variables is not parent.context:  # where each key stands for its variable
+            values = {key: variable(at, variables.work) for key, at in variables.index.items()}
+        self.context: Context = Context(variables, values)
         self.context.licensed = dict(parent.context.licensed) if parent else {}
         self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
         self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
@@ -79,9 +73,9 @@ class State:
                 self.closed = self.closed or not part
             elif part[0] == "atom":
                 self.facts.append((part[1], part[2]))
-                self.context.license(part)
             else:
                 self.choices.append(part[1])
+        self.context.license(formula)
         return self
 
     def branch(self, formula: Formula = True, variables: Context | None = None) -> State:
@@ -389,7 +383,7 @@ def find(
     for entry in adjoined:
         adjoin(state, known, *entry)
     # `base` comes last: a certificate has no say in what is given to it
-    values = {key: state.context.value(parse(text)) for key, text in terms.items()}
+    values = {key: state.context.once(Context.value, parse(t)) for key, t in terms.items()}
     inner = Context(state.context, {**values, **base})
     unfolding = Unfolding(statement, inner, sharp, purpose != "point")
     needed = unfolding.variables if purpose == "witness" else unfolding.universal

@@ -39,6 +39,7 @@ PRODUCT = r"(?:(?:0|[1-9]\d{0,60})(?:/[1-9]\d{0,60})?|NAME)(?:\*NAME)*"
 FLAT = re.compile(
     f"-?{PRODUCT}(?: [+-] {PRODUCT})*".replace("NAME", r"[A-Za-z]\w*(?:\^[1-9]\d{0,3})?"), re.ASCII
 )
+NUMBER = re.compile(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", re.ASCII)
 
 
 def parse(text: object) -> ast.expr:
@@ -67,7 +68,7 @@ def written(node: ast.AST) -> str:
     return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
-def written_line(keyword: str, said: Any) -> str:
+def row_text(keyword: str, said: Any) -> str:
     """The text of a line `let`, `root`, `domain` or `have`."""
     if keyword in ("domain", "have"):
         return written(said)
@@ -80,21 +81,19 @@ def names_in(*texts: str) -> set[str]:
     return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - WORDS
 
 
-def names_of(node: ast.expr) -> tuple[list[str], bool]:
-    """The names in a tree, sorted, and whether it divides."""
+def names_of(node: ast.expr) -> list[str]:
+    """The names in a tree, sorted."""
     names: set[str] = set()
-    divides = False
     nodes: list[ast.AST] = [node]
     while nodes:
         part = nodes.pop()
         if isinstance(part, ast.Name):
             names.add(part.id)
         elif isinstance(part, ast.BinOp):
-            divides = divides or isinstance(part.op, ast.Div)
             nodes += [part.left, part.right]
-        else:
+        elif not isinstance(part, ast.Constant):
             nodes += ast.iter_child_nodes(part)
-    return sorted(names), divides
+    return sorted(names)
 
 
 def exponent(node: ast.BinOp) -> int:
@@ -104,22 +103,18 @@ def exponent(node: ast.BinOp) -> int:
     raise Rejected(Kind.TERM, ast.unparse(node))
 
 
-def summands(text: str) -> list[tuple[int, int, list[tuple[str, int]]]]:
-    """Of a text like 3/4*x^2*y - x + 1, (upper, lower part of its number, powers) of each summand,
-    as `parse` reads it, without a tree; none for any other text.
+def summands(text: str) -> list[tuple[int, int, list[str]]]:
+    """Of a text like 3/4*x^2*y - x + 1, (upper, lower part of its number, powers of names) of each
+    summand, as `parse` reads it, without a tree; none for any other text.
     """
     found = []
     if len(text) <= MAX_TEXT and FLAT.fullmatch(text):
         for summand in text.replace(" - ", " + -").split(" + "):
-            unsigned = summand.removeprefix("-")
-            upper, lower, powers = "1", "1", []
-            for factor in unsigned.split("*"):
-                if factor[0].isdigit():  # the first alone, in such a text
-                    upper, _, lower = factor.partition("/")
-                else:
-                    name, _, power = factor.partition("^")
-                    powers.append((name, int(power or 1)))
-            whole = int(upper) if unsigned == summand else -int(upper)
+            first, *powers = summand.removeprefix("-").split("*")
+            if not first[0].isdigit():  # the first alone can be a number, in such a text
+                first, powers = "1", [first, *powers]
+            upper, _, lower = first.partition("/")
+            whole = -int(upper) if summand[0] == "-" else int(upper)
             found.append((whole, int(lower or 1), powers))
     return found
 
@@ -133,10 +128,10 @@ def rational(value: object) -> Rational:
     """An exact rational: an int, or the text p or p/q."""
     if type(value) is int:  # not isinstance: True is no number
         return value
-    pattern = r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?"
-    if not isinstance(value, str) or not re.fullmatch(pattern, value, re.ASCII):
+    if not isinstance(value, str) or not NUMBER.fullmatch(value):
         raise Rejected(Kind.RATIONAL, value)
-    return Fraction(value)
+    upper, _, lower = value.partition("/")
+    return Fraction(int(upper), int(lower)) if lower else int(upper)
 
 
 def rows(text: str) -> Iterator[tuple[int, str, str]]:
@@ -198,21 +193,23 @@ class Definitions:
         require(not unused, Kind.UNUSED, ", ".join(sorted(unused)))
         self.known[name] = parameters, set(over), out
 
-    def occur_in(self, text: str) -> bool:
-        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
+    def occur_in(self, text: str) -> set[str]:
+        """The definitions that a text names."""
+        return self.known.keys() & names_in(text) if self.known else set()
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a
         definition may be over.
         """
-        if self.occur_in(text):
-            return self.write_out(parse(text), {}, declared)
+        used = self.occur_in(text)
 
         def tree() -> ast.expr:
             self.work.room -= 5 * len(text)  # see MAX_TEXT
-            return parse(text)
+            return self.write_out(parse(text), {}, declared) if used else parse(text)
 
-        return self.work.once(text, tree)
+        # what a definition says never changes, and no name in it is that of a later one
+        key = (text, frozenset(used), frozenset(declared)) if used else text
+        return self.work.once(key, tree)
 
     def write_out(
         self, node: ast.expr, values: Mapping[str, ast.expr], declared: set[str]

@@ -156,15 +156,17 @@ def check_share(folder: Path, share: Set[str]) -> Share:
 
 
 def _read(folder: Path, check: Check = checker.check_one) -> Checked:
+    gc.disable()  # the checker makes no reference cycles
     try:
         return checker.check_folder(str(folder), check)
     except checker.Rejected:
         return []
+    finally:
+        gc.enable()
 
 
 def _send(folder: Path, share: Set[str], sender: Connection) -> None:
     as_child()
-    gc.disable()  # the checker makes no reference cycles, and the process ends with its share
     sender.send(check_share(folder, share))
 
 

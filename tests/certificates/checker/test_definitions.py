@@ -4,6 +4,7 @@ reading that takes them as functions of values.
 
 from __future__ import annotations
 
+import ast
 import re
 from fractions import Fraction
 
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected
+from juggleproof.certificates.checker.algebra import LEAST_KEPT
 from tests.certificates.checker.evaluator import formula_at, term_at
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused, refuted, verdict
 from tests.certificates.checker.maps import DOUBLE, NEST, PUSH, SUBTRACT, checked, edited, searched
@@ -266,3 +268,40 @@ def test_a_sharp_range_may_use_definitions() -> None:
     with pytest.raises(Rejected) as info:
         verdict(loose, certificates)
     assert refused(info.value, (Kind.OVER, "inside: x"))
+
+
+def test_a_line_is_written_out_anew_where_it_uses_more_definitions_holds() -> None:
+    definitions = checker.Definitions(checker.Work())
+
+    def read() -> str:
+        return ast.unparse(definitions.read("f(x) + g(x)", {"x"}))
+
+    assert read() == "f(x) + g(x)"
+    definitions.define("f(a) := a + 1")
+    assert read() == "x + 1 + g(x)"
+    definitions.define("g(b) := 2*b")
+    assert read() == "x + 1 + 2 * x"
+
+
+def test_rejects_a_line_read_before_where_its_definition_is_over_what_is_not_declared() -> None:
+    definitions = checker.Definitions(checker.Work())
+    definitions.define("h over r := r + 1")
+    tree = definitions.read("2*h", {"r"})
+    assert definitions.read("2*h", {"r"}) is tree
+    with pytest.raises(Rejected) as info:
+        definitions.read("2*h", {"s"})
+    assert refused(info.value, Kind.OVER)
+
+
+def test_a_line_that_is_written_out_again_is_counted_as_before() -> None:
+    work = checker.Work()
+    definitions = checker.Definitions(work)
+    definitions.define("f(a) := a + 1")
+    spent = []
+    for _ in range(2):
+        before, room = work.left, work.room
+        definitions.read("f(x) > 0", {"x"})
+        spent.append((before - work.left, room - work.room))
+    # nodes: the comparison, the call, x and 0; then the sum, x, which is copied, and 1
+    assert spent == [(40 * 8, 5 * 8 + 40 * 8 + LEAST_KEPT), (40 * 8, 0)]
+    assert definitions.read("x + 1", {"x"}) is definitions.read("x + 1", {"y"})

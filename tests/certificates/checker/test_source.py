@@ -68,10 +68,10 @@ def test_lines_of_code_are_counted_without_comments_and_docstrings() -> None:
     )
 
 
-def test_there_are_at_most_2034_lines_of_code_with_all_rules() -> None:
+def test_there_are_at_most_2024_lines_of_code_with_all_rules() -> None:
     """Counted at 100 columns, all files and all rules; 77 lines are the table of kinds."""
     assert set(FILES) == {*ORDER, "__init__", "__main__"}
-    assert sum(map(code_lines, FILES.values())) <= 2034
+    assert sum(map(code_lines, FILES.values())) <= 2024
 
 
 def test_only_the_standard_library_and_earlier_files_are_imported() -> None:

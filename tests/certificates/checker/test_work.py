@@ -384,12 +384,12 @@ def test_what_is_kept_takes_room_by_its_cost_and_a_text_by_its_letters() -> None
     assert one**3 is third and left - work.left == 2 * spent
 
 
-def test_what_is_read_once_is_counted_by_its_names_and_licences() -> None:
+def test_what_is_read_once_is_counted_by_its_names() -> None:
     context = checker.Context(work=Work(10**6))
     for name in ("x", "y"):
         context.declare(name)
     context.license(context.formula(checker.parse("x > 0")))
-    for text, names in (("x + y", 2), ("1/x", 2)):
+    for text, names in (("x + y", 2), ("1/x", 1)):
         tree = checker.parse(text)
         costs = []
         for way in (Context.once, Context.once, lambda one, _, node: one.value(node)):
@@ -397,6 +397,96 @@ def test_what_is_read_once_is_counted_by_its_names_and_licences() -> None:
             way(context, Context.value, tree)
             costs.append(before - context.work.left)
         assert costs[0] == costs[1] == costs[2] + names
+
+
+def licensed(outer: Context, *lines: str) -> Context:
+    """A context of its own, in which strict lines stand."""
+    inner = Context(outer)
+    for line in lines:
+        inner.license(inner.formula(checker.parse(line)))
+    return inner
+
+
+def of_x_and_y() -> Context:
+    context = Context(work=Work(10**6))
+    context.declare("x")
+    context.declare("y")
+    return context
+
+
+def test_a_quotient_is_read_again_where_its_divisor_has_another_licence_holds() -> None:
+    outer, tree = of_x_and_y(), checker.parse("y/x + 1/3")
+    positive = licensed(outer, "x > 0")
+    first = positive.once(Context.value, tree)
+    assert positive.once(Context.value, tree) is first
+    # a licence that no division asks for is nothing to it
+    assert licensed(outer, "y > 0", "x > 0").once(Context.value, tree) is first
+    other = licensed(outer, "x != 0").once(Context.value, tree)
+    assert [positive for (_, positive) in other.under] == [False]
+    assert [positive for (_, positive) in first.under] == [True]
+    with pytest.raises(Rejected) as info:
+        outer.once(Context.value, tree)
+    assert refused(info.value, Kind.DIVISION)
+
+
+def test_a_quotient_is_read_again_where_one_of_several_licences_is_another_holds() -> None:
+    outer, tree = of_x_and_y(), checker.parse("1/(x*y)")
+
+    def under(context: Context) -> list[tuple[dict[int, int], bool]]:
+        value = context.once(Context.value, tree)
+        assert value.under == context.value(tree).under
+        return [(poly.terms, positive) for poly, positive in value.under]
+
+    x, y = {1: 1}, {1 << 16: 1}
+    parts = licensed(outer, "x > 0", "y > 0")
+    assert under(parts) == [(x, True), (y, True)]
+    assert under(licensed(outer, "x > 0", "y != 0")) == [(x, True), (y, False)]
+    assert under(licensed(outer, "x != 0", "y != 0")) == [(x, False), (y, False)]
+    assert under(parts) == [(x, True), (y, True)]
+    assert under(licensed(parts, "x*y > 0")) == [({1 + (1 << 16): 1}, True)]
+
+
+def test_what_is_read_beside_changes_nothing_of_what_is_kept_holds() -> None:
+    outer, tree = of_x_and_y(), checker.parse("1/(x*y)")
+    parts = licensed(outer, "x > 0", "y > 0")
+    parts.once(Context.value, tree)
+    parts.license(parts.formula(checker.parse("x*y > 0")))
+    whole = parts.value(tree)  # asks for the same divisor, and finds more
+    assert parts.once(Context.value, tree).under == whole.under and len(whole.under) == 1
+
+
+def test_lines_that_say_the_same_give_one_licence_holds() -> None:
+    outer = of_x_and_y()
+
+    def licence(line: str) -> object:
+        (one,) = licensed(outer, line).licensed.values()
+        return one
+
+    first = licence("x - y > 0")
+    assert licence("y < x") is first
+    for line in ("x - y != 0", "y - x > 0", "y != x"):
+        assert licence(line) is not first
+    assert licence("y - x > 0") is licence("x < y") is not licence("x - y > 0")
+    long, high = licence("x - y + 2^100 - 2^100 > 0"), licence("x - y^3 + y^3 - y > 0")
+    assert len({id(one) for one in (first, long, high, licence("x - y^2 + y^2 - y > 0"))}) == 4
+
+
+def test_products_and_quotients_are_counted_holds() -> None:
+    context = licensed(of_x_and_y(), "x > 0")
+    costs = {
+        "x*y": 4 * 3,
+        "2*(x + y)": 4 * 3 + 18 + 10,
+        "(x + y)*(x - y)": 4 * 3 + 18 + 18 + 12,  # no product with the number 1
+        "y/2": 4 * 2,
+        "y/x": 4 * 2 + 1 + 1,  # the divisor is looked up, and the licence joined to what is below
+        "y/x/x": 4 * 3 + 2 + 1 + 2,
+        "y/x*y": 4 * 4 + 1 + 1,
+        "1/(1/x)": 4 * 2 + (4 * 2 + 1 + 1) + 1 + 9 + 9,
+    }
+    for text, cost in costs.items():
+        tree, before = checker.parse(text), context.work.left
+        context.value(tree)
+        assert before - context.work.left == cost
 
 
 def test_the_room_for_what_is_kept_has_its_ends_holds() -> None:
