@@ -50,7 +50,13 @@ print(code, *{name.partition(".")[0] for name in sys.modules})
 """
 
 
-@pytest.mark.parametrize("command", NEEDS)
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(one, marks=[pytest.mark.exhaust] * ("-o" in one or "--sweep" in one))
+        for one in NEEDS
+    ],
+)
 def test_a_scene_loads_nothing_that_it_does_not_need_holds(command: str, tmp_path: Path) -> None:
     needed = NEEDS[command]
     for library in needed:

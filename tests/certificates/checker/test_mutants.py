@@ -13,7 +13,7 @@ from pathlib import Path
 from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all
 from tests.share import share
 
-SHARE = share(700, 100)  # of this number of mutants one is tried
+SHARE = share(1500, 100)  # of this number of mutants one is tried
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "adding-a-rule.md"
 KEYS = [one.key for one in MUTANTS]
 
