@@ -90,6 +90,7 @@ def test_rejects_a_loss_that_is_too_large() -> None:
     assert "no proof of the premise falls" in proof.fault
 
 
+@pytest.mark.exhaust
 def test_a_point_whose_coordinates_are_quotients_of_each_other_is_stable_holds() -> None:
     leslie = planar("2*y/(1 + y), s*x", "s", "1/2 < s and s < 1")
     assert search_stability(leslie).finding.sentence.endswith("is stable and attracts every state")
