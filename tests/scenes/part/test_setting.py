@@ -169,6 +169,7 @@ def loaded_by(code: str) -> set[str]:
     return set(shown.stdout.split())
 
 
+@pytest.mark.exhaust
 def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds() -> None:
     loaded = loaded_by(  # none of them, so none of them alone
         "from juggleproof.scenes import juggler; juggler.orbit, juggler.scene\n"
@@ -196,6 +197,7 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     assert "numba" in loaded_by("from juggleproof.scenes.part import scene")
 
 
+@pytest.mark.exhaust
 @each_row(
     "first",
     [
