@@ -155,6 +155,7 @@ def test_false_claim_of_ones_own_fails_and_is_in_the_summary_holds(runner: Runne
     assert runner.run("Result", STATUS=runner.outputs()["exit"]).returncode == 1
 
 
+@pytest.mark.exhaust
 def test_true_claim_of_ones_own_passes_holds(runner: Runner) -> None:
     runner.installed()
     file_with(runner.work, HOLDS)

@@ -35,6 +35,7 @@ VARIABLES = {
 LONG = (  # commands that take over a CPU second
     "python -m juggleproof.benchmarks.",
     "python -m tests.certificates.checker.fuzz",
+    "pytest --juggleproof mine.py",
     "juggleproof explain restitution-unequal --premises",
     "juggleproof explain theorem --bounds",
     "juggleproof certify saturated.py",

@@ -105,6 +105,7 @@ def test_file_is_well_formed_and_small_holds(slug: str) -> None:
     assert pdf(slug).startswith(b"%PDF-")
 
 
+@pytest.mark.exhaust
 @each_row("slug", SLUGS)
 def test_same_bytes_again_holds(slug: str) -> None:
     again = drawing.svg(figure(slug), slug).decode("utf-8"), drawing.pdf(figure(slug))

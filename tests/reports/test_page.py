@@ -22,8 +22,8 @@ from juggleproof.reports.latex import glyph
 from juggleproof.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
 from tests.certificates.checker.test_returns import LOOP
-from tests.reports.browser import Element, NotNested, parts_of, read_html, read_whole
 from tests.reports import runs
+from tests.reports.browser import Element, NotNested, parts_of, read_html, read_whole
 from tests.share import MANY, share
 
 ROOT = Path(__file__).resolve().parents[2]

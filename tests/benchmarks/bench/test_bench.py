@@ -270,6 +270,7 @@ def test_coq_is_asked_for_the_excess_on_the_box() -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_a_method_that_gives_up_is_ended_and_shown() -> None:
     began = time.monotonic()
     found = measure(

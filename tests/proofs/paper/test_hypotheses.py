@@ -1,9 +1,9 @@
 """Every hypothesis of every certified statement is needed, or its presence is explained.
 
 What is marked searches the statements of a fixed sample of claims; with JUGGLEPROOF_MUTANTS=many
-(make exhaust) all of them, and writes the table to build/hypotheses.txt. What is expected, the counts
-and the names of what is undecided, `python -m tests.proofs.paper.hypothesis_table` brings up to
-date.
+(make exhaust) all of them, and writes the table to build/hypotheses.txt. What is expected, the
+counts and the names of what is undecided, `python -m tests.proofs.paper.hypothesis_table` brings up
+to date.
 """
 
 from __future__ import annotations

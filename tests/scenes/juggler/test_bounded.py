@@ -78,7 +78,6 @@ def test_bound_fails_without_the_rounding_term() -> None:
     assert 3 * Fraction(float(tenth.e)) < off <= Fraction(float(total.e))
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     alpha=st.fractions(Fraction(1, 99), Fraction(98, 99), max_denominator=99),
     exponents=st.lists(st.integers(0, 400), min_size=1, max_size=4),

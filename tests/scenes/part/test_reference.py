@@ -159,6 +159,7 @@ def test_mirrored_start_gives_the_mirrored_orbit_holds(which: int) -> None:
     ]
 
 
+@pytest.mark.exhaust
 @each_row("which", range(len(STARTS)))
 def test_more_digits_give_the_same_orbit_holds(which: int) -> None:
     (_, _, coarse), (_, _, fine) = followed(which), followed(which, 70)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.command import sine
@@ -32,7 +32,6 @@ def heights(table: Table, start: float, velocity: float, times: np.ndarray) -> n
     return np.asarray(ball - table.derivative(start + times, 0))
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.floats(0, 0.9), st.floats(0.2, 6), st.floats(0, 1), st.floats(0.001, 2), st.booleans())
 def test_a_flight_ends_at_the_first_zero_of_the_height(
     alpha: float, gamma: float, start: float, above: float, second: bool
