@@ -130,6 +130,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("written")
     done = running.run("stability", str(map_file(folder, "tent")), "-o", str(folder))
     assert done.returncode == 0
+    assert check(folder / "tent.certificates") == 0
     return folder / "tent.certificates"
 
 
@@ -158,8 +159,6 @@ def test_rejects_a_written_folder_that_is_changed(
         text = (store / name).read_text()
         assert name != file or before in text
         (tmp_path / name).write_text(text.replace(before, after) if name == file else text)
-    assert check(store) == 0
-    assert capsys.readouterr().out.endswith(" 0 refuted, 0 unknown, 0 rejected\n")
     assert check(tmp_path) == 1
     assert not capsys.readouterr().out.endswith(" 0 rejected\n")
 
