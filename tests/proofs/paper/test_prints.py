@@ -1,6 +1,6 @@
 """Every token of every print of the paper's claims matters.
 
-`make test` tries a share of the changes of each token, in one claim in four, with
+`make test` tries a share of the changes of each token, in one claim in eight, with
 JUGGLEPROOF_MUTANTS=many (as CI sets it) all of them in all claims.
 """
 
