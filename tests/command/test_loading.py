@@ -53,7 +53,7 @@ print(code, *{name.partition(".")[0] for name in sys.modules})
 @pytest.mark.parametrize(
     "command",
     [
-        pytest.param(one, marks=[pytest.mark.exhaust] * ("-o" in one or "--sweep" in one))
+        pytest.param(one, marks=[pytest.mark.exhaust] * ("-o" in one or one[:4] == "part"))
         for one in NEEDS
     ],
 )

@@ -127,6 +127,7 @@ def test_chunks_change_nothing_holds(
             assert np.array_equal(found[0].history, other.history, equal_nan=True)
 
 
+@pytest.mark.exhaust
 def test_memory_depends_on_states_only_holds() -> None:
     assert engine.bytes_needed(10**6, 1) == engine.bytes_needed(10**6, 10**18) < 60 * 10**6
     used = []

@@ -144,6 +144,7 @@ def test_threads_give_the_same_bytes_holds(workers: int) -> None:
         assert same_as_alone(executor)
 
 
+@pytest.mark.exhaust
 def test_spawned_processes_give_the_same_bytes_holds() -> None:
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         assert same_as_alone(executor)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from itertools import islice
 from math import inf, pi
 from pathlib import Path
@@ -101,8 +102,9 @@ def test_rejects_what_is_no_table(alpha: float, gamma: float, wave: tuple[float,
 
 
 def test_the_command_tells_events_and_draws_the_same_twice(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(sine, "certified_for", cache(sine.certified_for))
     given_ = ["simulate", "table", "--alpha", "1/20", "--gamma", "3.1"]
     assert run([*given_, "--state", "phase=0.3,speed=0.4", "--periods", "3"]) == 0
     shown = capsys.readouterr().out
