@@ -12,9 +12,12 @@ from pathlib import Path
 import pytest
 
 from juggleproof.command import formats, report
+from juggleproof.judging.claims import Claim
+from juggleproof.judging.judgement import Judgement
 from juggleproof.judging.register import Register, load_register
 from juggleproof.judging.run import Options, Run, claims_of_file, run
 from juggleproof.papers.paper import opened
+from juggleproof.reports import results
 from juggleproof.reports.contents import Contents, contents_of
 from juggleproof.reports.page import Picture, build, pictures
 from juggleproof.reports.results import ClaimResult, RunResults, results_of_run, theorem_of_run
@@ -97,14 +100,26 @@ def paper_beside(
     accepted: bool = False,
 ) -> RunResults:
     done, theorem = paper_run()
-    return results_of_run(
-        done.claims,
-        done.judgements,
-        load_register() if register is None else register,
-        theorem=theorem,
-        rejected=done.rejected if rejected is None else rejected,
-        accepted=accepted,
-    )
+    with pytest.MonkeyPatch.context() as patch:  # what is told of a claim alone, is told once
+        patch.setattr(results, "_result", told_once)
+        return results_of_run(
+            done.claims,
+            done.judgements,
+            load_register() if register is None else register,
+            theorem=theorem,
+            rejected=done.rejected if rejected is None else rejected,
+            accepted=accepted,
+        )
+
+
+TOLD, TELL = dict[str, ClaimResult](), results._result
+
+
+def told_once(claim: Claim, judged: Judgement) -> ClaimResult:
+    """What is told of a claim of this run, whatever is registered."""
+    if claim.id not in TOLD:
+        TOLD[claim.id] = TELL(claim, judged)
+    return TOLD[claim.id]
 
 
 # -------------------------------------------------------------------------------------------------
