@@ -1,7 +1,8 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
-the suite ignores it; no property fails because the machine is busy; tests that share what is costly
-run in one process, and no process compiles a module that another has compiled.
+the suite ignores it; no property fails because the machine is busy, and CI tries each on more
+examples; tests that share what is costly run in one process, and no process compiles a module that
+another has compiled.
 """
 
 from __future__ import annotations
@@ -35,11 +36,9 @@ sys.dont_write_bytecode = False
 gc.set_threshold(50_000)  # as the command has it
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+SLOW = [HealthCheck.too_slow]
 settings.register_profile(
-    "suite",
-    max_examples=share(40, 100),
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
+    "suite", max_examples=share(40, 100), deadline=None, suppress_health_check=SLOW
 )
 settings.load_profile("suite")
 pytest_plugins = ["pytester"]

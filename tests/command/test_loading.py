@@ -38,7 +38,6 @@ NEEDS = {
     f"part {PART} --orientation --parts 2 -o F.svg": {"numba", "matplotlib"},
     f"part {PART}": {"numba"},
     f"part {PART} --orientation --parts 2 -o F.csv": {"numba"},
-    f"part --sweep e=0.5:0.6:2,mu=0:0.1:2 {SHORT}": {"numba"},
 }
 CODE = """
 import sys

@@ -105,13 +105,6 @@ def test_file_is_well_formed_and_small_holds(slug: str) -> None:
     assert pdf(slug).startswith(b"%PDF-")
 
 
-@pytest.mark.exhaust
-@each_row("slug", SLUGS)
-def test_same_bytes_again_holds(slug: str) -> None:
-    again = drawing.svg(figure(slug), slug).decode("utf-8"), drawing.pdf(figure(slug))
-    assert again == (svg(slug), pdf(slug))
-
-
 def test_figures_drawn_again_are_the_same_holds() -> None:
     again = entry("fig-12").draw()
     assert drawing.svg(again, "fig-12") == drawing.svg(figure("fig-12"), "fig-12")
