@@ -10,19 +10,8 @@ from pathlib import Path
 
 import pytest
 
-LIBRARIES = {
-    "sympy",
-    "mpmath",
-    "flint",
-    "z3",
-    "highspy",
-    "numba",
-    "matplotlib",
-    "jinja2",
-    "pandas",
-    "pyarrow",
-    "scipy",
-}
+LIBRARIES = {"sympy", "mpmath", "flint", "z3", "highspy", "numba", "matplotlib", "jinja2"}
+LIBRARIES |= {"pandas", "pyarrow", "scipy"}
 SHORT = "--horizon 0.1 --ensembles 1"
 PART = f"--e 0.7 --mu 0.08 {SHORT}"
 NEEDS = {

@@ -26,19 +26,7 @@ from tests.rows import each_row
 
 ROOT = Path(__file__).resolve().parents[2]
 SLUGS = [one.slug for one in TABLE]
-PAPER = [
-    "fig-3",
-    "fig-5",
-    "fig-6",
-    "fig-7",
-    "fig-8",
-    "fig-9",
-    "fig-10",
-    "fig-11",
-    "fig-12",
-    "fig-13",
-    "fig-14",
-]
+PAPER = [f"fig-{number}" for number in (3, *range(5, 15))]
 DRAWN = ("fig-3", "fig-8", "fig-11", "fig-trap", "fig-ranges")
 PRINT_DIGESTS = f"""
 import hashlib, sys

@@ -12,8 +12,6 @@ from pathlib import Path
 import pytest
 
 from juggleproof.command import formats, report
-from juggleproof.judging.claims import Claim
-from juggleproof.judging.judgement import Judgement
 from juggleproof.judging.register import Register, load_register
 from juggleproof.judging.run import Options, Run, claims_of_file, run
 from juggleproof.papers.paper import opened
@@ -100,8 +98,9 @@ def paper_beside(
     accepted: bool = False,
 ) -> RunResults:
     done, theorem = paper_run()
-    with pytest.MonkeyPatch.context() as patch:  # what is told of a claim alone, is told once
-        patch.setattr(results, "_result", told_once)
+    known = told()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(results, "_result", lambda claim, _: known[claim.id])
         return results_of_run(
             done.claims,
             done.judgements,
@@ -112,14 +111,11 @@ def paper_beside(
         )
 
 
-TOLD, TELL = dict[str, ClaimResult](), results._result
-
-
-def told_once(claim: Claim, judged: Judgement) -> ClaimResult:
-    """What is told of a claim of this run, whatever is registered."""
-    if claim.id not in TOLD:
-        TOLD[claim.id] = TELL(claim, judged)
-    return TOLD[claim.id]
+@cache
+def told() -> dict[str, ClaimResult]:
+    """What is told of each claim of this run, whatever is registered."""
+    done, _ = paper_run()
+    return {one.id: results._result(one, its) for one, its in zip(done.claims, done.judgements)}
 
 
 # -------------------------------------------------------------------------------------------------

@@ -170,19 +170,6 @@ def loaded_by(code: str) -> set[str]:
     return set(shown.stdout.split())
 
 
-@pytest.mark.exhaust
-def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds() -> None:
-    loaded = loaded_by(  # none of them, so none of them alone
-        "from juggleproof.scenes import juggler; juggler.orbit, juggler.scene\n"
-        "import juggleproof.command.main\n"
-        "import juggleproof.proofs.figures\n"
-        "import juggleproof.symbolic"
-    )
-    assert "numba" not in loaded and not [
-        name for name in loaded if name.startswith("juggleproof.scenes.part")
-    ]
-
-
 def test_machine_code_is_kept_anew_where_a_compiled_file_changes_holds() -> None:
     folder = Path(body.__file__).parent
     assert set(body.KERNELS) == {
