@@ -1,7 +1,8 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
-the suite ignores it; no property fails because the machine is busy; tests that share what is costly
-run in one process, and no process compiles a module that another has compiled.
+the suite ignores it; no property fails because the machine is busy, and CI tries each on more
+examples; tests that share what is costly run in one process, and no process compiles a module that
+another has compiled.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.share import share
 
 # Nothing that commands keep is used but machine code, which depends on its sources alone.
 CHOSEN = os.environ.get("JUGGLEPROOF_CACHE", "")
@@ -33,7 +36,10 @@ sys.dont_write_bytecode = False
 gc.set_threshold(50_000)  # as the command has it
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
-settings.register_profile("suite", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = [HealthCheck.too_slow]
+settings.register_profile(
+    "suite", max_examples=share(40, 100), deadline=None, suppress_health_check=SLOW
+)
 settings.load_profile("suite")
 pytest_plugins = ["pytester"]
 
@@ -58,8 +64,8 @@ LONGEST = (
     "tests/scenes/part",
     "tests/docs/test_commands.py",
 )
-# Folders whose tests judge the paper, begin Coq or compile kernels once for all of them.
-WHOLE = {"tests/reports", "tests/proofs/coq", "tests/scenes/part"}
+# Folders whose tests judge the paper, begin Coq, compile kernels or read all sources once for all.
+WHOLE = {"tests/reports", "tests/proofs/coq", "tests/scenes/part", "tests/house"}
 TOGETHER = {"tests/test_pytest_plugin.py": "tests/reports"}  # it asks for that run
 
 

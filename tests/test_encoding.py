@@ -9,7 +9,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from juggleproof import symbolic
@@ -51,7 +51,6 @@ def exact(expression: sympy.Expr, point: dict[str, Fraction]) -> Fraction:
     return Fraction(int(value.p), int(value.q))
 
 
-@settings(max_examples=150, deadline=None)
 @given(expressions(), st.lists(RATIONALS, min_size=3, max_size=3))
 def test_encoder_agrees_with_sympy_holds(expression: sympy.Expr, values: list[Fraction]) -> None:
     assume(not expression.has(sympy.zoo, sympy.nan, sympy.oo))

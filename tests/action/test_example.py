@@ -106,6 +106,7 @@ def test_workflow_suite_and_hook_pass_and_change_nothing_holds(runner: Runner) -
     assert (case.attrib["file"], case.attrib["line"]) == (FILE, str(line))
 
 
+@pytest.mark.exhaust
 def test_rejects_a_claim_that_is_false(runner: Runner) -> None:
     path = runner.work / FILE
     text = path.read_text(encoding="utf-8")

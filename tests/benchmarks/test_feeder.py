@@ -45,6 +45,7 @@ def test_what_the_page_tells_is_certified_and_as_much_as_is_certified_holds(
     assert not certified(Rectangle("", a, "Gamma", (high, high + feeder.STEP)))
 
 
+@pytest.mark.exhaust
 def test_a_row_is_found_as_the_page_has_it_holds() -> None:
     alpha, gamma, _, _ = ROWS[-1]
     assert feeder.drives(interval(alpha, "alpha"), PROVED) == interval(gamma, "Gamma")

@@ -34,6 +34,7 @@ def test_rejects_work_that_fails() -> None:
         list(each(lambda: lambda number: lambda: 1 // number, [1, 0], 1.0))
 
 
+@pytest.mark.exhaust
 def test_a_program_that_uses_up_its_cpu_seconds_is_ended() -> None:
     before = children_seconds()
     assert output_of([sys.executable, "-c", "while True: pass"], "", 0.1) is None

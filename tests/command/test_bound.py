@@ -125,7 +125,7 @@ VALLEYS = {
 def test_what_a_wider_or_a_narrower_width_reaches_is_not_missed_holds(kind: str) -> None:
     text, end, least = VALLEYS[kind]
     box = dict.fromkeys("xy", (-end, end))
-    widths = [Fraction(1, 10**k) for k in (1, 4, 7, 9)]
+    widths = [Fraction(1, 10**k) for k in (1, 9)]
     found = [enclose_minimum(text, box, width, 2000) for width in (*widths, 0)]
     for width, enclosure in zip(widths, found):
         assert enclosure.reached and enclosure.low <= least <= enclosure.high

@@ -496,11 +496,8 @@ def test_rules_of_a_map_of_ones_own_hold(
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no file that is always full")
-@pytest.mark.parametrize(
-    "arguments",
-    [("bound", "x", "--box", "x=0..1", "--width", "0"), ("simulate", "juggler", "--word", "2")],
-)
-def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> None:
+def test_rejects_standard_output_that_is_full() -> None:
+    arguments = ("bound", "x", "--box", "x=0..1", "--width", "0")
     with open("/dev/full", "w", encoding="utf-8") as full:
         done = subprocess.run(
             [sys.executable, "-m", "juggleproof.command.main", *arguments],

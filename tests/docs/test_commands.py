@@ -32,11 +32,16 @@ VARIABLES = {
     "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
     "PYTEST_PLUGINS": "juggleproof.pytest_plugin",
 }
-LONG = (  # commands that take over 4 CPU seconds
-    "python -m juggleproof.benchmarks.stability",
+LONG = (  # commands that take over a CPU second
+    "python -m juggleproof.benchmarks.",
+    "python -m tests.certificates.checker.fuzz",
+    "pytest --juggleproof mine.py",
     "juggleproof explain restitution-unequal --premises",
     "juggleproof explain theorem --bounds",
     "juggleproof certify saturated.py",
+    "juggleproof certify sine --",
+    "juggleproof simulate juggler --hard-cases",
+    "juggleproof simulate table --alpha 0.05 --gamma 3.1 --picture",
 )
 # What is appended to commands that begin so: the last of two equal options counts.
 SMALLER = {
@@ -212,7 +217,7 @@ def arguments(command: str, page: Path, folder: Path) -> list[str]:
         pytest.param(
             page,
             one,
-            marks=[pytest.mark.exhaust] * one.startswith(LONG),
+            marks=[pytest.mark.exhaust] * (one.startswith(LONG) and one not in ELSEWHERE),
             id=f"{name(page)}: {one}",
         )
         for page, one in COMMANDS

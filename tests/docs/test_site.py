@@ -45,6 +45,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     yield folder
 
 
+@pytest.mark.exhaust
 def test_every_formula_is_mathml_holds(site: Path) -> None:
     made = "".join(text_of(site / page) for page in BUILT)
     displays = sum(len(code(page, "math")) for page in PAGES)
@@ -53,6 +54,7 @@ def test_every_formula_is_mathml_holds(site: Path) -> None:
     assert "<blockquote" not in made  # a line of prose that begins with > is one
 
 
+@pytest.mark.exhaust
 def test_nothing_is_loaded_from_elsewhere_holds(site: Path) -> None:
     for page in BUILT:
         loaded = re.findall(

@@ -168,16 +168,19 @@ def test_a_change_asks_for_what_it_can_change_holds(
         assert not [name for name in names if fnmatch(name, pattern)], pattern
 
 
+@pytest.mark.exhaust
 def test_no_stage_depends_on_the_record_holds(stages: Stages) -> None:
     assert RECORD in stages.sources.data(["tests.exhaust.reports"])
     assert not [name for name, stage in stages.all.items() if RECORD in stage.files]
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("file", ["README.md", "CHANGELOG.md", "docs/trust.md", "docs/formulas.py"])
 def test_prose_asks_for_nothing_holds(copied: Path, stages: Stages, file: str) -> None:
     assert not asked(copied, stages, file, "\nx = 1\n")
 
 
+@pytest.mark.exhaust
 def test_a_comment_asks_for_nothing_holds(copied: Path, stages: Stages) -> None:
     assert not asked(copied, stages, "certificates/checker/rules.py", "\n\n# x = 1\n")
 
@@ -195,6 +198,7 @@ def test_a_module_without_prose_has_what_is_run_and_what_decorators_read_holds()
     )
 
 
+@pytest.mark.exhaust
 def test_an_import_inside_a_function_asks_for_what_it_brings_holds(
     copied: Path, stages: Stages
 ) -> None:
@@ -283,6 +287,7 @@ def test_a_fresh_search_opens_nothing_else_holds(sources: Sources, stages: Stage
     assert seen - set(stages.all[f"{FRESH}eq-3"].files) <= told | around | {INDEX, REGISTER}
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize(
     ("module", "stage"),
     [

@@ -170,12 +170,13 @@ def environment(python: str, folder: Path) -> tuple[Path, Path]:
     return bin, site
 
 
-# the editable install; what else there is takes minutes
-PLACES = ["editable"]
-PLACES += [pytest.param(one, marks=pytest.mark.exhaust) for one in (*PYTHONS, "sdist")]
+# each takes minutes, or many seconds; the suite itself runs on an editable install
+PLACES = ["editable", *PYTHONS, "sdist"]
 
 
-@pytest.fixture(scope="module", params=PLACES)
+@pytest.fixture(
+    scope="module", params=[pytest.param(one, marks=pytest.mark.exhaust) for one in PLACES]
+)
 def place(
     request: pytest.FixtureRequest,
     checkout: Path,
@@ -294,6 +295,7 @@ def test_no_symbolic_link_is_committed_holds() -> None:
     assert not [path for path in committed() if path.is_symlink()]
 
 
+@pytest.mark.exhaust
 def test_the_sdist_has_all_that_is_committed_holds(sdist: Path) -> None:
     with tarfile.open(sdist) as archive:
         held = {name.partition("/")[2] for name in archive.getnames()}
@@ -301,6 +303,7 @@ def test_the_sdist_has_all_that_is_committed_holds(sdist: Path) -> None:
     assert {name for name in names if not name.startswith(".")} <= held
 
 
+@pytest.mark.exhaust
 def test_all_sources_and_data_are_in_the_wheel_holds(wheel: Path) -> None:
     held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
     wanted = {

@@ -40,8 +40,7 @@ def sentences_in(text: str) -> list[str]:
     >>> sentences_in('x = f"{e} is {STABLE}"; y = data["refuted"]')
     []
     """
-    tree = ast.parse(text)
-    nodes = [*ast.walk(tree)]
+    nodes = [*ast.walk(ast.parse(text))] if WORD.search(text) else []
     apart = {id(one.value) for one in nodes if isinstance(one, ast.Expr)}
     for node in nodes:
         apart |= {id(one) for one in node.values} if isinstance(node, ast.JoinedStr) else set()

@@ -50,6 +50,12 @@ def judged(folder: Path, routes: tuple[str, ...] = ("exact",)) -> Run:
     return run(CLAIMS, Options(folder, routes, jobs=1))
 
 
+@pytest.fixture(scope="module")
+def good(small: Path) -> Judgement:
+    """What is judged of a claim where nothing is forged."""
+    return of(judged(small), "eq-37")
+
+
 def of(done: Run, claim: str) -> Judgement:
     return next(one for one in done.judgements if one.id == claim)
 
@@ -168,8 +174,7 @@ def test_a_vote_that_contradicts_the_checker_is_cast_again(folder: Path) -> None
         {"more": {}},
     ],
 )
-def test_rejects_findings_of_another_shape(folder: Path, entry: Json) -> None:
-    good = of(judged(folder), "eq-37")
+def test_rejects_findings_of_another_shape(folder: Path, entry: Json, good: Judgement) -> None:
     change(folder / FINDINGS, lambda data: data.update({"eq-37": entry}))
     again = of(judged(folder), "eq-37")
     assert (again.verdict, again.sharp, again.outcomes) == (good.verdict, good.sharp, good.outcomes)

@@ -36,6 +36,7 @@ def where_it_dies_out(domain: str, space: str = "x > 0 and y >= 0") -> Setting:
     return at_point(map_of(text), "1", "0")
 
 
+@pytest.mark.exhaust
 def test_the_ends_of_the_box_of_two_competing_species_holds() -> None:
     found = box_of(replace(setting(COMPETITION, "0 < c and c < 1/2"), have=()))
     assert found is not None

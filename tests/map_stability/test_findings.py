@@ -135,7 +135,8 @@ def assert_true(outcome: Outcome, system: Map, truth: str) -> None:
 
 
 LONG = {"irrational-end", "saturated", "envelope", "box-entered", "weighted-sum", "ratio"}
-LONG |= {"norm-in-a-circle", "two-corners", "corner", "norm"}
+LONG |= {"norm-in-a-circle", "two-corners", "corner", "norm", "norm-turned", "intervals"}
+LONG |= {"quotient"}
 
 
 @pytest.mark.parametrize(

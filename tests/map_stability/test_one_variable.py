@@ -89,7 +89,7 @@ SETTLED = {  # the first line of what is printed: the map
 
 
 LONG = {"momentum", "border", "below-it", "harvest", "logistic-inside", "converter", "cycle"}
-LONG |= {"threshold", "recessive", "logistic-by-name"}
+LONG |= {"threshold", "recessive", "logistic-by-name", "logistic-at-end", "peak", "too-long-steps"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)

@@ -38,7 +38,7 @@ RECRUITMENT = (
 )
 
 
-LONG = {"henon", "coexistence", "spirals"}
+LONG = {"henon", "coexistence", "spirals", "exclusion", "spiral"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)

@@ -90,11 +90,13 @@ def test_rejects_a_loss_that_is_too_large() -> None:
     assert "no proof of the premise falls" in proof.fault
 
 
+@pytest.mark.exhaust
 def test_a_point_whose_coordinates_are_quotients_of_each_other_is_stable_holds() -> None:
     leslie = planar("2*y/(1 + y), s*x", "s", "1/2 < s and s < 1")
     assert search_stability(leslie).finding.sentence.endswith("is stable and attracts every state")
 
 
+@pytest.mark.exhaust
 def test_what_a_bound_of_an_eliminated_parameter_says_of_the_point_is_known_holds() -> None:
     one = next(ratio_candidates(at_point(STAGES, inside=True)))
     assert ("have", "-x_point + y_point > 0") in one.rule.rows
@@ -107,6 +109,7 @@ def test_a_point_on_the_boundary_has_ratios_of_a_variable_plus_half_of_another_h
     assert [str(one) for one in first] == ["x", "r/2 + y - 1/2"]
 
 
+@pytest.mark.exhaust
 def test_a_cascade_with_a_jordan_block_is_stable_holds() -> None:
     """No quadratic form with constant coefficients falls for all a."""
     text = "over a\ndomain 0 <= a and a < 1\nstate x y z\npiece a*x, x + a*y, y + a*z"

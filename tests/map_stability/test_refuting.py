@@ -87,7 +87,7 @@ SETTLED = {  # the first line of what is printed: the map
 
 
 LONG = {"focus", "drift-beside-rest", "no-line", "quotient-in-a-guard", "boundary"}
-LONG |= {"unstable-cycle"}
+LONG |= {"unstable-cycle", "no-cycle", "root", "no-boundary"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof import MapRule, stability
+from juggleproof.certificates import checker
 from juggleproof.command.check import check
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import CERTIFICATES, STATEMENTS
@@ -94,7 +95,7 @@ def map_file(folder: Path, name: str) -> Path:
     return path
 
 
-LONG = {"circle", "scaling", "share"}
+LONG = {"circle", "scaling", "share", "drift", "two-equations", "quotient"}
 
 
 @pytest.mark.parametrize("line", marked(SETTLED, LONG, pytest.mark.exhaust), ids=name_of)
@@ -129,6 +130,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("written")
     done = running.run("stability", str(map_file(folder, "tent")), "-o", str(folder))
     assert done.returncode == 0
+    assert check(folder / "tent.certificates") == 0
     return folder / "tent.certificates"
 
 
@@ -157,8 +159,6 @@ def test_rejects_a_written_folder_that_is_changed(
         text = (store / name).read_text()
         assert name != file or before in text
         (tmp_path / name).write_text(text.replace(before, after) if name == file else text)
-    assert check(store) == 0
-    assert capsys.readouterr().out.endswith(" 0 refuted, 0 unknown, 0 rejected\n")
     assert check(tmp_path) == 1
     assert not capsys.readouterr().out.endswith(" 0 rejected\n")
 
@@ -177,7 +177,7 @@ def test_rejects_every_certificate_of_another_premise(store: Path, tmp_path: Pat
         rows = [[n, forged if n == name else c] for n, c in lines]
         (tmp_path / STATEMENTS).write_text((store / STATEMENTS).read_text())
         (tmp_path / CERTIFICATES).write_text("".join(json.dumps(row) + "\n" for row in rows))
-        assert check(tmp_path) == 1, one
+        assert "rejected" in {word for _, word, _ in checker.check_folder(str(tmp_path))}, one
         swapped += 1
     assert swapped > 5
 

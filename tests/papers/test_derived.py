@@ -48,6 +48,7 @@ def test_what_is_kept_is_read_as_it_was_holds(left: Term, right: Term) -> None:
     assert unpacked(json.loads(json.dumps(packed(values)))) == values
 
 
+@pytest.mark.exhaust
 def test_claims_are_stated_without_sympy_holds() -> None:
     done = subprocess.run(
         [sys.executable, "-c", STATED], capture_output=True, text=True, check=True

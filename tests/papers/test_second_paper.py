@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def run(folder: Path) -> Run:
     """A command on this paper, whose claims are registered; returns what it prints."""
 
+    @cache
     def command(*options: str) -> str:
         done = subprocess.run(
             [sys.executable, "-c", OPENS, str(folder), *options],

@@ -28,7 +28,6 @@ from juggleproof.statements.work import Budget, read
 from tests.rows import each_row
 from tests.stored import STORE, statements
 
-TEXTS = {name: text for name, text in STORE.texts.items() if name.startswith("restitution-")}
 # (statement, what is changed in it, into what): each is false
 FALSE = {
     "as-it-begins": ("restitution-e-K-none/no-two-flights", "(K + 1) < K - 1", "(K + 1) <= K - 1"),
@@ -84,8 +83,8 @@ WEAKENED = [
 def outcome(name: str, text: str) -> str:
     """The checker's, of this text with the certificate that is stored for the statement."""
     statement = checker.read_statements(text)[name]
-    known = {one: there for one, there in statements().items() if one in TEXTS}
-    return checker.check_one(statement, STORE.certificate(name, TEXTS[name]), known, {})[0]
+    known = {one: there for one, there in statements().items() if one[:12] == "restitution-"}
+    return checker.check_one(statement, STORE.certificate(name, STORE.texts[name]), known, {})[0]
 
 
 def state_at(alpha: Fraction, place: Vector, **more: Fraction | int) -> ExactState:
@@ -110,17 +109,17 @@ def flights(state: ExactState, count: int) -> tuple[tuple[int, ...], ExactState]
 @each_row("name", FALSE)
 def test_claims_on_restitution_fail_without_a_hypothesis(name: str) -> None:
     statement, old, new = FALSE[name]
-    assert old in TEXTS[statement]
-    changed = read(TEXTS[statement].replace(old, new), statement)
+    assert old in STORE.texts[statement]
+    changed = read(STORE.texts[statement].replace(old, new), statement)
     found = search_certificate(changed, {}, Budget(limits.DEFAULT_BUDGET))
     assert checker.check_one(changed, found, {}, {})[0] == "refuted"
 
 
 @each_row(("name", "old", "new"), WEAKENED)
 def test_rejects_a_weakened_map_rule(name: str, old: str, new: str) -> None:
-    assert old in TEXTS[name]
-    assert outcome(name, TEXTS[name]) == "certified"
-    assert outcome(name, TEXTS[name].replace(old, new)) == "rejected"
+    assert old in STORE.texts[name]
+    assert outcome(name, STORE.texts[name]) == "certified"
+    assert outcome(name, STORE.texts[name].replace(old, new)) == "rejected"
 
 
 @each_row(("K", "above"), [(1, 9), (2, 1000), (3, 3), (5, 2)])

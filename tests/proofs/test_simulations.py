@@ -59,6 +59,7 @@ def test_figure_2_is_within_its_scatter_holds(kept: Figures, reading: TableReadi
     assert max(now["late"]) <= max(then["late"]) + 4
 
 
+@pytest.mark.exhaust
 def test_table_1_is_within_its_scatter_holds(kept: Figures, reading: TableReading) -> None:
     now = onsets(table_one(reading.scene(), ensembles=ENSEMBLES, peak=reading.peak))
     for row, then in zip(now, kept["table"], strict=True):

@@ -88,6 +88,8 @@ def _docstrings(tree: ast.AST) -> Iterator[int]:
 
 def names_of_the_paper(text: str) -> list[str]:
     """Where a source file names the paper's parameter, or holds the names of its scales."""
+    if not re.search(r"alpha|[\"'][rg][\"']", text):
+        return []
     tree = ast.parse(text)
     outside = set(_docstrings(tree))
     return [

@@ -106,11 +106,6 @@ def test_paper_as_registered_has_no_failure_holds() -> None:
     )
 
 
-@pytest.mark.exhaust
-def test_report_and_run_write_the_same_holds() -> None:
-    assert as_junit(contents()) == as_junit(paper())
-
-
 def test_a_claim_that_is_gone_is_a_failure_of_the_register_holds() -> None:
     suite = read(paper({**load_register(), "gone": {"verdict": "gap"}}))
     (case,) = suite.findall("testcase[@name='gone']")

@@ -15,7 +15,7 @@ from juggleproof.judging import extras
 from juggleproof.reports import page
 from juggleproof.reports.contents import Contents
 from juggleproof.statements.language import ClaimError
-from tests.reports.runs import contents, drawn, made_of
+from tests.reports.runs import contents, drawn, made_of, some_contents
 
 
 def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -84,7 +84,7 @@ def test_missing_library_is_named_and_nothing_written_holds(
 def test_figures_are_left_out_where_matplotlib_is_absent_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made_of(monkeypatch, contents)
+    made_of(monkeypatch, some_contents)
     monkeypatch.setattr(formats.importlib.util, "find_spec", lambda name: None)
     assert run(["report", "--format", "html", "-o", str(tmp_path)]) == 0
     assert "figures are left out" in capsys.readouterr().err

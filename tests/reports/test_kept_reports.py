@@ -32,6 +32,7 @@ def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = part_of_store(tmp_path / "store", CLAIMS.__contains__)
     monkeypatch.setattr(report, "DEFAULT", folder)
     monkeypatch.setattr(report, "stored_outcomes", list)
+    monkeypatch.setattr("os.cpu_count", lambda: 1)  # in this process
     monkeypatch.setenv(report_cache.VARIABLE, str(tmp_path / "kept"))
     return folder
 

@@ -31,6 +31,7 @@ from juggleproof.statements.language import ClaimError
 from tests.reports.read_back import NotRead, difference, differences, python_of
 from tests.reports.runs import contents, made_of
 from tests.rows import each_row
+from tests.share import share
 
 # -------------------------------------------------------------------------------------------------
 # Formulas.
@@ -49,7 +50,7 @@ def pairs() -> dict[tuple[str, str], None]:
 
 def test_every_formula_of_every_statement_reads_back_holds() -> None:
     assert len(pairs()) > 800
-    assert differences(pairs()) == []
+    assert differences([*pairs()][:: share(4, 1)]) == []
 
 
 @each_row(

@@ -16,6 +16,7 @@ from juggleproof.reports.markup import FORMULAS, lines_of
 from juggleproof.reports.mathml import mathml
 from juggleproof.statements.language import ClaimError
 from tests.reports.runs import contents
+from tests.share import share
 
 SIGNS = {
     **dict.fromkeys((r"\frac", r"\left", r"\middle", r"\right", r"\quad", r"\qquad", r"\\"), ""),
@@ -107,12 +108,12 @@ def test_every_print_is_drawn_holds() -> None:
 def test_every_formula_of_a_statement_is_drawn_holds() -> None:
     found = sorted(set(formulas()))
     assert len(found) > 600
-    for text in found:
+    for text in found[:: share(5, 1)]:
         assert "\\" not in characters(tree_of(latex_of(text))), text
 
 
 def test_elements_have_the_children_that_they_need_holds() -> None:
-    for latex in [*prints(), *map(latex_of, sorted(set(formulas())))]:
+    for latex in [*prints(), *map(latex_of, sorted(set(formulas()))[:: share(5, 1)])]:
         for element in tree_of(latex).iter():
             assert element.tag in KNOWN, (latex, element.tag)
             assert (
@@ -126,7 +127,7 @@ def test_elements_have_the_children_that_they_need_holds() -> None:
 
 
 def test_every_sign_is_seen_once_holds() -> None:
-    for latex in [*prints(), *map(latex_of, sorted(set(formulas())))]:
+    for latex in [*prints(), *map(latex_of, sorted(set(formulas()))[:: share(5, 1)])]:
         assert sorted(characters(tree_of(latex))) == sorted(signs(latex)), latex
 
 

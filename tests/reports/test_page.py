@@ -1,4 +1,6 @@
-"""The page tells all that is settled, is whole and well formed, and fetches nothing."""
+"""The page tells all that is settled, is whole and well formed, and fetches nothing: that of one
+claim in six and of what is singled out, and with JUGGLEPROOF_MUTANTS=many (make exhaust) the whole.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +24,12 @@ from juggleproof.reports.latex import glyph
 from juggleproof.reports.page import LONGEST, build, statement
 from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, TURN, read
 from tests.certificates.checker.test_returns import LOOP
+from tests.reports import runs
 from tests.reports.browser import Element, NotNested, parts_of, read_html, read_whole
-from tests.reports.runs import contents, page
+from tests.share import MANY, share
 
 ROOT = Path(__file__).resolve().parents[2]
+contents, page = share((runs.some_contents, runs.page_of_some), (runs.contents, runs.page))
 
 
 @cache
@@ -235,7 +239,7 @@ def test_theorem_stands_first_and_errata_before_the_rest_holds() -> None:
         one.attributes["id"]
         for one in by_id("main").all("section")
         if one.attributes["id"] in wanted_order
-    ] == wanted_order
+    ] == [one for one in wanted_order if MANY or one != "figures"]
     wanted = {f"erratum-{entry.claim.id}" for entry in contents().entries if entry.group}
     assert wanted and {one.attributes["id"] for one in document().with_class("erratum")} == wanted
 
@@ -275,7 +279,7 @@ def test_every_counterexample_is_in_words_holds() -> None:
             ]
             assert shown.words and all(f"<p>{line}</p>" in one for one in places), shown.name
             counted += 1
-    assert counted > 50
+    assert counted > 30
 
 
 def test_prints_are_drawn_where_they_are_told_holds() -> None:

@@ -98,7 +98,7 @@ def test_conflicts_fail_without_a_fact_that_they_need() -> None:
     assert closed_by_conflicts(state(names, *formulas[:-1])) is None
 
 
-@each_row("seed", (0, 1, 6))
+@each_row("seed", (0, 6))
 def test_random_clauses_are_closed_or_have_a_point_holds(seed: int) -> None:
     names, formulas = clauses(seed)
     assumed = state(names, *formulas)

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from flint import fmpz_mpoly
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.algebra.box_trees import tree_above_zero
@@ -79,7 +79,6 @@ def test_a_common_fact_that_a_cofactor_lacks_is_kept_holds() -> None:
     assert found == terms and owed == {7: source.ring.gens[1]}
 
 
-@settings(max_examples=50, deadline=None)
 @given(polynomials, polynomials, polynomials)
 def test_pseudo_division_is_an_identity(
     poly: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly
@@ -93,14 +92,12 @@ def test_pseudo_division_is_an_identity(
     assert not remainder or remainder.degrees()[0] == 0
 
 
-@settings(max_examples=50, deadline=None)
 @given(polynomials)
 def test_coefficients_give_the_polynomial_back(poly: fmpz_mpoly) -> None:
     x = RING.gens[0]
     assert sum((c * x**k for k, c in enumerate(coefficients_in(poly, 0))), RING.zero) == poly
 
 
-@settings(max_examples=50, deadline=None)
 @given(polynomials, polynomials)
 def test_keys_add_where_monomials_multiply(p: fmpz_mpoly, q: fmpz_mpoly) -> None:
     packing = Packing(RING, [RING.gens[0] * RING.gens[1] * RING.gens[2]])
@@ -109,7 +106,6 @@ def test_keys_add_where_monomials_multiply(p: fmpz_mpoly, q: fmpz_mpoly) -> None
     assert packing.exponents(packing.row(p)[0]).tolist() == [list(map(int, m)) for m in p.monoms()]
 
 
-@settings(max_examples=50, deadline=None)
 @given(polynomials)
 def test_what_is_lowered_is_lifted_back(poly: fmpz_mpoly) -> None:
     x, y, z = RING.gens
@@ -206,7 +202,6 @@ def test_a_program_that_is_too_large_is_not_paid_for_holds() -> None:
     assert solve(program, budget) is None and budget.left > 0
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.lists(st.integers(-4, 4), min_size=2, max_size=6).filter(lambda c: bool(c[-1])))
 def test_positivity_on_an_interval_agrees_with_samples(coefficients: list[int]) -> None:
     ring = Ring(("x",))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pytest
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.algebra.conditions import (
@@ -34,7 +34,6 @@ POLYS = st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), NUMBERS, max_size=5
 RELATIONS = st.sampled_from([">", ">=", "=", "!="])
 
 
-@settings(max_examples=100, deadline=None)
 @given(POLYS, NUMBERS, NUMBERS, NUMBERS)
 def test_a_value_is_what_substitution_gives(poly: fmpq_mpoly, a: fmpq, x: fmpq, y: fmpq) -> None:
     whole = {"a": a, "x": x, "y": y}
@@ -48,7 +47,6 @@ def test_a_missing_variable_leaves_a_value_open_only_where_it_occurs() -> None:
     assert valued(RING.constant(0), {"a": fmpq(2)}) == 0
 
 
-@settings(max_examples=100, deadline=None)
 @given(POLYS)
 def test_coefficients_add_up_to_the_polynomial(poly: fmpq_mpoly) -> None:
     parts = coefficients_in(poly, "x")
@@ -62,7 +60,6 @@ def test_a_dense_polynomial_has_the_same_values(poly: fmpq_mpoly) -> None:
     assert all(dense(fmpq(k)) == valued(poly, {"x": fmpq(k)}) for k in range(-2, 3))
 
 
-@settings(max_examples=200, deadline=None)
 @given(
     st.lists(st.tuples(POLYS, RELATIONS), min_size=1, max_size=4),
     st.sampled_from(["and", "or"]),
@@ -80,7 +77,6 @@ def test_a_trial_fails_where_substitution_folds_to_false(
             assert trial.fails(value) == (start.substituted({"x": value}).tree is False)
 
 
-@settings(max_examples=50, deadline=None)
 @given(POLYS, POLYS, POLYS, NUMBERS)
 def test_sums_of_quotients_have_the_sum_of_their_values(
     top: fmpq_mpoly, other: fmpq_mpoly, more: fmpq_mpoly, a: fmpq

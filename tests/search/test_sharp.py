@@ -1,6 +1,7 @@
 """Sharp ranges of one parameter."""
 
 import mpmath
+import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.search.sharp import find_sharp_range, read
@@ -154,6 +155,7 @@ CASES = {
 }
 
 
+@pytest.mark.exhaust
 @each_row("case", CASES)
 def test_a_family_begins_in_a_corner(case):
     text, condition, end = CASES[case]

@@ -7,7 +7,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.algebra.polynomials import Ring
@@ -39,7 +39,6 @@ def gram(vectors: list[list[int]]) -> list[list[Fraction]]:
     return [[Fraction(sum(v[i] * v[j] for v in vectors)) for j in range(size)] for i in range(size)]
 
 
-@settings(max_examples=60, deadline=None)
 @given(rows)
 def test_a_gram_matrix_is_the_sum_of_its_squares_holds(vectors: list[list[int]]) -> None:
     matrix = gram(vectors)
@@ -51,7 +50,6 @@ def test_a_gram_matrix_is_the_sum_of_its_squares_holds(vectors: list[list[int]])
     ] == matrix
 
 
-@settings(max_examples=60, deadline=None)
 @given(rows)
 def test_a_matrix_with_a_negative_direction_has_no_squares_holds(vectors: list[list[int]]) -> None:
     matrix = gram(vectors)
@@ -59,7 +57,6 @@ def test_a_matrix_with_a_negative_direction_has_no_squares_holds(vectors: list[l
     assert as_squares(matrix) is None
 
 
-@settings(max_examples=60, deadline=None)
 @given(rows)
 def test_the_image_of_a_matrix_is_found_again_as_integers_holds(vectors: list[list[int]]) -> None:
     matrix = np.array(vectors, dtype=float)

@@ -9,7 +9,7 @@ import zlib
 from fractions import Fraction
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.algebra.polynomials import value_at
@@ -105,7 +105,6 @@ def meant(thing: Any, point: dict[str, Fraction]) -> Any:
     }[op]()
 
 
-@settings(max_examples=150, deadline=None)
 @given(formulas, st.lists(st.tuples(numbers, numbers, numbers), min_size=3, max_size=3))
 def test_a_formula_that_is_written_and_read_back_means_the_same_holds(
     formula: Any, points: list[tuple[Fraction, ...]]

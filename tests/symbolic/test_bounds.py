@@ -8,7 +8,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from sympy import Poly, Rational, sqrt
 
@@ -19,7 +19,6 @@ Value = Callable[..., Fraction]
 roots = st.fractions(min_value=Fraction(71, 50), max_value=Fraction(99, 50), max_denominator=60)
 closing = st.fractions(min_value=Fraction(1, 100), max_value=60, max_denominator=100)
 shares = st.fractions(min_value=0, max_value=Fraction(99, 100), max_denominator=100)
-many = settings(max_examples=80, deadline=None)
 UNIT = {"r": Fraction(1), "g": Fraction(2)}  # x = beta and w = 1 - v in these units
 
 
@@ -27,7 +26,6 @@ def restitution(root: Fraction) -> Fraction:
     return root**2 / 2 - 1
 
 
-@many
 @given(roots, closing, shares)
 def test_no_state_that_keeps_its_energy_has_more_than_the_maximum_holds(
     value: Value, root: Fraction, w: Fraction, share: Fraction
@@ -41,7 +39,6 @@ def test_no_state_that_keeps_its_energy_has_more_than_the_maximum_holds(
     assert value(s.total_energy(), **at) <= value(s.E_max(), alpha=alpha, **UNIT)
 
 
-@many
 @given(roots, closing, shares)
 def test_no_impact_gains_more_than_the_maximum_holds(
     value: Value, root: Fraction, w: Fraction, share: Fraction
@@ -52,7 +49,6 @@ def test_no_impact_gains_more_than_the_maximum_holds(
     assert value(s.energy_change_1(), **at) <= value(s.delta_E_max(), alpha=alpha, **UNIT)
 
 
-@many
 @given(roots, closing, shares)
 def test_every_impact_outside_the_region_loses_more_than_the_supremum_holds(
     value: Value, root: Fraction, w: Fraction, share: Fraction
@@ -126,7 +122,6 @@ def test_point_p_has_the_speed_of_the_fixed_point_on_the_line_between_the_region
     assert s.energy_of_p() == s.energy_at(s.point_p())
 
 
-@many
 @given(closing, st.fractions(min_value=-20, max_value=20, max_denominator=50))
 def test_no_fall_takes_longer_than_the_worst_flight_holds(
     value: Value, beta: Fraction, v: Fraction
@@ -157,7 +152,6 @@ def test_sign_is_refused_where_it_changes_holds() -> None:
         s.sign_for_lossy_impacts(s.alpha + s.K)
 
 
-@many
 @given(roots, st.lists(st.integers(min_value=-9, max_value=9), min_size=4, max_size=4))
 def test_sign_is_that_of_every_value_holds(value: Value, root: Fraction, c: list[int]) -> None:
     expression = c[0] + c[1] * s.alpha + (c[2] + c[3] * s.alpha) * sqrt(2 * s.alpha + 2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import juggleproof.symbolic as s
@@ -16,7 +16,6 @@ positive = st.fractions(min_value=Fraction(1, 20), max_value=20, max_denominator
 restitutions = st.fractions(
     min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50
 )
-few = settings(max_examples=40, deadline=None)
 
 
 def test_energy_is_kept_in_flight_holds() -> None:
@@ -29,7 +28,6 @@ def test_energy_change_is_that_of_the_kinetic_energy_at_impact_holds() -> None:
     assert s.lowest_terms(at_impact - s.energy_change_1()) == 0
 
 
-@few
 @given(numbers, numbers, restitutions, positive, positive, positive)
 def test_gradient_is_the_exact_slope_of_a_quadratic_holds(
     value: Value,
@@ -53,7 +51,6 @@ def test_gradient_is_the_exact_slope_of_a_quadratic_holds(
     assert slopes == (by_height / (2 * step), by_speed / (2 * step))
 
 
-@few
 @given(positive, restitutions, positive, positive)
 def test_zero_change_speed_keeps_the_energy_and_does_not_graze_holds(
     value: Value, tau: Fraction, alpha: Fraction, r: Fraction, g: Fraction
@@ -65,7 +62,6 @@ def test_zero_change_speed_keeps_the_energy_and_does_not_graze_holds(
     assert v != r
 
 
-@few
 @given(numbers, restitutions, positive, positive)
 def test_zero_change_height_keeps_the_energy_holds(
     value: Value, v: Fraction, alpha: Fraction, r: Fraction, g: Fraction

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from sympy import Integer, Rational, eye
 
@@ -21,7 +21,6 @@ speeds = st.fractions(min_value=-20, max_value=20, max_denominator=50)
 restitutions = st.fractions(
     min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50
 )
-few = settings(max_examples=40, deadline=None)
 
 
 def flown(
@@ -46,7 +45,6 @@ def stepped(
     )
 
 
-@few
 @given(positive, speeds, restitutions, positive, positive)
 def test_maps_are_flight_and_impact_step_by_step_holds(
     value: Value, beta: Fraction, v: Fraction, alpha: Fraction, r: Fraction, g: Fraction
@@ -57,7 +55,6 @@ def test_maps_are_flight_and_impact_step_by_step_holds(
     assert tuple(value(entry, **at) for entry in mapping) == stepped(beta, v, alpha, r, g)
 
 
-@few
 @given(positive, speeds, positive, positive)
 def test_margin_is_positive_exactly_when_the_collision_comes_in_time_holds(
     value: Value, beta: Fraction, v: Fraction, r: Fraction, g: Fraction
@@ -135,7 +132,6 @@ def test_return_jacobian_is_the_shear_by_all_periods_holds() -> None:
     assert s.return_eigenvalues() == (-s.alpha, -s.alpha)
 
 
-@few
 @given(positive, speeds, restitutions, positive, positive)
 def test_normal_form_is_conjugate_to_the_maps_holds(
     value: Value, beta: Fraction, v: Fraction, alpha: Fraction, r: Fraction, g: Fraction
@@ -155,8 +151,6 @@ def test_normal_form_is_conjugate_to_the_maps_holds(
 # -------------------------------------------------------------------------------------------------
 # Fixed points are fixed, and their orbits keep to the regions exactly when restitution is large
 # enough.
-
-sixty = settings(max_examples=60, deadline=None)
 
 
 def test_fixed_point_is_fixed_for_every_number_of_periods_holds() -> None:
@@ -195,7 +189,6 @@ def test_relative_map_is_linear_holds() -> None:
     assert difference.applyfunc(s.lowest_terms).is_zero_matrix
 
 
-@sixty
 @given(restitutions, st.integers(min_value=1, max_value=8))
 def test_orbit_keeps_to_its_regions_exactly_from_the_threshold_on_holds(
     value: Value, alpha: Fraction, periods: int

@@ -270,6 +270,7 @@ def test_coq_is_asked_for_the_excess_on_the_box() -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_a_method_that_gives_up_is_ended_and_shown() -> None:
     began = time.monotonic()
     found = measure(
@@ -358,6 +359,7 @@ def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:
     assert both[0].line() == lines[0].replace("1 of 2", "2 of 4")
 
 
+@pytest.mark.exhaust
 def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,14 +1,16 @@
 """The tests beside this file, and the short stored certificates, notice every mutant of the checker
 but those that say the same.
 
-A fixed share is tried here, with JUGGLEPROOF_MUTANTS=many a larger one.  `make exhaust` tries all
-of them, a file at a time, by `python -m tests.certificates.checker.mutate`.
+What is marked tries a fixed share, with JUGGLEPROOF_MUTANTS=many a larger one.  `make exhaust`
+tries all of them, a file at a time, by `python -m tests.certificates.checker.mutate`.
 """
 
 from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+
+import pytest
 
 from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all
 from tests.share import share
@@ -32,6 +34,7 @@ def test_every_equivalent_mutant_is_a_mutant_with_a_reason_holds() -> None:
     assert all(known.values())
 
 
+@pytest.mark.exhaust
 def test_every_mutant_is_noticed_unless_it_is_equivalent_holds() -> None:
     known = equivalent()
     chosen = [k for k, key in enumerate(KEYS) if key not in known and digest(key) % SHARE == 0]

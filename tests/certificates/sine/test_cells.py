@@ -6,7 +6,7 @@ import random
 import tracemalloc
 from fractions import Fraction
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.certificates.checker import Work
@@ -50,7 +50,6 @@ def cut_cells(source: random.Random) -> tuple[bytes, dict[Cell, int]]:
     return bytes(data), leaves
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.integers(0, 1 << 64))
 def test_the_greatest_rank_is_that_of_all_cells_in_a_landing_holds(seed: int) -> None:
     source = random.Random(seed)

@@ -182,6 +182,7 @@ def test_the_command_runs_alone_and_says_what_it_believes_holds(tmp_path: Path) 
     assert first.startswith("certified ") and second.startswith("refuted ")
 
 
+@pytest.mark.exhaust
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no process tells its memory")
 def test_the_most_columns_and_the_most_cells_take_below_50_megabytes_holds(tmp_path: Path) -> None:
     ranks = bytearray([1]) * (126 << 14)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -28,6 +30,15 @@ from juggleproof.sine.stored import STATEMENT, STORE, WIDE, boxes_in
 from juggleproof.statements.language import ClaimError
 
 WORDS = "the period-one bounce is stable and every motion tends to it for all alpha in"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _searched_once() -> Iterator[None]:
+    """A box that several tests ask for is searched once, and its line is checked once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(covering, "find_certificate", cache(find_certificate))
+        patch.setattr(covering, "check_line", cache(check_line))
+        yield
 
 
 def rectangle(alpha: str, gamma: str) -> Rectangle:

@@ -77,6 +77,7 @@ def test_rejects_a_line_that_costs_more_than_is_left(name: str) -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_no_table_is_made_that_is_not_paid_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,14 +1,16 @@
 """Every hypothesis of every certified statement is needed, or its presence is explained.
 
-`make test` searches the statements of a fixed sample of claims; with JUGGLEPROOF_MUTANTS=many (make
-exhaust) all of them, and writes the table to build/hypotheses.txt. What is expected, the counts
-and the names of what is undecided, `python -m tests.proofs.paper.hypothesis_table` brings up to
-date.
+What is marked searches the statements of a fixed sample of claims; with JUGGLEPROOF_MUTANTS=many
+(make exhaust) all of them, and writes the table to build/hypotheses.txt. What is expected, the
+counts and the names of what is undecided, `python -m tests.proofs.paper.hypothesis_table` brings up
+to date.
 """
 
 from __future__ import annotations
 
 from functools import cache
+
+import pytest
 
 from tests.proofs.paper.hypothesis_table import (
     COUNTS,
@@ -54,6 +56,7 @@ def table() -> Table:
     return made
 
 
+@pytest.mark.exhaust
 def test_hypotheses_are_as_many_of_each_need_and_reason_as_expected_holds() -> None:
     column = 2 if MANY else 3
     expected = {(row[0], row[1]): int(row[column]) for row in cells(COUNTS)}
@@ -62,6 +65,7 @@ def test_hypotheses_are_as_many_of_each_need_and_reason_as_expected_holds() -> N
     assert {why for _, why in expected} <= {"", *REASONS}
 
 
+@pytest.mark.exhaust
 def test_hypotheses_are_needed_where_the_table_says_so_holds() -> None:
     for name, (_, rows) in table().items():
         for one, row in zip(hypotheses(certified()[name]), rows, strict=True):
@@ -71,6 +75,7 @@ def test_hypotheses_are_needed_where_the_table_says_so_holds() -> None:
             ), f"{name}: {one.said}: not {row.need} {row.why}"
 
 
+@pytest.mark.exhaust
 def test_every_hypothesis_that_is_not_needed_is_explained_holds() -> None:
     loose = [
         f"{name}: {row.said}"
@@ -84,12 +89,14 @@ def test_every_hypothesis_that_is_not_needed_is_explained_holds() -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_undecided_are_those_that_are_named_holds() -> None:
     known = {(name, said) for name, said in cells(OPEN)}
     assert undecided(table()) == {one for one in known if one[0] in table()}
     assert known == {one for one in known if one[0] in certified()} and len(known) < 25
 
 
+@pytest.mark.exhaust
 def test_every_given_reason_is_used_holds() -> None:
     idle = [
         key

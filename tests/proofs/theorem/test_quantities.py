@@ -96,7 +96,6 @@ def test_rejects_a_width_that_the_claim_does_not_allow() -> None:
         quantities.via_little_energy(a_state(Fraction(1, 5), Fraction(0), Fraction(1)), 2)
 
 
-@settings(max_examples=60, deadline=None)
 @given(state=states, more=st.integers(0, 8), past=st.integers(0, 3))
 def test_orbits_keep_what_is_certified_holds(state: ExactState, more: int, past: int) -> None:
     for bound in (
@@ -112,14 +111,12 @@ def test_orbits_keep_what_is_certified_holds(state: ExactState, more: int, past:
         assert distance <= quantities.by_the_closed_form(state.alpha, more)
 
 
-@settings(max_examples=60, deadline=None)
 @given(state=states, periods=st.integers(0, 6))
 def test_closed_form_is_the_orbit_in_the_trap_holds(state: ExactState, periods: int) -> None:
     entry = next(move.state for move in moves(state) if move.state.is_in(TRAP))
     assert theorem.later(entry, periods) == after(entry, periods)
 
 
-@settings(max_examples=60, deadline=None)
 @given(state=states)
 def test_moves_are_the_orbit_holds(state: ExactState) -> None:
     here, count = state, 0
@@ -289,7 +286,6 @@ def test_bounds_of_the_paper_in_known_rows_holds() -> None:
     ] == [False, False, True]
 
 
-@settings(max_examples=40, deadline=None)
 @given(
     alpha=between(Fraction(1, 20), Fraction(9, 10), 20),
     more=between(0, 20, 9),

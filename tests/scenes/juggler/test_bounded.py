@@ -78,7 +78,6 @@ def test_bound_fails_without_the_rounding_term() -> None:
     assert 3 * Fraction(float(tenth.e)) < off <= Fraction(float(total.e))
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     alpha=st.fractions(Fraction(1, 99), Fraction(98, 99), max_denominator=99),
     exponents=st.lists(st.integers(0, 400), min_size=1, max_size=4),
@@ -128,6 +127,7 @@ def test_chunks_change_nothing_holds(
             assert np.array_equal(found[0].history, other.history, equal_nan=True)
 
 
+@pytest.mark.exhaust
 def test_memory_depends_on_states_only_holds() -> None:
     assert engine.bytes_needed(10**6, 1) == engine.bytes_needed(10**6, 10**18) < 60 * 10**6
     used = []

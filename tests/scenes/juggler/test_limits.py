@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy import ImmutableMatrix, simplify
 
@@ -62,7 +62,6 @@ def test_matrix_of_an_impact_and_its_flight_is_the_derived_holds() -> None:
     assert simplify(flown * struck - expected) == ImmutableMatrix.zeros(2, 2)
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     number=st.fractions(Fraction(2, 5), Fraction(19, 20), max_denominator=40),
     periods=st.integers(1, 4),

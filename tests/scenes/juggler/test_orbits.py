@@ -44,7 +44,6 @@ def bound_holds(fast: OrbitRow, exact: OrbitRow) -> bool:
     ) <= Fraction(fast.error[1])
 
 
-@settings(max_examples=60, deadline=None)
 @given(alpha=alphas, x=positions, w=speeds, count=steps, impacts=st.booleans())
 def test_all_arithmetics_agree_with_exact_numbers_holds(
     alpha: Fraction, x: Fraction, w: Fraction, count: int, impacts: bool
@@ -78,7 +77,6 @@ def test_all_arithmetics_agree_with_exact_numbers_holds(
         ) < Fraction(1, 10**40)
 
 
-@settings(max_examples=40, deadline=None)
 @given(alpha=alphas, x=positions, w=speeds, count=st.integers(0, 12))
 def test_whole_flights_and_leaps_equal_single_steps_holds(
     alpha: Fraction, x: Fraction, w: Fraction, count: int
@@ -131,7 +129,6 @@ def test_energies_from_tiny_to_huge_hold() -> None:
     assert exact.periods > 10**150
 
 
-@settings(max_examples=60, deadline=None)
 @given(alpha=alphas, w=st.fractions(-6, 6, max_denominator=6), flown=st.integers(0, 9), count=steps)
 def test_every_state_on_the_edge_is_counted_holds(
     alpha: Fraction, w: Fraction, flown: int, count: int
@@ -256,7 +253,6 @@ def test_no_steps_leave_the_start_holds(kind: str) -> None:
 restitutions = st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20)
 
 
-@settings(max_examples=40, deadline=None)
 @given(
     alpha=restitutions,
     x=st.fractions(0, 9, max_denominator=9),

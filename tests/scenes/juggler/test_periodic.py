@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.scenes.errors import SceneError
@@ -28,7 +28,6 @@ from tests.rows import each_row
 alphas = st.fractions(Fraction(1, 30), Fraction(29, 30), max_denominator=30)
 
 
-@settings(max_examples=40, deadline=None)
 @given(alpha=alphas, word=st.lists(st.integers(1, 6), min_size=1, max_size=4).map(tuple))
 def test_orbit_of_a_word_comes_back_exactly_holds(alpha: Fraction, word: tuple[int, ...]) -> None:
     found = orbit_of(word, alpha)

@@ -392,6 +392,7 @@ MIRRORED: list[dict[str, object]] = [
 ]
 
 
+@pytest.mark.exhaust
 @each_row("given", MIRRORED)
 def test_mirrored_start_gives_the_mirrored_orbit_holds(given: dict[str, object]) -> None:
     numbers = {name: value for name, value in given.items() if name != "row"}

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import pytest
 
 from juggleproof.scenes.part import body, run, scene, standing, table_one
 from juggleproof.scenes.part.onsets import PAPER, jittered, jittered_phases, row_of
@@ -32,6 +33,7 @@ def mean_exit(block: Scene, seed: int) -> tuple[float, float]:
 ACCURACIES = ((1e-12, 1e-3), (1e-9, 1e-3), (1e-6, 1e-3), (1e-12, 1e-4), (1e-12, 1e-2), (1e-6, 1e-2))
 
 
+@pytest.mark.exhaust
 def test_mean_exit_time_does_not_depend_on_tolerance_and_rest_speed_holds() -> None:
     """Rule: each of six accuracies, with jitter of its own, is within 3.5 standard errors of the
     mean of the others.
@@ -49,6 +51,7 @@ def test_mean_exit_time_does_not_depend_on_tolerance_and_rest_speed_holds() -> N
     assert all(error < 0.06 * mean for mean, error in found), found
 
 
+@pytest.mark.exhaust
 def test_mean_exit_time_fails_without_the_same_friction() -> None:
     """The rule tells another scene apart: it is not one that cannot fail."""
     here, there = (mean_exit(scene(e=e, mu=0.08, f_x=30.0, A_x=2e-3), 1) for e in (0.7, 0.4))

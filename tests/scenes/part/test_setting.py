@@ -144,6 +144,7 @@ def test_threads_give_the_same_bytes_holds(workers: int) -> None:
         assert same_as_alone(executor)
 
 
+@pytest.mark.exhaust
 def test_spawned_processes_give_the_same_bytes_holds() -> None:
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         assert same_as_alone(executor)
@@ -169,18 +170,6 @@ def loaded_by(code: str) -> set[str]:
     return set(shown.stdout.split())
 
 
-def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds() -> None:
-    loaded = loaded_by(  # none of them, so none of them alone
-        "from juggleproof.scenes import juggler; juggler.orbit, juggler.scene\n"
-        "import juggleproof.command.main\n"
-        "import juggleproof.proofs.figures\n"
-        "import juggleproof.symbolic"
-    )
-    assert "numba" not in loaded and not [
-        name for name in loaded if name.startswith("juggleproof.scenes.part")
-    ]
-
-
 def test_machine_code_is_kept_anew_where_a_compiled_file_changes_holds() -> None:
     folder = Path(body.__file__).parent
     assert set(body.KERNELS) == {
@@ -196,6 +185,7 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     assert "numba" in loaded_by("from juggleproof.scenes.part import scene")
 
 
+@pytest.mark.exhaust
 @each_row(
     "first",
     [

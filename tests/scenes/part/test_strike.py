@@ -50,7 +50,8 @@ def as_function(which: str, mode: str = "") -> Callable[..., Fraction | list[Fra
     return sympy.lambdify(SYMBOLS, list(found) if mode else found, modules=[])
 
 
-def drawn(count: int) -> list[tuple[Fraction, ...]]:
+@cache
+def cases(count: int = 2400) -> list[tuple[Fraction, ...]]:
     """(S0, C0, B1, B2, B3, e, mu): (B1 - 1)(B2 - 1) = B3^2, C0 < 0; a third without sliding at
     first, a third near boundaries of modes.
     """
@@ -85,12 +86,9 @@ def drawn(count: int) -> list[tuple[Fraction, ...]]:
     return found
 
 
-CASES = drawn(2400)
-
-
 def test_impulse_is_the_derived_one_holds() -> None:
     seen: Counter[str] = Counter()
-    for S0, C0, B1, B2, B3, e, mu in CASES:
+    for S0, C0, B1, B2, B3, e, mu in cases():
         sigma = first_slide(S0, B1, B3, mu)
         mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
         if mode == strike.JAMMING:
@@ -107,7 +105,7 @@ def test_impulse_is_the_derived_one_holds() -> None:
 
 
 def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
-    for S0, C0, B1, B2, B3, e, mu in CASES:
+    for S0, C0, B1, B2, B3, e, mu in cases():
         sigma = first_slide(S0, B1, B3, mu)
         numbers = (S0, C0, B1, B2, B3, e, mu, sigma)
         mode = mode_of(*numbers)
@@ -134,11 +132,11 @@ def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
 def test_jams_exactly_where_the_closing_rate_is_not_positive_holds() -> None:
     jammed = [
         case
-        for case in CASES
+        for case in cases()
         if as_function("closing_rate")(*case, first_slide(case[0], case[2], case[4], case[6])) <= 0
     ]
     assert len(jammed) >= 20
-    for S0, C0, B1, B2, B3, e, mu in CASES:
+    for S0, C0, B1, B2, B3, e, mu in cases():
         met = mode_of(S0, C0, B1, B2, B3, e, mu, first_slide(S0, B1, B3, mu)) == strike.JAMMING
         assert met == ((S0, C0, B1, B2, B3, e, mu) in jammed)
     assert (
@@ -163,7 +161,7 @@ def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds()
 
 @each_row("sign", [1, -1])
 def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
-    for S0, C0, B1, B2, B3, e, mu in CASES[:300]:
+    for S0, C0, B1, B2, B3, e, mu in cases()[:300]:
         here, there = ((sign * S0, C0, B1, B2, sign * B3, e, mu) for sign in (sign, -sign))
         ways = [first_slide(given[0], given[2], given[4], mu) for given in (here, there)]
         modes = [mode_of(*given, way) for given, way in zip((here, there), ways)]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from itertools import islice
 from math import inf, pi
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from juggleproof.command import sine
@@ -32,7 +33,6 @@ def heights(table: Table, start: float, velocity: float, times: np.ndarray) -> n
     return np.asarray(ball - table.derivative(start + times, 0))
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.floats(0, 0.9), st.floats(0.2, 6), st.floats(0, 1), st.floats(0.001, 2), st.booleans())
 def test_a_flight_ends_at_the_first_zero_of_the_height(
     alpha: float, gamma: float, start: float, above: float, second: bool
@@ -102,8 +102,9 @@ def test_rejects_what_is_no_table(alpha: float, gamma: float, wave: tuple[float,
 
 
 def test_the_command_tells_events_and_draws_the_same_twice(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(sine, "certified_for", cache(sine.certified_for))
     given_ = ["simulate", "table", "--alpha", "1/20", "--gamma", "3.1"]
     assert run([*given_, "--state", "phase=0.3,speed=0.4", "--periods", "3"]) == 0
     shown = capsys.readouterr().out
