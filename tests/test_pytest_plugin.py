@@ -64,7 +64,7 @@ def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(
     result.stdout.fnmatch_lines(
         [
             "juggleproof::above FAILED*",
-            "above/main fails at x = 1: *",
+            "above/main fails at x = 1/2: *",
             "`juggleproof explain above mine.py` tells more",
             "FAILED juggleproof::above - false",
         ]

@@ -118,7 +118,7 @@ def test_the_claims_of_another_paper_have_their_verdicts_holds(run: Run, folder:
     }
     assert "2 claims: 1 holds, 0 misprint, 1 false" in run("certify")
     assert "A side is more than its half." in run("list")
-    assert "-> refuted at side = 0" in run("explain", "side-and-half")
+    assert "-> refuted at side = -1" in run("explain", "side-and-half")
     assert "Wrong statements (1)" in run("errata")
 
 

@@ -135,7 +135,7 @@ def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
         suite, "error"
     )
     assert messages(suite, "failure")["above"] == (
-        "false; above/main fails at x = 1: x^2 and x are both 1."
+        "false; above/main fails at x = 1/2: x^2 is 1/4, less than x, 1/2."
     )
 
 
@@ -297,7 +297,7 @@ def test_unknown_and_rejected_come_first_holds(tmp_path: Path) -> None:
 def test_false_claim_of_ones_own_is_told_with_its_counterexample_holds(tmp_path: Path) -> None:
     text = markdown(own(tmp_path, FALSE))
     assert (
-        "- **above**: false; It says so.; fails at `x = 1`" in text
+        "- **above**: false; It says so.; fails at `x = 1/2`" in text
         and "register" not in text
         and "paper" not in text
     )

@@ -153,7 +153,7 @@ def test_saved_figures_are_all_there_and_kept_holds(
         one.data.startswith(b"<?xml") for one in first
     )
     assert (
-        sum(len(one.data) for one in first) < 500_000
+        sum(len(one.data) for one in first) < 600_000
         and max(len(one.data) for one in first if not of_all_claims(one.slug)) < 60_000
     )
     drawn = drawn_again(monkeypatch)
