@@ -11,12 +11,20 @@ from pathlib import Path
 
 from rich.console import Console
 
-from juggleproof.command.outputs import asked_of, now_and_then, refuse_unwritable
+from juggleproof.command.outputs import MOST_COLUMNS, asked_of, now_and_then, refuse_unwritable
 from juggleproof.judging import limits
 from juggleproof.judging.claims import CheckedApart, Claim, one_line
 from juggleproof.judging.judgement import Judgement, statements_of
 from juggleproof.judging.register import PATH, Register, load_register, write_register
-from juggleproof.judging.run import Options, Progress, claims_of_files, findings_in, run, store_of
+from juggleproof.judging.run import (
+    Options,
+    Progress,
+    Run,
+    claims_of_files,
+    findings_in,
+    run,
+    store_of,
+)
 from juggleproof.papers import derived
 from juggleproof.papers.derivations import behind, derivations_of
 from juggleproof.papers.index import write_index
@@ -26,6 +34,7 @@ from juggleproof.reports import results as table
 from juggleproof.reports.ci import as_junit, failing, markdown
 from juggleproof.reports.contents import Contents, as_json, contents_of
 from juggleproof.reports.results import RunResults, results_of_run, theorem_of_run
+from juggleproof.reports.tables import folded, line_width
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT, write_file
 
@@ -52,6 +61,8 @@ class CertifyOptions(argparse.Namespace):
     markdown: Path | None
     timings: Path | None
     report: list[str]
+    all: bool
+    quiet: bool
     output: Path | None
     write_reports: Callable[[Contents], int] | None
 
@@ -72,19 +83,12 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     claims = claims_of_files(options.files) if options.files else opened().claims()
     with _progress(console, len(options.only or claims)) as step:
         done = run(claims, _options(options), step)
-    table.draw(done.claims, done.judgements, console)
-    print(table.summary(done.judgements))
-    theorem = "" if options.files else theorem_of_run(done)
-    print(theorem, end="\n" if theorem else "")
-    for claim, judged in zip(done.claims, done.judgements):
-        body = claim.body()
-        if isinstance(body, CheckedApart):
-            print(body.line(claim.id, judged.verdict))
     for name in done.restated:
         print(f"restated {name}: what was stored is not the statement of the sources")
     for name, reason in done.rejected:
         print(f"rejected by the checker: {name}: {reason}")
     accepts = options.accept and not done.rejected
+    theorem = "" if options.files else theorem_of_run(done)
     results = results_of_run(
         done.claims,
         done.judgements,
@@ -94,14 +98,15 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
         partial=bool(options.only),
         accepted=accepts,
     )
+    for change in results.changes:
+        print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
+    _show(options, done, results, console)
     for one in results.claims if options.files else ():
         if one.verdict != "holds":
             print(f"\n{one.id}: {failing(one)}".replace("\n", "\n    ").replace("\n    ", "\n", 1))
     if results.own and results.exit:
         files = " ".join(one_line(str(path)) for path in options.files)
         print(f"\n`juggleproof explain ID {files}` shows a claim whole")
-    for change in results.changes:
-        print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
     if before is not None and accepts:
         _accept(results, before, options, register)
     write_outputs(options, results, done.seconds)
@@ -110,6 +115,33 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     if options.write_reports is None:
         return results.exit
     return results.exit | options.write_reports(contents_of(done, load_register(register)))
+
+
+def _show(options: CertifyOptions, done: Run, results: RunResults, console: Console) -> None:
+    """Prints the results of a run: a line where it is quiet; else the theorem, where its printed
+    proof breaks, and the counts; a table for few claims, or where it is asked for.
+    """
+    claims, *others = table.summary(done.judgements).splitlines()
+    claims += "" if results.own or results.changes else "; all as registered"
+    if options.quiet:
+        print(claims + "".join(f"; {one}" for one in results.theorem.splitlines()[:1]).rstrip(";"))
+        return
+    if options.all or options.files or options.only:
+        table.draw(done.claims, done.judgements, console)
+    broken = [] if options.files or options.only else table.where_the_proof_breaks(results)
+    bodies = [(claim, claim.body(), one) for claim, one in zip(done.claims, done.judgements)]
+    lines = [*results.theorem.splitlines(), *broken, claims, *others]
+    lines += [
+        body.line(claim.id, judged.verdict)
+        for claim, body, judged in bodies
+        if isinstance(body, CheckedApart)
+    ]
+    if broken:
+        lines.append("`juggleproof errata` shows every error, `certify --all` every claim")
+    if console.is_terminal:
+        lines.append(f"{sum(done.seconds.values()):.1f} s of judging")
+    text = "\n".join(lines)
+    print(folded(text, line_width(MOST_COLUMNS)) if console.is_terminal else text)
 
 
 def _derives_what_is_kept() -> bool:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import FunctionType
 
-from juggleproof.command.outputs import busy
+from juggleproof.command.outputs import busy, folding
 from juggleproof.judging.claims import CheckedApart, Claim, claim_named
 from juggleproof.judging.conclusions import REFUTED, RULES, conclusion
 from juggleproof.judging.judgement import statements_of
@@ -52,7 +52,8 @@ def command(parsed: argparse.Namespace) -> int:
                 "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
             )
         return _of_theorem("explain-state", parsed.alpha, parsed.state)
-    return explain(parsed.id, parsed.files, parsed.premises, parsed.lines)
+    with folding():
+        return explain(parsed.id, parsed.files, parsed.premises, parsed.lines)
 
 
 def _of_theorem(hook: str, *values: object) -> int:

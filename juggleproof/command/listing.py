@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from importlib import import_module
 
 from juggleproof.command.outputs import show
 from juggleproof.judging.claims import VERDICTS
@@ -14,18 +12,20 @@ from juggleproof.papers.paper import opened
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import canonical
 
-TABLES = "juggleproof.reports.tables"  # loaded only on a terminal
-
 
 def command(parsed: argparse.Namespace) -> int:
     """Prints the claims that are asked for; returns the exit code."""
-    return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
+    return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json, parsed.long)
 
 
 def list_claims(
-    section: str = "", verdict: str = "", with_lines: bool = False, as_json: bool = False
+    section: str = "",
+    verdict: str = "",
+    with_lines: bool = False,
+    as_json: bool = False,
+    long: bool = False,
 ) -> int:
-    """Prints a line for each claim: id, place, registered verdict, sentence; a table on a terminal.
+    """Prints a line for each claim: id, registered verdict, place; its sentence below if `long`.
 
     `section`, such as 4.2, or A with all below it, and `verdict` select claims; with lines, places
     are lines of the transcription.  Raises ClaimError for an unknown section or verdict.
@@ -54,16 +54,11 @@ def list_claims(
     if as_json:
         print(canonical([*listed]).decode(), end="")
         return 0
-    heads = {"id": "id", "place": "place", "verdict": "registered", "says": "says"}
-    rows = [tuple(one[key] for key in heads) for one in listed]
-    if sys.stdout.isatty():
-        console = import_module("rich.console").Console()
-        with console.capture() as captured:
-            import_module(TABLES).draw([*heads.values()], rows, console)
-        show(captured.get())
-        return 0
-    for name, place, word, says in rows:
-        print(f"{name:32} {place:34} {word:12} {says}")
+    lines = []
+    for one in listed:
+        lines.append(f"{one['id']:20} {one['verdict']:9} {one['place']}")
+        lines += [f"    {one['says']}"] if long else []
+    show("\n".join(lines))
     return 0
 
 

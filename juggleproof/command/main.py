@@ -90,9 +90,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    certify = commands.add_parser(
-        "certify", help="derive, prove and check every claim; ends with a table"
-    )
+    certify = commands.add_parser("certify", help="derive, prove and check every claim")
     certify.add_argument(
         "files",
         nargs="*",
@@ -146,6 +144,9 @@ def build_parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="where certificates are kept (default: certificates/store)",
     )
+    shown = certify.add_mutually_exclusive_group()
+    shown.add_argument("--all", action="store_true", help="print the table of all claims")
+    shown.add_argument("-q", "--quiet", action="store_true", help="print one line")
     certify.add_argument("--json", type=Path, metavar="F", help="write the verdicts as JSON")
     certify.add_argument(
         "--junit", type=Path, metavar="F", help="write the verdicts as a JUnit report"
@@ -212,6 +213,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     listed.add_argument("--section", metavar="S", help="only of this section, such as 4.2 or A")
     listed.add_argument("--verdict", metavar="V", help="only with this verdict, such as gap")
+    listed.add_argument("--long", action="store_true", help="with the sentence of each claim")
     listed.add_argument("--json", action="store_true", help="as JSON, on standard output")
     for command in (listed, explain):
         command.add_argument(

@@ -10,12 +10,14 @@ import sys
 import tempfile
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
+from io import StringIO
 from itertools import count
 from pathlib import Path
 from time import monotonic
 from typing import BinaryIO
 
+from juggleproof.reports.tables import folded, line_width
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import write_file
 
@@ -109,12 +111,29 @@ def write_all(files: Files, place: Path) -> None:
 # Long texts, shown by the user's pager where they do not fit on the terminal.
 
 
+MOST_COLUMNS = 124  # of a text on a wide terminal
+
+
+@contextmanager
+def folding() -> Iterator[None]:
+    """Whatever is printed is folded at the width of the terminal, where there is one."""
+    if not sys.stdout.isatty():
+        yield
+        return
+    with redirect_stdout(StringIO()) as printed:
+        yield
+    show(printed.getvalue())
+
+
 def show(text: str) -> None:
     """Prints the text; where it does not fit on a terminal, by the pager that PAGER names."""
+    if sys.stdout.isatty():
+        text = folded(text, line_width(MOST_COLUMNS))
     fits = text.count("\n") < shutil.get_terminal_size().lines
     if fits or not (sys.stdin.isatty() and sys.stdout.isatty()):
         print(text.rstrip("\n"))
     else:
+        os.environ.setdefault("LESS", "FRX")  # colours are shown, a short text ends at once
         pydoc.pager(text)
 
 

@@ -40,6 +40,7 @@ from juggleproof.papers.paper import opened
 from juggleproof.reports import errata, tree
 from juggleproof.reports import results as table
 from juggleproof.reports.results import ClaimResult, RunResults, reading_of
+from juggleproof.reports.tables import folded, line_width
 from juggleproof.statements.language import ClaimError, Formula, lemmas_of, rests_on
 from juggleproof.statements.nodes import Json
 from juggleproof.statements.store import DEFAULT, Store, canonical
@@ -292,7 +293,8 @@ def errata_text() -> str:
     }
     groups = {claim.id: errata.group_of(claim, register, findings) for claim in claims}
     theorem = tree.theorem_line(store, checked)
-    head = f"{errata.HEAD}{opened().letters}{errata.NOTES}"
+    width = line_width(errata.WIDTH + errata.INDENT)
+    head = folded(f"{errata.HEAD}{opened().letters}{errata.NOTES}", width)
     lines = [head, *errata.first_page(claims, register, groups, findings, settled, theorem)]
     for group, title in errata.GROUPS.items():
         members = [claim for claim in claims if groups[claim.id] == group]

@@ -23,6 +23,7 @@ from juggleproof.papers.paper import opened
 from juggleproof.papers.places import place_of
 from juggleproof.reading.meaning import read
 from juggleproof.reports.counterexample_words import in_words
+from juggleproof.reports.tables import line_width
 from juggleproof.reports.tree import STANDS
 from juggleproof.statements.language import ClaimError, Formula, conjunction
 from juggleproof.statements.nodes import Certificate
@@ -32,16 +33,13 @@ ERRORS = ("misprint", "false", "gap")
 LEGEND = "\n".join(f"  {word:8}  {VERDICTS[word]}" for word in ERRORS)
 HEAD = f"""\
 What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
-values at which it fails,
-with what is so there in words.
+values at which it fails, in words too.
 {LEGEND}
 """
 NOTES = """\
-iff(a, b) means that a is true exactly if b is. What is said is told in our \
-words.
+iff(a, b) means that a is true exactly if b is. The sentences are ours.
 `juggleproof explain ID` shows the other names, the derivation, the statements and their \
-certificates, and with --lines
-the line of the transcription.
+certificates, and with --lines the line of the transcription.
 """
 GROUPS = {  # in order of weight, the heaviest first
     "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",
@@ -69,7 +67,8 @@ WEIGHTS = {
     "marks": "wrong formula, mended by several marks",
     "readings": "wording",
 }
-WIDTH, LONGEST_GOAL = 124, 110  # characters of a line of text, and of a formula that is shown
+WIDTH, LONGEST_GOAL = 108, 110  # characters of a line of text, and of a formula that is shown
+INDENT = 16  # of the text of a row, after its title
 
 
 def is_noted(claim: Claim) -> bool:
@@ -224,13 +223,15 @@ def entry_of(
         *(
             _row(
                 row.title,
-                textwrap.fill(row.text, WIDTH, break_on_hyphens=False)
-                if row.title in ("said", "remark", "in words")
-                else row.text,
+                _filled(row.text) if row.title in ("said", "remark", "in words") else row.text,
             )
             for row in rows
         ),
     ]
+
+
+def _filled(text: str) -> str:
+    return textwrap.fill(text, line_width(WIDTH + INDENT) - INDENT, break_on_hyphens=False)
 
 
 def told(remark: Remark) -> str:
@@ -273,7 +274,7 @@ def first_page(
         lines.append(f"{claim.id}, {place_of(claim)}")
         three = three_lines_of(claim, register, findings[claim.id], settled[claim.id])
         for one in three:
-            lines.append(_row(one.title, textwrap.fill(one.text, WIDTH, break_on_hyphens=False)))
+            lines.append(_row(one.title, _filled(one.text)))
         lines.append("")
     return lines
 
@@ -350,7 +351,7 @@ def is_latex(correction: Correction) -> bool:
 def _row(title: str, text: str) -> str:
     return (
         f"    {title:12}"
-        + "\n".join(f"{'':16}{line.strip()}" for line in text.splitlines()).lstrip()
+        + "\n".join(f"{'':{INDENT}}{line.strip()}" for line in text.splitlines()).lstrip()
     )
 
 

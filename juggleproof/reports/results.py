@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -225,15 +225,30 @@ def _many(count: int, thing: str) -> str:
     return f"{count} {thing}{'' if count == 1 else 's'}"
 
 
+def counts(found: Sequence[str], words: Iterable[str]) -> str:
+    """How often each of the words is found, without those that are not.
+
+    >>> counts(["holds", "false", "holds"], ("holds", "gap", "false"))
+    '2 holds, 1 false'
+    """
+    return ", ".join(f"{found.count(word)} {word}" for word in words if word in found) or "none"
+
+
+def where_the_proof_breaks(results: RunResults) -> list[str]:
+    """A line for each claim that breaks the paper's own proof; none where no claim does."""
+    broken = [one for one in results.claims if one.group == "proof"]
+    rows = [(f"  {one.id}", one.verdict, one.locator) for one in broken]
+    head = "the paper's own proof breaks here; `juggleproof explain ID` shows why"
+    return [head, *plain(rows).splitlines()] if broken else []
+
+
 def summary(judgements: Sequence[Judgement]) -> str:
     """The numbers of claims by verdict, of statements by outcome, and of decided votes by route."""
-    verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in VERDICTS]
+    verdicts = [judgement.verdict.word for judgement in judgements]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
-    words = OUTCOMES if "rejected" in outcomes else OUTCOMES[:-1]
-    counted = ", ".join(f"{outcomes.count(word)} {word}" for word in words)
     lines = [
-        f"{_many(len(judgements), 'claim')}: {', '.join(verdicts)}",
-        f"{_many(len(outcomes), 'statement')}: {counted}",
+        f"{_many(len(verdicts), 'claim')}: {counts(verdicts, VERDICTS)}",
+        f"{_many(len(outcomes), 'statement')}: {counts(outcomes, OUTCOMES)}",
     ]
     for route in ("z3", "boxes"):
         cast = [

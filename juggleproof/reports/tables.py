@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
+import textwrap
 from collections.abc import Sequence
 from fractions import Fraction
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING
 
 from juggleproof.statements.language import ClaimError
@@ -27,6 +30,35 @@ def plain(rows: Sequence[Sequence[str]]) -> str:
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows
+    )
+
+
+def line_width(most: int) -> int:
+    """The width of the terminal that is written to, at most `most`; `most` where there is none."""
+    return min(most, get_terminal_size().columns) if sys.stdout.isatty() else most
+
+
+def folded(text: str, width: int) -> str:
+    """The text with lines of at most this width; no word is broken, and a line goes on below the
+    second of its columns, or below its beginning.
+
+    >>> print(folded("printed     an equation of the paper", 26))
+    printed     an equation of
+                the paper
+    """
+    return "\n".join(_folded(line, width) for line in text.split("\n"))
+
+
+def _folded(line: str, width: int) -> str:
+    columns = re.match(r" *(?:\S+ {2,})?", line)
+    hanging = columns.end() if columns and columns.end() < width // 2 else 0
+    return textwrap.fill(
+        line,
+        width,
+        subsequent_indent=" " * hanging,
+        break_long_words=False,
+        break_on_hyphens=False,
+        drop_whitespace=len(line) > width,
     )
 
 

@@ -9,6 +9,8 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
@@ -18,11 +20,14 @@ from juggleproof.command.listing import list_claims
 from juggleproof.command.show import export_smt2
 from juggleproof.judging.register import load_register
 from juggleproof.papers.paper import opened
-from juggleproof.reports.tables import draw
+from juggleproof.reports.contents import results_of
+from juggleproof.reports.results import where_the_proof_breaks
+from juggleproof.reports.tables import draw, folded
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import Store
 from tests.command import running
 from tests.judging.stores import part_of_store
+from tests.reports.runs import contents
 from tests.rows import each_row
 
 
@@ -113,6 +118,33 @@ def test_claims_of_a_section_and_a_verdict_are_listed_holds(
     assert list_claims("A", "gap") == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines] == [one["id"] for one in listed]
+    assert list_claims("A", "gap", long=True) == 0
+    sentences = [line.strip() for line in capsys.readouterr().out.splitlines()[1::2]]
+    assert sentences == [one["says"] for one in listed]
+
+
+def test_a_claim_is_listed_in_a_line_of_80_columns_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert list_claims() == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(load_register()) and max(map(len, lines)) <= 80
+
+
+@given(st.text("ab -\n", max_size=60), st.integers(12, 30))
+def test_folding_breaks_no_word_and_loses_none_holds(text: str, width: int) -> None:
+    shown = folded(text, width)
+    assert shown.split() == text.split()
+    whole = all(len(word) <= width // 2 for word in text.split())
+    assert not whole or all(len(line) <= width for line in shown.splitlines())
+
+
+def test_where_the_proof_breaks_is_said_in_lines_of_80_columns_holds() -> None:
+    results = results_of(contents())
+    head, *lines = where_the_proof_breaks(results)
+    assert "explain ID" in head and max(map(len, [head, *lines])) <= 80
+    broken = [(one.id, one.verdict) for one in results.claims if one.group == "proof"]
+    assert [tuple(line.split()[:2]) for line in lines] == broken and len(broken) == 3
 
 
 @each_row(

@@ -97,7 +97,7 @@ def run(folder: Path) -> Run:
 def test_no_word_of_this_paper_is_printed_of_another_holds(run: Run, folder: Path) -> None:
     printed = {
         "certify": run("certify"),
-        "list": run("list"),
+        "list": run("list", "--long"),
         "explain": run("explain", "side-and-half"),
         "errata": run("errata"),
     }
@@ -116,8 +116,10 @@ def test_the_claims_of_another_paper_have_their_verdicts_holds(run: Run, folder:
         "square-about-a-circle": "holds",
         "side-and-half": "false",
     }
-    assert "2 claims: 1 holds, 0 misprint, 1 false" in run("certify")
-    assert "A side is more than its half." in run("list")
+    line = "2 claims: 1 holds, 1 false; all as registered"
+    assert run("certify").splitlines()[0] == line and run("certify", "-q") == f"{line}\n"
+    assert run("certify", "--all").splitlines()[1].startswith("s")
+    assert "A side is more than its half." in run("list", "--long")
     assert "-> refuted at side = -1" in run("explain", "side-and-half")
     assert "Wrong statements (1)" in run("errata")
 
