@@ -51,10 +51,10 @@ PAPER = Paper(
     principles="Newton's equation, momentum balance, restitution and the launch of the table",
     parameter="alpha",
     domain="0 < alpha < 1",
-    letters=(
-        "alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v"
-        " the ball's height and velocity when the table is at its lowest; "
-    ),
+    letters="""\
+alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
+ball's height and velocity when the table is
+at its lowest; """,
     enters=("sA.3.2-sup3",),
     appendices=APPENDICES,
     headings=HEADINGS,

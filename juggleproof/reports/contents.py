@@ -294,7 +294,8 @@ def errata_text() -> str:
     groups = {claim.id: errata.group_of(claim, register, findings) for claim in claims}
     theorem = tree.theorem_line(store, checked)
     width = line_width(errata.WIDTH + errata.INDENT)
-    head = folded(f"{errata.HEAD}{opened().letters}{errata.NOTES}", width)
+    letters = " ".join(opened().letters.split()) + " "
+    head = folded(f"{errata.HEAD}{letters}{errata.NOTES}", width)
     lines = [head, *errata.first_page(claims, register, groups, findings, settled, theorem)]
     for group, title in errata.GROUPS.items():
         members = [claim for claim in claims if groups[claim.id] == group]
