@@ -10,6 +10,7 @@ from html import unescape
 from latex2mathml.converter import convert
 
 DISPLAY = re.compile(r"^```math\n(.*?)\n```$", re.M | re.S)
+LONG = 60  # characters of LaTeX in a line of text, beyond which it may scroll
 INLINE = re.compile(r'<span class="arithmatex">\\\((.*?)\\\)</span>', re.S)
 
 
@@ -20,7 +21,13 @@ def on_page_markdown(markdown: str, **_: object) -> str:
 
 def on_page_content(html: str, **_: object) -> str:
     """The page with every formula of its text as MathML."""
-    return INLINE.sub(lambda found: _mathml(unescape(found[1]), "inline"), html)
+
+    def inline(found: re.Match[str]) -> str:
+        latex = unescape(found[1])
+        shown = _mathml(latex, "inline")
+        return f'<span class="long">{shown}</span>' if len(latex) > LONG else shown
+
+    return INLINE.sub(inline, html)
 
 
 def _mathml(latex: str, display: str) -> str:

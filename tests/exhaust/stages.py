@@ -11,6 +11,7 @@ from functools import cached_property
 from tests.exhaust.sources import Sources
 
 STORE = "certificates/store"
+EQUIVALENT = "tests/certificates/checker/equivalent.txt"
 INDEX = "proofs/ledger/index.json"
 DERIVED = "proofs/ledger/derived.json"
 REGISTER = "proofs/register.json"
@@ -82,16 +83,19 @@ class Stages:
     # ------------------------------------------------------------ mutants, tests and commands
 
     def mutants(self) -> Iterator[Stage]:
-        """Every mutant of a file of a checker."""
+        """Every mutant of a file of a checker; of those that are listed as equivalent, the ones of
+        this file count alone.
+        """
+        listed = (self.sources.root / EQUIVALENT).read_text(encoding="utf-8").splitlines()
         for package, module, files in (
             ("checker", "tests.certificates.checker.mutate", CHECKER),
             ("sine", "tests.certificates.sine.mutants", SINE),
         ):
-            depends = self.sources.depends_on([module], LOCKS)
+            depends = [one for one in self.sources.depends_on([module], LOCKS) if one != EQUIVALENT]
             for file in files:
-                yield Stage(
-                    f"mutants/{package}/{file}", ("python", "-m", module, f"{file}."), depends
-                )
+                own = [row for row in listed if package == "checker" and row.startswith(f"{file}.")]
+                command = ("python", "-m", module, f"{file}.")
+                yield Stage(f"mutants/{package}/{file}", command, depends, "\n".join(own))
 
     def tests(self) -> Iterator[Stage]:
         """The files of tests that try a share in the suite, and here more of it; and the marked

@@ -144,6 +144,12 @@ CHECKERS = (
             ("mutants/checker/*", "fresh/*", "tests/proofs/*"),
         ),
         (
+            "tests/certificates/checker/equivalent.txt",
+            "text.parse: a -> b",
+            ("mutants/checker/text",),
+            ("mutants/checker/algebra", "mutants/sine/*", "fresh/*"),
+        ),
+        (
             "tests/share.py",
             "x = 1",
             ("tests/proofs/paper/test_prints.py",),
