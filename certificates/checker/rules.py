@@ -383,7 +383,7 @@ def find(
     for entry in adjoined:
         adjoin(state, known, *entry)
     # `base` comes last: a certificate has no say in what is given to it
-    values = {key: state.context.once(Context.value, parse(t)) for key, t in terms.items()}
+    values = {key: state.context.value(parse(text)) for key, text in terms.items()}
     inner = Context(state.context, {**values, **base})
     unfolding = Unfolding(statement, inner, sharp, purpose != "point")
     needed = unfolding.variables if purpose == "witness" else unfolding.universal

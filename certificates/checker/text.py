@@ -207,9 +207,10 @@ class Definitions:
             self.work.room -= 5 * len(text)  # see MAX_TEXT
             return self.write_out(parse(text), {}, declared) if used else parse(text)
 
-        # what a definition says never changes, and no name in it is that of a later one
-        key = (text, frozenset(used), frozenset(declared)) if used else text
-        return self.work.once(key, tree)
+        # what a definition says never changes, and no name in it is that of a later one; that it
+        # may be used here is asked for each time, or refused by `apply`
+        key = (text, frozenset(used)) if used else text
+        return self.work.once(key, tree, lambda _: all(self.known[x][1] <= declared for x in used))
 
     def write_out(
         self, node: ast.expr, values: Mapping[str, ast.expr], declared: set[str]

@@ -305,3 +305,15 @@ def test_a_line_that_is_written_out_again_is_counted_as_before() -> None:
     # nodes: the comparison, the call, x and 0; then the sum, x, which is copied, and 1
     assert spent == [(40 * 8, 5 * 8 + 40 * 8 + LEAST_KEPT), (40 * 8, 0)]
     assert definitions.read("x + 1", {"x"}) is definitions.read("x + 1", {"y"})
+
+
+def test_a_line_is_written_out_once_whatever_else_is_declared_holds() -> None:
+    work = checker.Work()
+    definitions = checker.Definitions(work)
+    definitions.define("d over x := x + 1")
+    tree = definitions.read("d < 2", {"x"})
+    kept, many = len(work.kept), {"x", *(f"y{n}" for n in range(1000))}
+    assert definitions.read("d < 2", many) is tree and len(work.kept) == kept
+    with pytest.raises(checker.Rejected) as refusal:
+        definitions.read("d < 2", many - {"x"})
+    assert refusal.value.kind == checker.Kind.OVER

@@ -511,3 +511,12 @@ def test_a_sum_of_products_is_counted_by_its_letters_and_summands_holds() -> Non
     before = context.work.left
     context.polynomial("(x)")  # and by its tree
     assert before - context.work.left == 20 + 4 * 3 + 3
+
+
+def test_terms_of_a_point_are_not_kept_holds() -> None:
+    """A long term may take no work: so nothing would bound what is kept of them."""
+    work = Work()
+    at = {"x": "-" * 150 + "0"}
+    assert checker.check_one(STATEMENT, proof(CLOSE, at=at), {}, {}, work)[0] == "certified"
+    parts = [part for key in work.kept for part in (key if isinstance(key, tuple) else (key,))]
+    assert checker.parse(at["x"]) not in parts
