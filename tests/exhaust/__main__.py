@@ -1,8 +1,9 @@
 """Runs the stages that the record does not have as they are now, and writes their lines.
 
 python -m tests.exhaust                # all that are due; what was stopped goes on
-python -m tests.exhaust NAME           # one, due or not; NAME/ for all that begin so
-python -m tests.exhaust --ci           # what CI does: short ones are run, others fail
+python -m tests.exhaust NAME ..        # these, due or not; NAME/ for all that begin so
+python -m tests.exhaust --ci NAME ..   # what CI does, of these or of all: short ones are run where
+                                       # they are due, others fail
 python -m tests.exhaust --due          # names those that are due
 """
 
@@ -65,18 +66,22 @@ def refused(
     ]
 
 
-def chosen(stages: Mapping[str, Stage], asked: str) -> list[Stage]:
-    """The stage of this name, or all that begin with it where it ends in a stroke.
+def chosen(stages: Mapping[str, Stage], names: Sequence[str]) -> dict[str, Stage]:
+    """The stages of these names, and all that begin with one where that ends in a stroke; all
+    stages where there is no name.
 
-    Raises ValueError, one line, where there is none.
+    Raises ValueError, one line, where no stage has a name.
     """
-    found = [
-        stage
-        for name, stage in stages.items()
-        if name == asked or asked.endswith("/") and name.startswith(asked)
-    ]
-    if not found:
-        raise ValueError(f"{asked}: no stage is called so; `python -m tests.exhaust --due`")
+    found = {} if names else dict(stages)
+    for asked in names:
+        of_name = {
+            name: stage
+            for name, stage in stages.items()
+            if name == asked or asked.endswith("/") and name.startswith(asked)
+        }
+        if not of_name:
+            raise ValueError(f"{asked}: no stage is called so; `python -m tests.exhaust --due`")
+        found |= of_name
     return found
 
 
@@ -114,7 +119,7 @@ def main(
     """Does what the options say; returns 1 where a stage fails, or CI refuses one."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends what runs
     parser = argparse.ArgumentParser(prog="python -m tests.exhaust")
-    parser.add_argument("stage", nargs="?", default="")
+    parser.add_argument("stages", nargs="*", metavar="NAME")
     parser.add_argument("--ci", action="store_true")
     parser.add_argument("--due", action="store_true")
     options = parser.parse_args(arguments)
@@ -122,7 +127,9 @@ def main(
         lines = record.read(path)
         found = Stages(Sources(root))
         stages, digests = found.all, found.digests()
-        waiting = chosen(stages, options.stage) if options.stage else due(stages, digests, lines)
+        asked = chosen(stages, options.stages)
+        as_asked = options.stages and not (options.ci or options.due)
+        waiting = [*asked.values()] if as_asked else due(asked, digests, lines)
     except ValueError as problem:
         print(problem)
         return 2

@@ -94,10 +94,11 @@ def test_ci_refuses_many_short_stages_in_one_line_holds() -> None:
 
 def test_stages_are_chosen_by_name_and_by_beginning_holds() -> None:
     stages = {name: stage(name) for name in ("a/b", "a/c", "ab")}
-    assert [one.name for one in chosen(stages, "a/")] == ["a/b", "a/c"]
-    assert [one.name for one in chosen(stages, "ab")] == ["ab"]
+    assert [one.name for one in chosen(stages, ["a/"]).values()] == ["a/b", "a/c"]
+    assert [*chosen(stages, ["ab", "a/"])] == ["ab", "a/b", "a/c"]
+    assert chosen(stages, []) == stages
     with pytest.raises(ValueError, match="no stage is called so"):
-        chosen(stages, "a")
+        chosen(stages, ["ab", "a"])
 
 
 def test_a_run_leaves_a_line_for_each_stage_holds(tmp_path: Path) -> None:
