@@ -311,9 +311,11 @@ def test_a_line_is_written_out_once_whatever_else_is_declared_holds() -> None:
     work = checker.Work()
     definitions = checker.Definitions(work)
     definitions.define("d over x := x + 1")
-    tree = definitions.read("d < 2", {"x"})
-    kept, many = len(work.kept), {"x", *(f"y{n}" for n in range(1000))}
-    assert definitions.read("d < 2", many) is tree and len(work.kept) == kept
-    with pytest.raises(checker.Rejected) as refusal:
-        definitions.read("d < 2", many - {"x"})
-    assert refusal.value.kind == checker.Kind.OVER
+    definitions.define("e over y := y + 1")
+    tree = definitions.read("d < e", {"x", "y"})
+    kept, many = len(work.kept), {"x", "y", *(f"z{n}" for n in range(1000))}
+    assert definitions.read("d < e", many) is tree and len(work.kept) == kept
+    for missing in ("x", "y"):
+        with pytest.raises(checker.Rejected) as refusal:
+            definitions.read("d < e", many - {missing})
+        assert refusal.value.kind == checker.Kind.OVER

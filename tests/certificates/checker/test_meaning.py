@@ -417,6 +417,8 @@ def test_a_sum_of_products_is_read_as_its_tree_holds(text: str) -> None:
         ("x +y", []),
         ("x + -y", []),
         ("+x", []),
+        ("1\u0663*x", []),  # a digit and a letter that are not ASCII
+        ("x\u00e9", []),
         ("", []),
         ("x" * (1 << 18), [(1, 1, ["x" * (1 << 18)])]),
         ("x" * (1 + (1 << 18)), []),
