@@ -100,7 +100,7 @@ def test_certify_says_what_was_restated(tmp_path: Path, capsys: pytest.CaptureFi
     assert "restated" not in capsys.readouterr().out
     mine.write_text(mine.read_text().replace(">= 0", "+ 1 > 0"))
     assert command(["certify", str(mine)]) == 0
-    assert "\nrestated mine/main: what was stored is not" in capsys.readouterr().out
+    assert "restated mine/main: what was stored is not" in capsys.readouterr().out
 
 
 def test_a_line_below_a_blank_one_belongs_to_no_statement(folder: Path) -> None:

@@ -513,6 +513,11 @@ def test_a_sum_of_products_is_counted_by_its_letters_and_summands_holds() -> Non
     assert before - context.work.left == 20 + 4 * 3 + 3
 
 
+def test_a_node_may_be_a_tuple_as_searches_have_it_holds() -> None:
+    certificate = proof(("close",), at={"x": "0"})
+    assert checker.check_one(STATEMENT, certificate, {}, {})[0] == "certified"
+
+
 def test_terms_of_a_point_are_not_kept_holds() -> None:
     """A long term may take no work: so nothing would bound what is kept of them."""
     work = Work()
