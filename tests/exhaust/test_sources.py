@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.exhaust.sources import RECORD, ROOT, Sources, facts_of, without_prose
-from tests.exhaust.stages import FRESH, INDEX, REGISTER, STORE, Stages
+from tests.exhaust.stages import EQUIVALENT, FRESH, INDEX, REGISTER, STORE, Stages
 
 
 @pytest.fixture(scope="module")
@@ -144,12 +144,6 @@ CHECKERS = (
             ("mutants/checker/*", "fresh/*", "tests/proofs/*"),
         ),
         (
-            "tests/certificates/checker/equivalent.txt",
-            "text.parse: a -> b",
-            ("mutants/checker/text",),
-            ("mutants/checker/algebra", "mutants/sine/*", "fresh/*"),
-        ),
-        (
             "tests/share.py",
             "x = 1",
             ("tests/proofs/paper/test_prints.py",),
@@ -172,6 +166,18 @@ def test_a_change_asks_for_what_it_can_change_holds(
         assert wanted and wanted <= names, pattern
     for pattern in none_of:
         assert not [name for name in names if fnmatch(name, pattern)], pattern
+
+
+@pytest.mark.exhaust
+def test_mutants_of_a_file_depend_on_those_listed_of_it_alone_holds(
+    copied: Path, stages: Stages
+) -> None:
+    before = stages.digests()
+    with changed(copied, stages.sources, EQUIVALENT, "text.parse: a -> b\n") as other:
+        after = Stages(other).digests()
+    due = {name for name in before if before[name] != after[name]}
+    assert {name for name in due if fnmatch(name, "mutants/*")} == {"mutants/checker/text"}
+    assert not [name for name in due if fnmatch(name, "fresh/*")]
 
 
 @pytest.mark.exhaust
