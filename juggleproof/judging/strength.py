@@ -78,8 +78,8 @@ def strength_of(text: str, point: Point, assumed: Sequence[Formula]) -> Strength
 def refuted_more_strongly(
     statement: Statement, assumed: Sequence[Formula], than: Strength
 ) -> Iterator[Statement]:
-    """The statements of which each counterexample is one of this statement too, and stronger than
-    this strength: what the section assumes is given, or the goal is loosened, or both.
+    """Statements whose counterexamples refute this statement too, and are stronger than this
+    strength: what the section assumes is given, or the goal is loosened, or both.
     """
     given = tuple(("given", one) for one in assumed if names_in(one) <= {*statement.forall})
     for strength in STRENGTHS:

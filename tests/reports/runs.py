@@ -114,7 +114,7 @@ def paper_beside(
 
 @cache
 def told() -> dict[str, ClaimResult]:
-    """What is told of each claim of this run, whatever is registered."""
+    """The results for each claim of this run, whatever is registered."""
     done, _ = paper_run()
     return {one.id: results._result(one, its) for one, its in zip(done.claims, done.judgements)}
 
