@@ -198,8 +198,12 @@ def test_rejects_a_cluster_that(
     assert error.startswith(f"juggleproof: {message}")
 
 
-def test_a_dask_cluster_finds_the_same_bytes_holds(tmp_path: Path) -> None:
+def test_a_dask_cluster_finds_the_same_bytes_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(covering, "find_certificate", find_certificate)  # a cache is not sent
+    monkeypatch.setattr(covering, "check_line", check_line)
     options = ["certify", "sine", "--alpha", "0.0499:0.0501", "--gamma", "3.05:3.15"]
     assert run([*options, "--jobs", "1", "--store", str(tmp_path / "alone")]) == 0
     with distributed.LocalCluster(
