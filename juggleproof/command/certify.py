@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from juggleproof.command.outputs import MOST_COLUMNS, asked_of, now_and_then, refuse_unwritable
+from juggleproof.command.outputs import asked_of, fitted, now_and_then, refuse_unwritable
 from juggleproof.judging import limits
 from juggleproof.judging.claims import CheckedApart, Claim, one_line
 from juggleproof.judging.judgement import Judgement, statements_of
@@ -34,7 +34,6 @@ from juggleproof.reports import results as table
 from juggleproof.reports.ci import as_junit, failing, markdown
 from juggleproof.reports.contents import Contents, as_json, contents_of
 from juggleproof.reports.results import RunResults, results_of_run, theorem_of_run
-from juggleproof.reports.tables import folded, line_width
 from juggleproof.statements.language import ClaimError
 from juggleproof.statements.store import DEFAULT, write_file
 
@@ -140,8 +139,7 @@ def _show(options: CertifyOptions, done: Run, results: RunResults, console: Cons
         lines.append("`juggleproof errata` shows every error, `certify --all` every claim")
     if console.is_terminal:
         lines.append(f"{sum(done.seconds.values()):.1f} s of judging")
-    text = "\n".join(lines)
-    print(folded(text, line_width(MOST_COLUMNS)) if console.is_terminal else text)
+    print(fitted("\n".join(lines)))
 
 
 def _derives_what_is_kept() -> bool:

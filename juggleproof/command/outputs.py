@@ -114,6 +114,11 @@ def write_all(files: Files, place: Path) -> None:
 MOST_COLUMNS = 124  # of a text on a wide terminal
 
 
+def fitted(text: str) -> str:
+    """The text, folded at the width of the terminal, where there is one."""
+    return folded(text, line_width(MOST_COLUMNS)) if sys.stdout.isatty() else text
+
+
 @contextmanager
 def folding() -> Iterator[None]:
     """Whatever is printed is folded at the width of the terminal, where there is one."""
@@ -127,8 +132,7 @@ def folding() -> Iterator[None]:
 
 def show(text: str) -> None:
     """Prints the text; where it does not fit on a terminal, by the pager that PAGER names."""
-    if sys.stdout.isatty():
-        text = folded(text, line_width(MOST_COLUMNS))
+    text = fitted(text)
     fits = text.count("\n") < shutil.get_terminal_size().lines
     if fits or not (sys.stdin.isatty() and sys.stdout.isatty()):
         print(text.rstrip("\n"))
